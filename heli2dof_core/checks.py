@@ -1,0 +1,42 @@
+"""Checks of single values, all raising InvalidInputError with field, value and range."""
+
+from __future__ import annotations
+
+import math
+from typing import get_args
+
+from .errors import InvalidInputError
+
+
+def checked_number(value: object, path: str) -> float:
+    """`value` as a finite float, or InvalidInputError naming `path`."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise InvalidInputError(
+            f"{path} is {value!r}, not a finite number", field=path, value=value, hint="Give a finite number."
+        )
+    return float(value)
+
+
+def require_within(value: object, path: str, unit: str, low: float, high: float) -> float:
+    """`value` as a float between `low` and `high` (in `unit`), or InvalidInputError."""
+    number = checked_number(value, path)
+    if not low <= number <= high:
+        span = f"{low:g} and {high:g} {unit}".rstrip()
+        raise InvalidInputError(
+            f"{path} is {f'{number:g} {unit}'.rstrip()}, not between {span}",
+            field=path,
+            value=value,
+            hint=f"Give a value between {span}.",
+        )
+    return number
+
+
+def require_one_of(value: str, choices: object, path: str) -> None:
+    """Raises InvalidInputError unless `value` is one of the `Literal` type `choices`."""
+    if value not in get_args(choices):
+        raise InvalidInputError(
+            f"{path} is {value!r}, which does not exist",
+            field=path,
+            value=value,
+            hint="Known are " + ", ".join(get_args(choices)) + ".",
+        )

@@ -1,0 +1,67 @@
+"""The structures that the closed loop can have, by name.
+
+They exist because full-rank placement is a family: the basis and one triangle of the closed loop
+are free (theory: Patel & Munro 1982), and the RGA tells the members apart.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from .checks import require_one_of
+from .errors import StructureUnavailableError, UncontrollableError
+from .parameters import Parameters
+
+Coupling = Literal["triangular", "input-diagonal", "axis-decoupled"]
+Lead = Literal["pitch", "yaw"]
+
+NEGLIGIBLE = 1e-9
+"""γ or a thrust constant counts as 0 below this share of the terms it is made of."""
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Coupling of the closed loop, and for the triangular one the axis that leads.
+
+    ``triangular``: the leading axis has exactly its own pair and drives the other (the paper's,
+    with pitch leading). ``input-diagonal``: diagonal in z = B₂⁻¹[θ, ψ] (standard Luenberger).
+    ``axis-decoupled``: θ and ψ do not feel each other.
+    """
+
+    coupling: Coupling = "triangular"
+    lead: Lead = "pitch"
+
+    def __post_init__(self) -> None:
+        require_one_of(self.coupling, Coupling, "coupling")
+        require_one_of(self.lead, Lead, "lead")
+        if self.coupling != "triangular":  # the lead says nothing there; one value keeps caches small
+            object.__setattr__(self, "lead", "pitch")
+
+
+def require_structure(parameters: Parameters, structure: Structure) -> None:
+    """Raises if the rig has no such structure.
+
+    Raises:
+        UncontrollableError: γ = 0, the motors' torques are parallel.
+        StructureUnavailableError: the leading axis' own motor has no thrust on it.
+    """
+    p = parameters
+    products = abs(p.K_pp * p.K_yy) + abs(p.K_py * p.K_yp)
+    if abs(p.gamma) <= NEGLIGIBLE * products:
+        raise UncontrollableError(
+            "the rig is not controllable: K_pp K_yy = K_py K_yp, so both motors push in one direction only",
+            field="parameters",
+            value=p.gamma,
+            hint="Change one thrust constant so that K_pp K_yy and K_py K_yp differ.",
+        )
+    if structure.coupling != "triangular":
+        return
+    own, name = (p.K_pp, "K_pp") if structure.lead == "pitch" else (p.K_yy, "K_yy")
+    if abs(own) <= NEGLIGIBLE * max(abs(p.K_pp), abs(p.K_py), abs(p.K_yp), abs(p.K_yy)):
+        raise StructureUnavailableError(
+            f"triangular with {structure.lead} leading needs {name} ≠ 0: the shift of the basis divides by it",
+            field="lead",
+            value=structure.lead,
+            hint="Let the other axis lead, or choose another coupling.",
+        )

@@ -1,0 +1,55 @@
+"""What can go wrong, as exceptions that name the field and say what to do.
+
+    Heli2DofError
+    ├── InvalidInputError          a value is not a number, out of its range, or unknown
+    ├── UnpairedPolesError         a pair is neither two real poles nor two conjugates
+    ├── UncontrollableError        the two motors cannot move the two axes independently
+    └── StructureUnavailableError  the coupling asked for does not exist on this rig
+
+A design that is legal but unwise raises nothing; it carries findings (see `findings`).
+"""
+
+from __future__ import annotations
+
+
+class Heli2DofError(ValueError):
+    """Base of every error that the core raises on purpose.
+
+    Attributes:
+        code: stable machine-readable name of the kind of error.
+        field: path of the offending input, such as ``parameters.J_p``; empty if there is no one.
+        value: the offending value, as given.
+        hint: what to do instead, in one sentence.
+    """
+
+    code = "error"
+
+    def __init__(self, message: str, *, field: str = "", value: object = None, hint: str = "") -> None:
+        super().__init__(message)
+        self.field = field
+        self.value = value
+        self.hint = hint
+
+
+class InvalidInputError(Heli2DofError):
+    """A single value is unusable."""
+
+    code = "invalid_input"
+
+
+class UnpairedPolesError(Heli2DofError):
+    """Poles 1, 2 or 3, 4 are neither both real nor conjugates: no real gain exists for them."""
+
+    code = "unpaired_poles"
+
+
+class UncontrollableError(Heli2DofError):
+    """The pair (A, B) is not controllable; on this rig exactly where K_pp K_yy = K_py K_yp."""
+
+    code = "uncontrollable"
+
+
+class StructureUnavailableError(Heli2DofError):
+    """The wanted closed-loop structure does not exist for these parameters."""
+
+    code = "structure_unavailable"

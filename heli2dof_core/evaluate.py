@@ -1,0 +1,132 @@
+"""Spec → Report: everything that a change of the design changes, in one pure function."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from .couplings import Structure
+from .design import Design, design
+from .findings import Finding, merged
+from .interaction import Interaction, interaction
+from .loop import Loop, close_loop
+from .margins import Margins, loop_margins
+from .metrics import StepMetrics, step_metrics
+from .parameters import Parameters
+from .plant import plant
+from .poles import PoleSet
+from .presets import Preset
+from .simulation.linear import simulate_linear
+from .simulation.nonlinear import simulate_nonlinear
+from .simulation.response import Response
+from .spec import Limits, Model, OuterLoop, Scenario
+
+
+@dataclass(frozen=True)
+class Spec:
+    """All that a user chooses.
+
+    Attributes:
+        parameters, limits, theta_0: the rig and its operating point (rad).
+        poles, structure: what full-rank placement shall do.
+        outer: the loop around it.
+        scenario: the experiment.
+    """
+
+    parameters: Parameters
+    limits: Limits
+    theta_0: float
+    poles: PoleSet
+    structure: Structure
+    outer: OuterLoop
+    scenario: Scenario
+
+    @classmethod
+    def from_preset(cls, preset: Preset) -> Spec:
+        """The preset's own design and scenario."""
+        return cls(
+            preset.parameters,
+            preset.limits,
+            preset.theta_0,
+            preset.poles,
+            preset.structure,
+            preset.outer,
+            preset.scenario,
+        )
+
+
+@dataclass(frozen=True)
+class Step:
+    """One response and its metrics."""
+
+    response: Response
+    metrics: StepMetrics
+
+
+@dataclass(frozen=True)
+class Report:
+    """What `evaluate` knows of a spec.
+
+    Attributes:
+        design: K and the placed poles.
+        interaction: RGA and pairing.
+        loop: the whole loop and its poles.
+        margins: at the pitch and the yaw motor; None if the loop is unstable.
+        step: the scenario, by model.
+        axis_steps: by output name and model, each axis stepped alone; empty unless asked for.
+        findings: all remarks, the gravest first.
+    """
+
+    design: Design
+    interaction: Interaction
+    loop: Loop
+    margins: tuple[Margins, Margins] | None
+    step: dict[Model, Step]
+    axis_steps: dict[str, dict[Model, Step]]
+    findings: tuple[Finding, ...]
+
+
+def place(spec: Spec) -> Design:
+    """The design alone."""
+    return design(plant(spec.parameters, spec.theta_0), spec.poles, spec.structure)
+
+
+def simulate(loop: Loop, spec: Spec, model: Model) -> Step:
+    """The scenario's response by one model, with its metrics."""
+    if model == "linear":
+        response = simulate_linear(loop, spec.scenario)
+    else:
+        response = simulate_nonlinear(loop, spec.limits, spec.scenario)
+    return Step(response, step_metrics(response))
+
+
+def evaluate(spec: Spec, *, each_axis: bool = False) -> Report:
+    """Design, interaction, whole loop, margins and responses of a spec.
+
+    Args:
+        spec: what the user chose.
+        each_axis: also step each axis of the scenario's reference alone, as the paper's Figs. 4, 5.
+
+    Raises:
+        Heli2DofError: see `errors`.
+    """
+    placed = place(spec)
+    loop = close_loop(placed, spec.outer)
+    gains = interaction(placed)
+    step = _both_models(loop, spec)
+    axis_steps = {}
+    if each_axis:
+        alone = {"theta": {"psi": None}, "psi": {"theta": None}}
+        axis_steps = {
+            name: _both_models(loop, replace(spec, scenario=replace(spec.scenario, **other)))
+            for name, other in alone.items()
+            if getattr(spec.scenario, name) is not None
+        }
+    responses = [s.response for steps in (step, *axis_steps.values()) for s in steps.values()]
+    findings = merged(
+        placed.findings, loop.findings, gains.findings, *(response.findings for response in responses)
+    )
+    return Report(placed, gains, loop, loop_margins(loop), step, axis_steps, findings)
+
+
+def _both_models(loop: Loop, spec: Spec) -> dict[Model, Step]:
+    return {"linear": simulate(loop, spec, "linear"), "nonlinear": simulate(loop, spec, "nonlinear")}

@@ -1,0 +1,44 @@
+"""The rig as numbers at an operating point: A, B, trim voltages."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .checks import require_within
+from .compiled import linear_matrices
+from .parameters import Parameters
+from .signals import Floats
+
+STEEPEST = 1.5
+"""Largest operating angle, rad: beyond it yaw's lever arm vanishes."""
+
+
+@dataclass(frozen=True)
+class Plant:
+    """Linear model about rest at pitch angle `theta_0` (Eqs. 13, 14), in deviations from the trim.
+
+    Attributes:
+        parameters: the rig.
+        theta_0: operating point, rad.
+        A, B: 4×4 and 4×2, x = [θ, ψ, θ̇, ψ̇], u = [V_p, V_y].
+        trim: voltages that hold the rig at `theta_0`, shape (2,), V.
+    """
+
+    parameters: Parameters
+    theta_0: float
+    A: Floats
+    B: Floats
+    trim: Floats
+
+
+def plant(parameters: Parameters, theta_0: float = 0.0) -> Plant:
+    """The rig's numbers at rest at `theta_0` (rad).
+
+    Raises:
+        InvalidInputError: `theta_0` is not a number within ±`STEEPEST`.
+    """
+    angle = require_within(theta_0, "operating_point.theta", "rad", -STEEPEST, STEEPEST)
+    A, B, trim = linear_matrices()(*parameters.as_dict().values(), angle)
+    return Plant(parameters, angle, np.array(A, dtype=float), np.array(B, dtype=float), np.array(trim))

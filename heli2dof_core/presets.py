@@ -1,0 +1,171 @@
+"""The rigs that ship, each with its source, poles, PI values and scenario."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from .couplings import Structure
+from .errors import InvalidInputError
+from .parameters import Parameters
+from .poles import PoleSet
+from .spec import Limits, OuterLoop, PIGains, Scenario
+
+
+@dataclass(frozen=True)
+class Preset:
+    """One rig, ready to be used; its scenario keeps its motors within their limits.
+
+    Attributes:
+        name, title: for programs and for people.
+        source: where the numbers come from.
+        rig: which machine the scene shows, ``helicopter`` or ``aero``.
+    """
+
+    name: str
+    title: str
+    source: str
+    rig: str
+    parameters: Parameters
+    limits: Limits
+    poles: PoleSet
+    outer: OuterLoop
+    scenario: Scenario
+    structure: Structure = Structure()
+    theta_0: float = 0.0
+
+
+_TRAVEL = 0.7068583470577035  # 40.5°
+_HELICOPTER_LIMITS = Limits(V_p=24.0, V_y=15.0, theta=_TRAVEL)
+_PAPER_POLES = PoleSet([-12.0, -10.0, -9.25, -8.76])
+_PAPER_PI = OuterLoop(pitch=PIGains(30.0, 0.1), yaw=PIGains(30.0, 0.1))
+_AERO_POLES = PoleSet([complex(-1.8, 1.0), complex(-1.8, -1.0), -2.0, -2.4])
+_GENTLE = Scenario(theta=0.2, psi=0.3, duration=3.0)
+
+_MANUAL = Parameters(
+    K_pp=0.204,
+    K_py=0.0068,
+    K_yp=0.0219,
+    K_yy=0.072,
+    J_p=0.0384,
+    J_y=0.0432,
+    m=1.3872,
+    l=0.186,
+    B_p=0.8,
+    B_y=0.318,
+)
+
+
+def _helicopter(name: str, title: str, source: str, parameters: Parameters) -> Preset:
+    return Preset(
+        name,
+        title,
+        source,
+        "helicopter",
+        parameters,
+        _HELICOPTER_LIMITS,
+        _PAPER_POLES,
+        _PAPER_PI,
+        _GENTLE,
+    )
+
+
+_ALL = (
+    _helicopter(
+        "quanser-2dof-manual",
+        "Quanser 2-DOF Helicopter (manual)",
+        "Quanser 2-DOF Helicopter, user manual: parameters as rounded there",
+        _MANUAL,
+    ),
+    _helicopter(
+        "quanser-2dof-design-file",
+        "Quanser 2-DOF Helicopter (design file)",
+        "Quanser 2-DOF Helicopter, design file: constants from the components (Eqs. 1, 8)",
+        _MANUAL.replaced(
+            {
+                "K_pp": 0.20413345,
+                "K_py": 0.0068125,
+                "K_yp": 0.0219277,
+                "K_yy": 0.071988045,
+                "J_p": 0.038430987,
+                "J_y": 0.043151726,
+                "l": 0.185670126,
+            }
+        ),
+    ),
+    _helicopter(
+        "paper-table-1",
+        "Paper, Table I as printed",
+        "Mumcu, Çandır, Üstoğlu: Symbolic Pole Assignment of 2DoF Conventional Helicopter, Table I",
+        _MANUAL.replaced({"K_pp": 0.2041, "J_y": 0.0431, "l": 0.1855}),
+    ),
+    _helicopter(
+        "paper-as-computed",
+        "Paper, as computed",
+        "The values from which the paper's printed K, poles and RGA follow (they differ from its Table I)",
+        _MANUAL.replaced({"m": 1.39, "B_y": 0.8}),
+    ),
+    Preset(
+        "quanser-aero-2",
+        "Quanser Aero 2",
+        "Quanser Aero 2, half-quadrotor/2-DOF helicopter workbook; thrust in N/V times D_t = 0.16743 m",
+        "aero",
+        Parameters(
+            K_pp=0.00321 * 0.16743,
+            K_py=0.00137 * 0.16743,
+            K_yp=-0.00319 * 0.16743,
+            K_yy=0.00610 * 0.16743,
+            J_p=0.02318850045,
+            J_y=0.02381041595,
+            m=0.0,
+            l=0.0,
+            B_p=0.00199,
+            B_y=0.00192,
+            K_s=0.00744,
+        ),
+        Limits(V_p=18.0, V_y=18.0),
+        _AERO_POLES,
+        OuterLoop(pitch=PIGains(60.0, 0.85), yaw=PIGains(36.0, 0.5)),
+        Scenario(theta=0.15, psi=0.3, duration=10.0),
+    ),
+    Preset(
+        "quanser-aero",
+        "Quanser Aero (first generation)",
+        "Quanser Aero, 2-DOF helicopter workbook",
+        "aero",
+        Parameters(
+            K_pp=0.0011,
+            K_py=0.0021,
+            K_yp=-0.0027,
+            K_yy=0.0022,
+            J_p=0.0218868648,
+            J_y=0.0219920648,
+            m=0.0,
+            l=0.0,
+            B_p=0.0071116,
+            B_y=0.0220,
+            K_s=0.037463,
+        ),
+        Limits(V_p=24.0, V_y=24.0),
+        _AERO_POLES,
+        OuterLoop(pitch=PIGains(7.6, 0.85), yaw=PIGains(19.0, 0.5)),
+        Scenario(theta=0.15, psi=0.3, duration=15.0),
+        Structure("axis-decoupled"),
+    ),
+)
+
+PRESETS = MappingProxyType({preset.name: preset for preset in _ALL})
+"""All presets by name; the first is the default."""
+DEFAULT = _ALL[0].name
+
+
+def preset(name: str = DEFAULT) -> Preset:
+    """The preset of that name, or InvalidInputError with the names that exist."""
+    if name not in PRESETS:
+        raise InvalidInputError(
+            f"there is no preset {name!r}",
+            field="preset",
+            value=name,
+            hint="Known are " + ", ".join(PRESETS) + ".",
+        )
+    return PRESETS[name]

@@ -1,0 +1,1 @@
+"""Step responses: exact where linear, adaptive where not."""

@@ -1,0 +1,54 @@
+"""What a simulation returns, whichever model made it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from ..findings import Finding
+from ..signals import Floats
+
+DIVERGED = 1e3
+"""An angle (rad) beyond which a response counts as diverged and is held at its last value."""
+
+
+@dataclass(frozen=True)
+class Response:
+    """Trajectories over t, all of shape (samples,).
+
+    Attributes:
+        model: which model made it.
+        t: s.
+        angles: θ, ψ absolute, shape (2, samples), rad.
+        voltages: V_p, V_y, shape (2, samples), V; linear: deviations from the trim; nonlinear:
+            what the motors get, trim included.
+        reference: θ_ref, ψ_ref, absolute, rad.
+        start: θ, ψ at t = 0, rad.
+        saturated: share of time that each motor spends at its limit.
+        findings: remarks on this response.
+    """
+
+    model: Literal["linear", "nonlinear"]
+    t: Floats
+    angles: Floats
+    voltages: Floats
+    reference: tuple[float, float]
+    start: tuple[float, float]
+    saturated: tuple[float, float]
+    findings: tuple[Finding, ...] = ()
+
+
+def hold_when_diverged(t: Floats, angles: Floats, voltages: Floats) -> tuple[Floats, Floats, list[Finding]]:
+    """Freezes a response at its last finite sample, so that every number stays finite."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        bad = ~(np.all(np.abs(angles) < DIVERGED, axis=0) & np.all(np.isfinite(voltages), axis=0))
+    if not bad.any():
+        return angles, voltages, []
+    first = max(int(np.argmax(bad)), 1)
+    angles, voltages = angles.copy(), voltages.copy()
+    angles[:, first:] = angles[:, [first - 1]]
+    voltages[:, first:] = voltages[:, [first - 1]]
+    message = f"The response grows without bound; it is shown until t = {t[first - 1]:.3g} s and held there."
+    return angles, voltages, [Finding("diverges", "error", message)]

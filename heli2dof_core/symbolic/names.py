@@ -1,0 +1,86 @@
+"""Every symbol of the derivation, once, with meaning and unit.
+
+Names parse with plain `sympify` to the same symbol: none of them has a meaning in SymPy, so γ is
+``gamma_`` (``gamma`` is SymPy's function) and β at the operating point is ``beta_0``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from ..parameters import PARAMETER_INFO
+
+
+@dataclass(frozen=True)
+class Name:
+    """A symbol's name in expressions, its LaTeX, its meaning and its SI unit."""
+
+    name: str
+    latex: str
+    meaning: str
+    unit: str
+
+
+PARAMETERS: dict[str, sp.Symbol] = {name: sp.Symbol(name) for name in PARAMETER_INFO}
+"""Physical parameters by name (see `heli2dof_core.parameters`)."""
+
+theta, psi, theta_dot, psi_dot = sp.symbols("theta psi theta_dot psi_dot")
+theta_ddot, psi_ddot = sp.symbols("theta_ddot psi_ddot")
+V_p, V_y = sp.symbols("V_p V_y")
+theta_0 = sp.Symbol("theta_0")
+sin_0, cos_0 = sp.symbols("sin_0 cos_0")  # plain symbols keep θ₀ ≠ 0 harmless for polynomials
+alpha, beta_0, gamma_, a = sp.symbols("alpha beta_0 gamma_ a")
+p_1, p_2, p_3, p_4 = sp.symbols("p_1 p_2 p_3 p_4")
+d_10, d_11, d_20, d_21 = sp.symbols("d_10 d_11 d_20 d_21")
+s = sp.Symbol("s")
+
+PARAMETER_LATEX = {
+    "K_pp": "K_{pp}",
+    "K_py": "K_{py}",
+    "K_yp": "K_{yp}",
+    "K_yy": "K_{yy}",
+    "J_p": "J_p",
+    "J_y": "J_y",
+    "m": "m",
+    "l": "l",
+    "B_p": "B_p",
+    "B_y": "B_y",
+    "K_s": "K_s",
+    "g": "g",
+}
+
+NAMES: tuple[Name, ...] = (
+    *(Name(n, PARAMETER_LATEX[n], i["meaning"], i["unit"]) for n, i in PARAMETER_INFO.items()),
+    Name("theta", r"\theta", "pitch angle", "rad"),
+    Name("psi", r"\psi", "yaw angle", "rad"),
+    Name("theta_dot", r"\dot\theta", "pitch rate", "rad/s"),
+    Name("psi_dot", r"\dot\psi", "yaw rate", "rad/s"),
+    Name("V_p", "V_p", "voltage of the pitch motor", "V"),
+    Name("V_y", "V_y", "voltage of the yaw motor", "V"),
+    Name("theta_0", r"\theta_0", "pitch angle of the operating point", "rad"),
+    Name("sin_0", r"\sin\theta_0", "sine of the operating point's pitch", "1"),
+    Name("cos_0", r"\cos\theta_0", "cosine of the operating point's pitch", "1"),
+    Name("alpha", r"\alpha", "effective inertia about pitch, J_p + m l²", "kg·m²"),
+    Name("beta_0", r"\beta_0", "effective inertia about yaw, J_y + m l² cos²θ₀", "kg·m²"),
+    Name("gamma_", r"\gamma", "K_py K_yp − K_pp K_yy, minus the thrust matrix's determinant", "(N·m/V)²"),
+    Name("a", "a", "gravity and stiffness in A₃₁, (m g l sinθ₀ − K_s)/α", "1/s²"),
+    *(Name(f"p_{i}", f"p_{i}", f"desired pole {i}", "rad/s") for i in (1, 2, 3, 4)),
+    Name("d_10", "d_{10}", "constant coefficient of d₁(s), p₁p₂", "1/s²"),
+    Name("d_11", "d_{11}", "linear coefficient of d₁(s), −p₁ − p₂", "1/s"),
+    Name("d_20", "d_{20}", "constant coefficient of d₂(s), p₃p₄", "1/s²"),
+    Name("d_21", "d_{21}", "linear coefficient of d₂(s), −p₃ − p₄", "1/s"),
+    Name("s", "s", "Laplace variable", "1/s"),
+)
+
+LATEX: dict[sp.Symbol, str] = {sp.Symbol(n.name): n.latex for n in NAMES}
+"""Symbol → LaTeX, for SymPy's printer."""
+
+COEFFICIENTS_OF_POLES: dict[sp.Symbol, sp.Expr] = {
+    d_10: p_1 * p_2,
+    d_11: -p_1 - p_2,
+    d_20: p_3 * p_4,
+    d_21: -p_3 - p_4,
+}
+"""Coefficients of the desired polynomials d₁, d₂ in terms of the poles."""

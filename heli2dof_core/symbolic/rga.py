@@ -1,0 +1,38 @@
+"""Closed-loop transfer matrix Ĝ(s) (Eq. 17) and relative gain array (Eq. 23), symbolically."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import sympy as sp
+from sympy.polys.fields import FracElement
+from sympy.polys.matrices import DomainMatrix
+
+from ..couplings import Structure
+from .full_rank import FIELD, full_rank, to_field
+from .names import s
+
+
+@cache
+def transfer_matrix(structure: Structure) -> DomainMatrix:
+    """Ĝ(s) = C (sI − A + BK)⁻¹ B over `FIELD`, 2×2, rad/V, solved in the basis of T.
+
+    Erratum: Eqs. 16–18 print A + BK; the printed K is stable with A − BK only.
+    """
+    result = full_rank(structure)
+    form = result.form
+    pencil = to_field(sp.eye(4) * s) - result.closed_loop
+    states = pencil.lu_solve(form.B_bar)
+    return to_field(sp.eye(2, 4)).matmul(form.T.inv()).matmul(states)
+
+
+@cache
+def relative_gain_array(structure: Structure) -> DomainMatrix:
+    """RGA = Ĝ(0) ∘ Ĝ(0)⁻ᵀ over `FIELD`, 2×2 (Bristol 1966)."""
+    at_zero = [[_at_zero(entry) for entry in row] for row in transfer_matrix(structure).to_list()]
+    G_0 = DomainMatrix(at_zero, (2, 2), FIELD)
+    return G_0.mul_elementwise(G_0.inv().transpose())
+
+
+def _at_zero(entry: FracElement) -> FracElement:
+    return FIELD.from_sympy(FIELD.to_sympy(entry).subs(s, 0))

@@ -1,0 +1,95 @@
+"""PI values that suit the placed poles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+
+from .design import Design
+from .errors import InvalidInputError
+from .loop import Loop, close_loop
+from .signals import Complexes
+from .spec import OuterLoop, PIGains
+
+DAMPING = 0.7
+"""Least damping ratio of every pole of the whole loop, where the placed poles have as much."""
+EASED = 0.8
+"""Share of the placed poles' own least damping that must remain where they have less."""
+
+FACTORS = np.geomspace(0.05, 4.0, 18)
+"""Factors on each axis' own kp that are tried, for both axes independently."""
+
+RULE = (
+    "T_i cancels the slower pole of each pair (2ζ/ωₙ for a complex pair); the two kp are those of a grid "
+    "with which the whole loop decays fastest while every pole keeps a damping ratio of "
+    f"{DAMPING:g}, or {100 * EASED:.0f} % of the placed poles' own where they have less."
+)
+
+
+@dataclass(frozen=True)
+class Suggestion:
+    """PI values for a design, the loop that they give, and the rule in words."""
+
+    outer: OuterLoop
+    loop: Loop
+    rule: str = RULE
+
+
+def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
+    """PI gains for both loops from pole cancellation, checked on the whole loop.
+
+    With T_i at the slower pole p_s, the loop of one axis is kp ĝ(0) p_s p_f / (s (s − p_f)), whose
+    damping is ζ for kp ĝ(0) = p_f / (4 ζ² p_s). The coupling between the axes is not in that
+    formula, so both gains are scaled over a grid, and the poles of the whole loop decide.
+
+    Raises:
+        InvalidInputError: a placed pole is not stable, or no gain complies.
+    """
+    if np.max(design.closed_loop_poles.real) >= 0:
+        raise InvalidInputError(
+            "PI values can be suggested for stable poles only",
+            field="poles",
+            hint="Place all four poles left of the imaginary axis.",
+        )
+    G_0 = np.linalg.inv(design.steady_state_inverse)
+    columns = (0, 1) if outer.pairing == "diagonal" else (1, 0)
+    gains = []
+    for axis, pair in enumerate((design.poles.values[:2], design.poles.values[2:])):
+        slow, fast = sorted(pair, key=lambda p: abs(p.real))
+        static = G_0[axis, columns[axis]]
+        if outer.pairing == "cross" or outer.decoupler:
+            static = abs(static)  # the loop sets the sign itself
+        if slow.imag:
+            ti, effort = -2 * slow.real / abs(slow) ** 2, 0.5
+        else:
+            ti, effort = -1 / slow.real, fast.real / slow.real / (4 * DAMPING**2)
+        gains.append((effort / static, ti))
+    target = min(DAMPING, EASED * _least_damping(design.closed_loop_poles))
+    candidates = (
+        close_loop(design, replace(outer, outer="pi", pitch=pitch, yaw=yaw))
+        for pitch, yaw in product(*([_scaled(f, *g) for f in FACTORS] for g in gains))
+    )
+    best = max((loop for loop in candidates if loop.stable), key=lambda loop: _merit(loop, target), default=None)
+    if best is None:
+        raise InvalidInputError(
+            "no PI values were found that keep the whole loop stable",
+            field="loops",
+            hint="Try the cross pairing, the decoupler or another coupling.",
+        )
+    return Suggestion(best.outer, best)
+
+
+def _merit(loop: Loop, target: float) -> tuple[float, float]:
+    """Damping up to the target first, then the decay rate of the slowest pole (rad/s)."""
+    return round(min(_least_damping(loop.poles), target), 3), -float(loop.poles[0].real)
+
+
+def _scaled(factor: float, kp: float, ti: float) -> PIGains:
+    return PIGains(float(f"{factor * kp:.3g}"), float(f"{ti:.3g}"))
+
+
+def _least_damping(poles: Complexes) -> float:
+    return float(np.min(-poles.real / np.abs(poles)))
+

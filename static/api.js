@@ -1,0 +1,142 @@
+/**
+ * The server, as the page sees it: a few REST calls and the live socket. All addresses are relative to the page.
+ * @typedef {import('./types.js').Connection} Connection
+ */
+import { decodeFrame } from './wire.js';
+
+const PROTOCOL = 'heli2dof.v1+binary';
+const PATIENCE_MS = 10_000;
+
+/** @param {string} path @returns {URL} */
+const at = (path) => new URL(path, document.baseURI);
+
+/** A problem object (RFC 9457) thrown as an error. */
+export class ProblemError extends Error {
+  /** @param {import('./types.js').Problem} problem */
+  constructor(problem) {
+    super(problem.detail ?? problem.title ?? 'The server refused the request.');
+    this.problem = problem;
+  }
+}
+
+/** @param {string} path @param {{method?: string, body?: unknown}} [options] @returns {Promise<any>} */
+async function call(path, { method = 'GET', body } = {}) {
+  const headers = body === undefined ? undefined : { 'Content-Type': 'application/json' };
+  const response = await fetch(at(path), { method, headers, body: body === undefined ? undefined : JSON.stringify(body) });
+  const text = await response.text();
+  const json = text && (response.headers.get('content-type') ?? '').includes('json') ? JSON.parse(text) : {};
+  if (!response.ok) throw new ProblemError({ title: response.statusText, ...json });
+  return json;
+}
+
+export const getPresets = () => call('api/v1/presets');
+/** @param {string} coupling @param {string} lead */
+export const getSymbolic = (coupling, lead) => call(`api/v1/symbolic?${new URLSearchParams({ coupling, lead })}`);
+/** @param {unknown} design */
+export const suggestLoops = (design) => call('api/v1/suggest', { method: 'POST', body: design });
+/** @param {string} session @param {string} rig */
+export const putRig = (session, rig) => call(`scene/${encodeURIComponent(session)}/rig`, { method: 'PUT', body: { rig } });
+
+/** @returns {string} the live socket's address */
+export function liveAddress() {
+  const url = at('api/v1/live');
+  url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
+  return url.href;
+}
+
+/**
+ * The live socket. One request is in flight at most; while it is, only the newest one waits. A lost connection is tried again, ever more slowly,
+ * and what was last asked is asked again.
+ */
+export class Live {
+  /** @type {WebSocket|null} */ #socket = null;
+  /** @type {{seq: number}|null} */ #waiting = null;
+  /** @type {{seq: number}|null} */ #inFlight = null;
+  /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
+  /** @type {ReturnType<typeof setTimeout>|undefined} */ #retry;
+  #attempt = 0;
+  #closed = false;
+
+  /**
+   * @param {{onReply: (reply: any) => void, onProblem: (problem: any) => void, onStatus: (c: Connection) => void,
+   *   open?: () => WebSocket}} handlers  `open` makes the socket
+   */
+  constructor({ onReply, onProblem, onStatus, open = () => new WebSocket(liveAddress(), [PROTOCOL]) }) {
+    this.onReply = onReply;
+    this.onProblem = onProblem;
+    this.onStatus = onStatus;
+    this.open = open;
+    this.#connect();
+  }
+
+  /** @param {{seq: number}} request */
+  send(request) {
+    this.#waiting = request;
+    this.#pump();
+  }
+
+  /** Tries again at once, as when the browser says that the network is back. */
+  reconnect() {
+    if (this.#socket || this.#closed) return;
+    clearTimeout(this.#retry);
+    this.#connect();
+  }
+
+  close() {
+    this.#closed = true;
+    clearTimeout(this.#retry);
+    clearTimeout(this.#timer);
+    this.#socket?.close();
+  }
+
+  #connect() {
+    const socket = this.open();
+    socket.binaryType = 'arraybuffer';
+    this.#socket = socket;
+    socket.onopen = () => {
+      this.#attempt = 0;
+      this.onStatus('open');
+      this.#pump();
+    };
+    socket.onmessage = (event) => this.#receive(event.data);
+    socket.onclose = () => this.#lost(socket);
+  }
+
+  #pump() {
+    if (!this.#waiting || this.#inFlight || this.#socket?.readyState !== 1) return;
+    const socket = this.#socket;
+    this.#inFlight = this.#waiting;
+    this.#waiting = null;
+    socket.send(JSON.stringify(this.#inFlight));
+    this.#timer = setTimeout(() => {
+      socket.close();
+      this.#lost(socket); // a dead peer never completes the closing handshake
+    }, PATIENCE_MS);
+  }
+
+  /** @param {ArrayBuffer|string} data */
+  #receive(data) {
+    const binary = typeof data !== 'string';
+    const message = binary ? decodeFrame(data) : JSON.parse(data);
+    // An answer to something asked before the connection was lost, or asked by nobody, says nothing about the present.
+    if (message.seq !== undefined && message.seq !== this.#inFlight?.seq) return;
+    clearTimeout(this.#timer);
+    this.#inFlight = null;
+    this.#pump();
+    if (message.status !== undefined && message.gains === undefined) this.onProblem(message);
+    else this.onReply(message);
+  }
+
+  /** @param {WebSocket} socket */
+  #lost(socket) {
+    if (socket !== this.#socket) return;
+    clearTimeout(this.#timer);
+    this.#socket = null;
+    this.#waiting ??= this.#inFlight;
+    this.#inFlight = null;
+    if (this.#closed) return;
+    this.onStatus('lost');
+    const delay = Math.min(8000, 250 * 2 ** this.#attempt++);
+    this.#retry = setTimeout(() => this.#connect(), delay * (0.75 + Math.random() / 2));
+  }
+}

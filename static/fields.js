@@ -1,0 +1,140 @@
+/**
+ * Input elements that the panels share: a number field with an optional slider, and a choice of few.
+ * A field says at itself what is wrong with a number and keeps the design as it was.
+ */
+import { h, setAttr } from './dom.js';
+import { forField, parseNumber, significant } from './format.js';
+
+/**
+ * @typedef {object} FieldOptions
+ * @property {string} label  for assistive technology
+ * @property {Node|string} [mark]  what is seen in front
+ * @property {string} [unit]
+ * @property {number} min
+ * @property {number} max
+ * @property {boolean} [positive]  zero is refused
+ * @property {string} testid
+ * @property {string} [field]  the path under which the server names it
+ * @property {{min: number, max: number, log?: boolean}} [slider]
+ * @property {(v: number, stamp: number) => void} onInput
+ * @property {() => void} onCommit
+ */
+
+export class NumberField {
+  /** @param {FieldOptions} options */
+  constructor(options) {
+    this.options = options;
+    const { label, mark, unit, testid, field, slider } = options;
+    const bubble = `${testid}-error`;
+    this.input = h('input', { class: 'number', type: 'text', inputmode: 'decimal', autocomplete: 'off', spellcheck: 'false', 'aria-label': label, 'data-testid': testid,
+      'data-field': field, 'aria-describedby': bubble });
+    this.bubble = h('span', { class: 'field-error', id: bubble, role: 'status' });
+    this.slider = slider ? h('input', { type: 'range', 'aria-label': `${label}, slider`, 'data-testid': `${testid}-slider`, min: 0, max: 1, step: 'any' }) : null;
+    this.range = slider ?? { min: 0, max: 1 };
+    this.node = h('div', { class: `field${slider ? ' with-slider' : ''}` }, h('span', { class: 'mark', 'aria-hidden': 'true' }, mark ?? label), this.slider,
+      h('span', { class: 'entry' }, this.input, this.bubble), unit ? h('span', { class: 'unit', 'aria-hidden': 'true' }, unit) : null);
+    this.input.addEventListener('input', (e) => this.#typed(e.timeStamp));
+    this.input.addEventListener('change', () => this.#done());
+    this.input.addEventListener('keydown', (e) => this.#key(e));
+    this.slider?.addEventListener('input', (e) => options.onInput(this.#fromSlider(), e.timeStamp));
+    this.slider?.addEventListener('change', () => options.onCommit());
+  }
+
+  /** @type {number} */ value = NaN;
+
+  /** @param {number} v */
+  set(v) {
+    this.value = v;
+    if (document.activeElement !== this.input && this.input.getAttribute('aria-invalid') !== 'true') {
+      const text = forField(v);
+      if (this.input.value !== text) this.input.value = text;
+    }
+    if (this.slider && document.activeElement !== this.slider) this.#toSlider(v);
+    if (this.slider) setAttr(this.slider, 'aria-valuetext', `${significant(v, 3)} ${this.options.unit ?? ''}`.trim());
+  }
+
+  /** @param {{min: number, max: number}} range */
+  setRange(range) {
+    if (range.min === this.range.min && range.max === this.range.max) return;
+    this.range = { ...this.range, ...range };
+    if (Number.isFinite(this.value)) this.#toSlider(this.value);
+  }
+
+  /** @param {string} message empty when all is well */
+  complain(message) {
+    if (message) this.input.setAttribute('aria-invalid', 'true');
+    else this.input.removeAttribute('aria-invalid');
+    if (this.bubble.textContent !== message) this.bubble.textContent = message;
+  }
+
+  /** @param {boolean} disabled */
+  disable(disabled) {
+    this.input.disabled = disabled;
+    if (this.slider) this.slider.disabled = disabled;
+  }
+
+  /** @param {number} stamp */
+  #typed(stamp) {
+    const v = parseNumber(this.input.value);
+    const { min, max, positive } = this.options;
+    if (!Number.isFinite(v)) return this.complain('a number, please');
+    if (positive && v <= 0) return this.complain('must be positive');
+    if (v < min || v > max) return this.complain(`${significant(min, 3)} to ${significant(max, 3)}`);
+    this.complain('');
+    return this.options.onInput(v, stamp);
+  }
+
+  /** Leaving a field that holds nonsense puts the last good value back. */
+  #done() {
+    this.complain('');
+    this.input.value = forField(this.value);
+    this.options.onCommit();
+  }
+
+  /** @param {KeyboardEvent} e */
+  #key(e) {
+    if (e.key === 'Enter') this.#done();
+    if (e.key !== 'ArrowUp' && e.key !== 'ArrowDown') return;
+    e.preventDefault();
+    const size = 10 ** Math.floor(Math.log10(Math.max(Math.abs(this.value), 1e-3)) + 1e-9) * (e.shiftKey ? 0.01 : 0.1);
+    const { min, max } = this.options;
+    const v = Math.max(min, Math.min(max, this.value + (e.key === 'ArrowUp' ? size : -size)));
+    this.input.value = forField(Number(v.toPrecision(9)));
+    this.#typed(e.timeStamp);
+  }
+
+  #fromSlider() {
+    const s = Number(this.slider?.value);
+    const { min, max, log } = /** @type {any} */ (this.range);
+    const v = log ? min * (max / min) ** s : min + (max - min) * s;
+    return Number(v.toPrecision(log ? 2 : 3)) || 0;
+  }
+
+  /** @param {number} v */
+  #toSlider(v) {
+    const { min, max, log } = /** @type {any} */ (this.range);
+    const s = log ? Math.log(Math.max(v, 1e-12) / min) / Math.log(max / min) : (v - min) / (max - min);
+    const text = String(Math.max(0, Math.min(1, s)));
+    if (this.slider && this.slider.value !== text) this.slider.value = text;
+  }
+}
+
+/** A choice of few, seen all at once: radio buttons in the shape of a switch. */
+export class Choice {
+  /** @param {{label: string, testid: string, options: [string, string, string?][], onChange: (value: string) => void}} o  options: value, text, explanation */
+  constructor({ label, testid, options, onChange }) {
+    this.inputs = options.map(([value]) => h('input', { type: 'radio', name: testid, value, 'data-testid': `${testid}-${value}`, onchange: () => onChange(value) }));
+    this.node = h('div', { class: 'choice', role: 'radiogroup', 'aria-label': label, 'data-testid': testid },
+      options.map(([, text, title], i) => h('label', { title }, this.inputs[i], h('span', {}, text))));
+  }
+
+  /** @param {string} value */
+  set(value) {
+    for (const input of this.inputs) input.checked = input.value === value;
+  }
+
+  /** @param {boolean} disabled */
+  disable(disabled) {
+    for (const input of this.inputs) input.disabled = disabled;
+  }
+}

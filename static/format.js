@@ -1,0 +1,59 @@
+/** Numbers in words and figures, one way everywhere. Pure. */
+
+const MINUS = '\u2212';
+export const DEGREE = 180 / Math.PI;
+
+/** @param {string} text */
+const typographic = (text) => text.replace('-', MINUS);
+
+/** Fixed decimals with a true minus; never "−0.00". @param {number|undefined} v @param {number} [decimals] */
+export function fixed(v, decimals = 2) {
+  if (v === undefined || !Number.isFinite(v)) return '–';
+  const text = v.toFixed(decimals);
+  return typographic(Number(text) === 0 ? text.replace('-', '') : text);
+}
+
+/** About `digits` significant digits without an exponent unless it is needed. @param {number|undefined} v @param {number} [digits] */
+export function significant(v, digits = 4) {
+  if (v === undefined || !Number.isFinite(v)) return '–';
+  const size = Math.abs(v);
+  if (size !== 0 && (size >= 1e6 || size < 1e-4)) return typographic(v.toExponential(Math.max(0, digits - 2)).replace('e+', 'e'));
+  const whole = size >= 1 ? Math.floor(Math.log10(size)) + 1 : 1;
+  return fixed(v, Math.max(0, digits - whole));
+}
+
+/** For an input field: plain minus, no trailing zeros. @param {number} v */
+export const forField = (v) => String(Number(v.toPrecision(7)));
+
+/** Accepts a comma for the point and the typographic minus, as people paste them. @param {string} text @returns {number} NaN if it is no number */
+export function parseNumber(text) {
+  const plain = text.trim().replace(MINUS, '-').replace(',', '.');
+  return plain === '' ? NaN : Number(plain);
+}
+
+/** @param {import('./types.js').Complex} p @param {number} [decimals] */
+export function complex(p, decimals = 2) {
+  if (p.im === 0) return fixed(p.re, decimals);
+  return `${fixed(p.re, decimals)} ${p.im < 0 ? MINUS : '+'} ${fixed(Math.abs(p.im), decimals)}j`;
+}
+
+const PAIR = ['pitch', 'yaw'];
+
+/** What a screen reader says of a pole. @param {readonly import('./types.js').Complex[]} poles @param {number} index */
+export function poleText(poles, index) {
+  const p = poles[index];
+  const name = `${PAIR[index < 2 ? 0 : 1]} pole ${index + 1}`;
+  return `${name}: ${p.im === 0 ? fixed(p.re, 1) : complex(p, 1)} rad/s`;
+}
+
+/** @param {number|undefined} share 0…1 */
+export const percent = (share, decimals = 0) => (share === undefined ? '–' : `${fixed(100 * share, decimals)} %`);
+
+/** @param {number|undefined} ratio */
+export const decibel = (ratio) => (ratio === undefined || !(ratio > 0) ? '–' : `${fixed(20 * Math.log10(ratio), 1)} dB`);
+
+/** @param {number|undefined} rad */
+export const degrees = (rad, decimals = 1) => (rad === undefined ? '–' : `${fixed(rad * DEGREE, decimals)}°`);
+
+/** @param {number|undefined} s */
+export const seconds = (s) => (s === undefined ? '–' : s < 0.1 ? `${fixed(1000 * s, 0)} ms` : `${fixed(s, 2)} s`);

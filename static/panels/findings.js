@@ -1,0 +1,67 @@
+/** The verdict on the whole loop, and what else is to be said of the design, worst first, in a place that is always kept free for it. */
+import { h, setText } from '../dom.js';
+import { fixed } from '../format.js';
+
+const ICON = { error: '✕', warning: '▲', info: 'i' };
+const WORD = { error: 'Error', warning: 'Warning', info: 'Note' };
+const RANK = { error: 0, warning: 1, info: 2 };
+const SHOWN = 2;
+
+/** @param {import('../types.js').State} state @returns {import('../types.js').Finding[]} */
+export function findingsOf({ reply, problem }) {
+  if (problem) return [{ code: problem.code ?? 'refused', severity: 'error', message: [problem.detail ?? problem.title ?? 'The server refused this design.', problem.hint].filter(Boolean).join(' ') }];
+  return [...(reply?.findings ?? [])].sort((a, b) => (RANK[a.severity] ?? 3) - (RANK[b.severity] ?? 3));
+}
+
+export class FindingsPanel {
+  #key = '';
+
+  /** @param {HTMLElement} root */
+  constructor(root) {
+    this.icon = h('span', { class: 'icon', 'aria-hidden': 'true' });
+    this.word = h('strong');
+    this.detail = h('span', { class: 'detail' });
+    this.verdict = h('div', { class: 'verdict', 'data-testid': 'verdict', role: 'status' }, this.icon, h('div', {}, this.word, this.detail));
+    this.list = h('ul', { class: 'list', 'aria-live': 'polite' });
+    this.all = h('ul', { class: 'all', hidden: true, id: 'all-findings' });
+    this.more = h('button', { type: 'button', class: 'more', hidden: true, 'aria-expanded': 'false', 'aria-controls': 'all-findings', onclick: () => this.#toggle(this.all.hidden) });
+    root.append(this.verdict, h('div', { class: 'findings', 'data-testid': 'findings' }, this.list, this.more, this.all));
+    root.addEventListener('keydown', (e) => e.key === 'Escape' && this.#toggle(false));
+    document.addEventListener('pointerdown', (e) => !root.contains(/** @type {Node} */ (e.target)) && this.#toggle(false));
+  }
+
+  /** @param {boolean} open */
+  #toggle(open) {
+    this.all.hidden = !open;
+    this.more.setAttribute('aria-expanded', String(open));
+  }
+
+  /** @param {import('../types.js').Finding} f */
+  #item(f) {
+    const severity = f.severity in ICON ? f.severity : 'info';
+    return h('li', { class: severity, title: f.message, 'data-code': f.code }, h('span', { class: 'icon', 'aria-hidden': 'true' }, ICON[severity]), h('span', { class: 'sr' }, `${WORD[severity]}: `),
+      h('span', { class: 'message' }, f.message));
+  }
+
+  /** @param {import('../types.js').State} state */
+  render(state) {
+    const { reply, problem } = state;
+    const kind = problem ? 'refused' : !reply ? 'waiting' : reply.stable ? 'stable' : 'unstable';
+    const worst = reply ? Math.max(...reply.loop_poles.map((p) => p.re)) : NaN;
+    this.verdict.className = `verdict ${kind}`;
+    setText(this.icon, { refused: '!', waiting: '…', stable: '✓', unstable: '✕' }[kind]);
+    setText(this.word, { refused: 'Not computed', waiting: 'Waiting', stable: 'Stable', unstable: 'Unstable' }[kind]);
+    setText(this.detail, reply && !problem ? `slowest of ${reply.loop_poles.length} poles: Re ${fixed(worst)}` : '');
+
+    const findings = findingsOf(state);
+    const key = JSON.stringify(findings);
+    if (key === this.#key) return;
+    this.#key = key;
+    const none = h('li', { class: 'none' }, h('span', { class: 'message' }, reply ? 'Nothing to object: within the limits, and the poles are where you put them.' : ''));
+    this.list.replaceChildren(...(findings.length ? findings.slice(0, SHOWN).map((f) => this.#item(f)) : [none]));
+    this.all.replaceChildren(...findings.map((f) => this.#item(f)));
+    this.more.hidden = findings.length <= SHOWN;
+    setText(this.more, `${findings.length - SHOWN} more`);
+    if (this.more.hidden) this.#toggle(false);
+  }
+}

@@ -1,0 +1,84 @@
+/** K and the RGA as typeset formulas, each entry of K beside its present value. Fetched once per structure, when first seen. */
+import { h, setText } from '../dom.js';
+import { significant } from '../format.js';
+import { getSymbolic } from '../api.js';
+
+/** The server's own MathML, parsed as XML and adopted: it is never taken for HTML. @param {string|undefined} text @returns {Node} */
+function formula(text) {
+  if (!text) return document.createTextNode('–');
+  const source = text.includes('xmlns') ? text : text.replace('<math', '<math xmlns="http://www.w3.org/1998/Math/MathML"');
+  const parsed = new DOMParser().parseFromString(source, 'application/xml').documentElement;
+  if (parsed.localName !== 'math') return document.createTextNode('This formula could not be read.');
+  const node = /** @type {Element} */ (document.importNode(parsed, true));
+  for (const element of [node, ...node.querySelectorAll('*')]) {
+    for (const { name } of [...element.attributes]) if (name.startsWith('on') || name === 'href' || name === 'style') element.removeAttribute(name);
+  }
+  node.setAttribute('display', 'block');
+  return node;
+}
+
+const SUB = '₀₁₂₃₄';
+const OTHERS = [['RGA', 'Relative gain array at s = 0'], ['A', 'System matrix A'], ['B', 'Input matrix B'], ['T', 'Luenberger’s transformation T'], ['Q', 'Q'], ['closed_loop', 'Closed loop A − BK'], ['G', 'Closed loop Ĝ(s)']];
+
+export class FormulasPanel {
+  #structure = '';
+  #visible = false;
+  /** @type {{cell: Node, i: number, j: number}[]} */ #values = [];
+
+  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  constructor(root, store) {
+    this.body = h('div', { class: 'formulas-body', 'data-testid': 'formulas' });
+    root.append(this.body);
+    new IntersectionObserver((entries) => {
+      this.#visible = entries.some((e) => e.isIntersecting);
+      this.render(store.state);
+    }, { rootMargin: '400px' }).observe(root);
+  }
+
+  /** @param {import('../types.js').State} state */
+  render({ design, reply }) {
+    if (!design || !this.#visible) return;
+    const structure = `${design.coupling}/${design.lead}`;
+    if (structure !== this.#structure) {
+      this.#structure = structure;
+      this.#load(design.coupling, design.lead, structure);
+    }
+    for (const { cell, i, j } of this.#values) setText(cell, reply ? significant(reply.gains.K[i][j], 6) : '');
+  }
+
+  /** @param {string} coupling @param {string} lead @param {string} structure */
+  async #load(coupling, lead, structure) {
+    this.body.setAttribute('aria-busy', 'true');
+    try {
+      const symbolic = await getSymbolic(coupling, lead);
+      if (structure === this.#structure) this.#show(symbolic);
+    } catch (error) {
+      this.#structure = '';
+      this.body.replaceChildren(h('p', { class: 'note' }, `The formulas could not be fetched: ${error instanceof Error ? error.message : error}`));
+    }
+    this.body.removeAttribute('aria-busy');
+  }
+
+  /** @param {any} symbolic */
+  #show(symbolic) {
+    this.#values = [];
+    const entries = Object.entries(symbolic.K?.entries ?? {});
+    const gains = entries.length
+      ? h('div', { class: 'entries', 'data-testid': 'k-formulas' }, entries.map(([name, entry]) => this.#entry(name, /** @type {any} */ (entry))))
+      : h('div', { class: 'scroll', 'data-testid': 'k-formulas' }, formula(symbolic.K?.mathml));
+    const cards = OTHERS.filter(([key]) => symbolic[key]?.mathml).map(([key, title]) =>
+      h('section', { class: `card ${key === 'RGA' ? 'wide' : ''}` }, h('h3', {}, title), h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': title, 'data-testid': `formula-${key}` }, formula(symbolic[key].mathml))));
+    const definitions = Object.entries(symbolic.definitions ?? {}).map(([, d]) => h('div', { class: 'scroll' }, formula(/** @type {any} */ (d)?.mathml)));
+    const symbols = h('section', { class: 'card' }, h('h3', {}, 'Symbols'), h('table', { class: 'symbols' }, h('tbody', {},
+      (symbolic.symbols ?? []).map((/** @type {any} */ s) => h('tr', {}, h('th', { scope: 'row' }, s.mathml ? formula(s.mathml) : s.name), h('td', {}, s.meaning), h('td', {}, s.unit))))));
+    this.body.replaceChildren(h('section', { class: 'card gains' }, h('h3', {}, 'State feedback K, u = −Kx + v'), gains, definitions), ...cards, symbols);
+  }
+
+  /** @param {string} name like k_12 @param {{mathml: string}} entry */
+  #entry(name, entry) {
+    const [i, j] = [...(name.match(/\d/g) ?? ['1', '1'])].map((d) => Number(d));
+    const cell = h('output', { class: 'value' });
+    this.#values.push({ cell, i: i - 1, j: j - 1 });
+    return h('div', { class: 'entry' }, h('span', { class: 'sym' }, h('i', {}, 'k'), `${SUB[i]}${SUB[j]} =`), h('div', { class: 'scroll' }, formula(entry.mathml)), h('span', { class: 'equals' }, '= ', cell));
+  }
+}

@@ -1,0 +1,56 @@
+/** The top line: which rig, where its numbers come from, one step back or forth, and whether the server is there. */
+import { h, setText } from '../dom.js';
+import { designOf } from '../store.js';
+
+const STATUS = { connecting: 'connecting…', open: 'live', lost: 'connection lost: your changes are kept and sent when it returns' };
+
+export class HeaderPanel {
+  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  constructor(root, store) {
+    this.store = store;
+    this.select = h('select', { 'data-testid': 'preset', 'aria-label': 'Rig and parameter set', onchange: () => this.#choose() });
+    this.source = h('span', { class: 'source', 'data-testid': 'source' });
+    const button = (/** @type {string} */ id, /** @type {string} */ text, /** @type {string} */ title, /** @type {() => void} */ act) =>
+      h('button', { type: 'button', 'data-testid': id, title, onclick: act }, text);
+    this.undo = button('undo', 'Undo', 'Undo (Ctrl+Z)', () => store.undo());
+    this.redo = button('redo', 'Redo', 'Redo (Ctrl+Shift+Z)', () => store.redo());
+    this.reset = button('reset', 'Reset', "Back to this preset's poles, loops and steps", () => this.#reset());
+    this.status = h('span', { class: 'connection', role: 'status', 'data-testid': 'connection' }, h('span', { class: 'dot', 'aria-hidden': 'true' }), h('span', {}));
+    root.append(h('div', { class: 'rig' }, this.select, this.source), h('div', { class: 'buttons' }, this.undo, this.redo, this.reset, h('a', { class: 'button', href: '#formulas' }, 'Formulas')), this.status);
+    document.addEventListener('keydown', (e) => this.#key(e));
+  }
+
+  #choose() {
+    const preset = this.store.state.presets.find((p) => p.name === this.select.value);
+    if (preset) this.store.edit(() => designOf(preset));
+  }
+
+  #reset() {
+    const preset = this.store.preset;
+    if (preset) this.store.edit(() => designOf(preset));
+  }
+
+  /** @param {KeyboardEvent} e */
+  #key(e) {
+    const field = e.target instanceof HTMLInputElement && e.target.type === 'text';
+    if (!(e.ctrlKey || e.metaKey) || e.altKey || field) return;
+    const key = e.key.toLowerCase();
+    if (key !== 'z' && key !== 'y') return;
+    e.preventDefault();
+    if (key === 'y' || e.shiftKey) this.store.redo();
+    else this.store.undo();
+  }
+
+  /** @param {import('../types.js').State} state */
+  render({ presets, design, connection, canUndo, canRedo }) {
+    if (this.select.options.length !== presets.length) this.select.replaceChildren(...presets.map((p) => h('option', { value: p.name }, p.title)));
+    if (design) this.select.value = design.preset;
+    const source = this.store.preset?.source ?? '';
+    setText(this.source, source);
+    this.source.title = source;
+    this.undo.disabled = !canUndo;
+    this.redo.disabled = !canRedo;
+    this.status.className = `connection ${connection}`;
+    setText(/** @type {Element} */ (this.status.lastChild), STATUS[connection]);
+  }
+}

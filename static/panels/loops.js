@@ -1,0 +1,99 @@
+/** The outer loops: on or off, their PI values, how they are paired, and which structure the inner loop has. */
+import { h, setText, symbol } from '../dom.js';
+import { Choice, NumberField } from '../fields.js';
+import { suggestLoops } from '../api.js';
+import { requestOf } from '../store.js';
+
+/** @typedef {'pitch'|'yaw'} Axis */
+const AXES = /** @type {Axis[]} */ (['pitch', 'yaw']);
+
+export class LoopsPanel {
+  /** @type {import('../types.js').Preset|undefined} */ #preset;
+
+  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  constructor(root, store) {
+    this.store = store;
+    this.outer = new Choice({ label: 'Outer loop', testid: 'outer', onChange: (v) => this.#set({ outer: /** @type {any} */ (v) }),
+      options: [['none', 'Inner loop alone', 'v = Ĝ(0)⁻¹ r: the placed poles, and no others'], ['pi', 'PI loops', 'a PI controller on each axis, which moves the placed poles']] });
+    this.suggest = h('button', { type: 'button', 'data-testid': 'suggest-pi', title: 'Suggest PI values for these poles', onclick: () => this.#suggest() }, 'Suggest PI for these poles');
+    this.note = h('p', { class: 'note', 'data-testid': 'loops-note', 'aria-live': 'polite' });
+    this.pairing = this.#select('Pairing', 'pairing', [['diagonal', 'diagonal'], ['cross', 'crosswise']]);
+    this.coupling = this.#select('Structure', 'coupling', [['triangular', 'triangular'], ['input-diagonal', 'input-diagonal'], ['axis-decoupled', 'axis-decoupled']]);
+    this.lead = this.#select('Leads', 'lead', [['pitch', 'pitch'], ['yaw', 'yaw']]);
+    this.axes = AXES.map((axis) => this.#axis(axis));
+    root.append(
+      h('div', { class: 'row spread' }, this.outer.node, this.suggest),
+      h('div', { class: 'pis' }, this.axes.map((a) => a.node)),
+      h('div', { class: 'row advanced' }, this.coupling.node, this.lead.node, this.pairing.node),
+      this.note,
+    );
+  }
+
+  /** @param {Partial<import('../types.js').Design>} part */
+  #set(part) {
+    this.store.edit((d) => ({ ...d, ...part }));
+  }
+
+  /** @param {string} text @param {'pairing'|'coupling'|'lead'} key @param {[string, string][]} options */
+  #select(text, key, options) {
+    const select = h('select', { 'data-testid': key, 'data-field': key, onchange: () => this.#set({ [key]: select.value }) }, options.map(([value, name]) => h('option', { value }, name)));
+    return { select, node: h('label', { class: 'select' }, h('span', {}, text), select) };
+  }
+
+  /** @param {Axis} axis */
+  #axis(axis) {
+    const field = (/** @type {'kp'|'ti'} */ key, /** @type {Node} */ mark, /** @type {string} */ unit, /** @type {string} */ words, /** @type {{min: number, max: number, log: true}} */ slider) =>
+      new NumberField({
+        label: `${axis} ${words}`, mark, unit, testid: `${key}-${axis}`, field: `loops.${axis}.${key}`, min: key === 'kp' ? 0 : 1e-4, max: 1e5, positive: key === 'ti', slider,
+        onInput: (v, stamp) => this.store.edit((d) => ({ ...d, loops: { ...d.loops, [axis]: { ...d.loops[axis], [key]: v } } }), { gesture: `${key}-${axis}`, stamp }),
+        onCommit: () => this.store.commit(),
+      });
+    const kp = field('kp', symbol('k', 'p'), 'V/rad', 'proportional gain', { min: 0.5, max: 200, log: true });
+    const ti = field('ti', symbol('T', 'i'), 's', 'integral time', { min: 0.01, max: 10, log: true });
+    const node = h('fieldset', { class: `pi ${axis}` }, h('legend', {}, h('span', { class: `shape ${axis}`, 'aria-hidden': 'true' }), `${axis} PI`), kp.node, ti.node);
+    return { axis, kp, ti, node };
+  }
+
+  async #suggest() {
+    const { design } = this.store.state;
+    if (!design) return;
+    this.suggest.disabled = true;
+    try {
+      const { seq: _seq, each_axis: _each, scenario: _scenario, ...body } = requestOf(design, 0);
+      const answer = await suggestLoops(body);
+      this.#set({ loops: answer.loops, outer: 'pi' });
+      setText(this.note, answer.rule ?? '');
+    } catch (error) {
+      setText(this.note, error instanceof Error ? error.message : String(error));
+    }
+    this.suggest.disabled = false;
+  }
+
+  /** @param {import('../types.js').State} state */
+  render({ design }) {
+    if (!design) return;
+    const preset = this.store.preset;
+    if (preset && preset !== this.#preset) {
+      this.#preset = preset;
+      for (const { axis, kp, ti } of this.axes) {
+        kp.setRange({ min: preset.loops[axis].kp / 60, max: preset.loops[axis].kp * 6 });
+        ti.setRange({ min: Math.min(0.01, preset.loops[axis].ti / 10), max: Math.max(5, preset.loops[axis].ti * 5) });
+      }
+      setText(this.note, '');
+    }
+    const off = design.outer === 'none';
+    this.outer.set(design.outer);
+    for (const { axis, kp, ti, node } of this.axes) {
+      kp.set(design.loops[axis].kp);
+      ti.set(design.loops[axis].ti);
+      kp.disable(off);
+      ti.disable(off);
+      node.classList.toggle('off', off);
+    }
+    this.pairing.select.value = design.pairing;
+    this.pairing.select.disabled = off;
+    this.coupling.select.value = design.coupling;
+    this.lead.select.value = design.lead;
+    this.lead.select.disabled = design.coupling !== 'triangular';
+  }
+}

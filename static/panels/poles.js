@@ -1,0 +1,77 @@
+/** The two pairs as numbers: real or complex, two values each, with sliders. */
+import { h } from '../dom.js';
+import { Choice, NumberField } from '../fields.js';
+import { isComplex, LIMIT, setComplex, setMode, setReal } from '../poles.js';
+import { niceStep } from '../splane_math.js';
+
+const NAMES = ['pitch', 'yaw'];
+
+class PairEditor {
+  /** @param {0|1} pair @param {import('../store.js').Store} store */
+  constructor(pair, store) {
+    this.pair = pair;
+    const name = NAMES[pair];
+    this.mode = new Choice({ label: `${name} pair`, testid: `mode-${name}`, options: [['real', 'real', 'two real poles'], ['complex', 'complex', 'a conjugate pair']],
+      onChange: (v) => store.edit((d) => ({ ...d, poles: setMode(d.poles, pair, v === 'complex') })) });
+    this.fields = [0, 1].map((k) => this.#field(k, store));
+    this.node = h('fieldset', { class: `pair ${name}`, 'data-testid': `pair-${name}` },
+      h('legend', {}, h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }), `${name} pair`), this.mode.node, this.fields.map((f) => f.node));
+    this.marks = this.fields.map((f) => /** @type {HTMLElement} */ (f.node.querySelector('.mark')));
+  }
+
+  /** @param {number} k @param {import('../store.js').Store} store */
+  #field(k, store) {
+    const index = 2 * this.pair + k;
+    return new NumberField({
+      label: `${NAMES[this.pair]} pole ${index + 1}`, testid: `pole-field-${index}`, field: `poles[${index}]`, min: -LIMIT, max: LIMIT, slider: { min: -20, max: 4 },
+      onInput: (v, stamp) => store.edit((d) => ({ ...d, poles: this.#changed(d.poles, k, v) }), { gesture: `pole-field-${index}`, stamp }),
+      onCommit: () => store.commit(),
+    });
+  }
+
+  /** @param {import('../types.js').Poles} poles @param {number} k @param {number} v */
+  #changed(poles, k, v) {
+    const index = 2 * this.pair;
+    if (!isComplex(poles, this.pair)) return setReal(poles, index + k, v);
+    const sign = Math.sign(poles[index].im) || 1;
+    const { re, im } = poles[index];
+    return setComplex(poles, index, k === 0 ? { re: v, im } : { re, im: sign * Math.max(Math.abs(v), 1e-3) });
+  }
+
+  /** @param {import('../types.js').Poles} poles @param {number} reach */
+  render(poles, reach) {
+    const complex = isComplex(poles, this.pair);
+    const [a, b] = [poles[2 * this.pair], poles[2 * this.pair + 1]];
+    this.mode.set(complex ? 'complex' : 'real');
+    const first = 2 * this.pair + 1;
+    const names = complex ? ['Re', '\u00b1 Im'] : [`p${'₁₂₃₄'[first - 1]}`, `p${'₁₂₃₄'[first]}`];
+    this.marks.forEach((m, i) => m.textContent !== names[i] && m.replaceChildren(names[i]));
+    const spoken = complex ? ['real part', 'imaginary part'] : [`pole ${first}`, `pole ${first + 1}`];
+    this.fields.forEach((f, i) => f.input.setAttribute('aria-label', `${NAMES[this.pair]} ${spoken[i]}, rad/s`));
+    this.fields[0].setRange({ min: -reach, max: 0.2 * reach });
+    this.fields[1].setRange(complex ? { min: 0, max: reach } : { min: -reach, max: 0.2 * reach });
+    this.fields[0].set(a.re);
+    this.fields[1].set(complex ? Math.abs(a.im) : b.re);
+  }
+}
+
+export class PolesPanel {
+  #reach = 0;
+
+  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  constructor(root, store) {
+    this.pairs = [new PairEditor(0, store), new PairEditor(1, store)];
+    root.append(...this.pairs.map((p) => p.node));
+  }
+
+  /** @param {import('../types.js').State} state */
+  render({ design, dragging }) {
+    if (!design) return;
+    const far = Math.max(1, ...design.poles.map((p) => Math.max(Math.abs(p.re), Math.abs(p.im))));
+    if (!dragging && (far > this.#reach || far < this.#reach / 4)) {
+      const step = niceStep(2 * far, 4);
+      this.#reach = Math.ceil((1.5 * far) / step) * step;
+    }
+    for (const pair of this.pairs) pair.render(design.poles, this.#reach);
+  }
+}

@@ -1,0 +1,222 @@
+/**
+ * Four plots over one time axis: θ, ψ in degrees, V_p, V_y in volts. The pointer's cursor is shared; the scene's time is a line of its own, moved
+ * without redrawing anything.
+ * @typedef {import('./types.js').State} State
+ * @typedef {import('./traces.js').Signal} Signal
+ */
+import uPlot from './vendor/uplot/uPlot.esm.js';
+import { h, setText, symbol } from './dom.js';
+import { DEGREE, fixed } from './format.js';
+import { extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from './traces.js';
+
+/** @type {Record<Signal, {base: string, sub?: string, title: string, unit: string}>} */
+const ABOUT = {
+  theta: { base: 'θ', title: 'pitch', unit: '°' },
+  psi: { base: 'ψ', title: 'yaw', unit: '°' },
+  V_p: { base: 'V', sub: 'p', title: 'pitch motor', unit: ' V' },
+  V_y: { base: 'V', sub: 'y', title: 'yaw motor', unit: ' V' },
+};
+const FONT = '11px system-ui, sans-serif';
+const AXIS_WIDTH = 42;
+
+export class Plots {
+  /** @type {Record<string, string>} */ #colors = {};
+  /** @type {Record<string, [number, number]|undefined>} */ #ranges = {};
+  /** @type {[number, number]} */ #time = [0, 5];
+  /** @type {[number, number]|null} */ #zoom = null;
+  /** @type {any[]} */ #seen = [];
+  /** @type {number|null} */ #hover = null;
+  #playhead = 0;
+  /** @type {{t: import('./types.js').Series, plots: Record<Signal, any[]>}|null} */ #data = null;
+
+  /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onSeek: (t: number) => void}} handlers */
+  constructor(root, store, { onSeek }) {
+    this.store = store;
+    this.onSeek = onSeek;
+    this.root = root;
+    this.#readColors();
+    this.plots = SIGNALS.map((signal) => this.#build(signal));
+    for (const query of ['(prefers-color-scheme: dark)', '(prefers-contrast: more)']) {
+      matchMedia(query).addEventListener('change', () => {
+        this.#readColors();
+        for (const { chart } of this.plots) chart.redraw(false);
+      });
+    }
+  }
+
+  #readColors() {
+    const style = getComputedStyle(document.documentElement);
+    for (const name of ['pitch', 'yaw', 'ink', 'muted', 'grid', 'halo', 'danger', 'limit-fill']) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
+  }
+
+  /** @param {Signal} signal */
+  #build(signal) {
+    const about = ABOUT[signal];
+    const values = ['theta', 'psi'].map((axis) => h('span', { class: `at ${axis === 'theta' ? 'pitch' : 'yaw'}`, title: `${axis === 'theta' ? 'pitch' : 'yaw'} step` }));
+    const body = h('div', { class: 'plot-body' });
+    const figure = h('figure', { class: `plot ${isVoltage(signal) ? 'volts' : 'angle'}`, 'data-testid': `plot-${signal}`, 'data-signal': signal },
+      h('figcaption', {}, symbol(about.base, about.sub), h('span', { class: 'what' }, `${about.title}, ${about.unit.trim() === '°' ? 'deg' : 'V'}`), h('span', { class: 'values' }, values)), body);
+    this.root.append(figure);
+    const color = (/** @type {string} */ name) => () => this.#colors[name];
+    const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({ stroke: color(name), width, dash, points: { show: false } });
+    const last = () => signal === 'V_y' || (signal === 'V_p' && this.root.classList.contains('two-columns'));
+    const chart = new uPlot({
+      width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [6, 10, 2, 0],
+      series: [{}, { stroke: color('halo'), width: 7, points: { show: false } }, line('pitch', 1.25, [7, 4]), line('yaw', 1.25, [2, 3]), line('yaw', 1.5), line('pitch', 2.4)],
+      scales: { x: { time: false, range: () => this.#zoom ?? this.#time }, y: { range: () => this.#ranges[signal] ?? [0, 1] } },
+      axes: [
+        { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 4, size: () => (last() ? 22 : 4),
+          values: (_u, splits) => splits.map((v) => (last() ? `${Number(v.toFixed(3))}${v === splits[splits.length - 1] ? ' s' : ''}` : '')) },
+        { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, size: AXIS_WIDTH, space: 26,
+          values: (_u, splits) => splits.map((v) => `${String(Number(v.toPrecision(6))).replace('-', '\u2212')}`) },
+      ],
+      cursor: { y: false, points: { show: false }, drag: { x: true, y: false, setScale: false },
+        sync: { key: 'heli2dof', filters: { pub: (type) => type === 'mousemove' || type === 'mouseleave' } },
+        bind: { dblclick: () => () => this.#zoomTo(null) } },
+      hooks: {
+        drawClear: [(u) => this.#drawLimits(u, signal)],
+        draw: [(u) => this.#drawReference(u, signal)],
+        setCursor: [(u) => this.#hovered(u)],
+        setSelect: [(u) => this.#selected(u)],
+      },
+    }, [[0, 1], ...Array(5).fill([null, null])], body);
+    const head = h('div', { class: 'playhead' });
+    chart.over.append(head);
+    chart.over.addEventListener('click', () => {
+      if (chart.cursor.left !== undefined && chart.cursor.left >= 0) this.onSeek(chart.posToVal(chart.cursor.left, 'x'));
+    });
+    new ResizeObserver(([entry]) => {
+      const { width, height } = entry.contentRect;
+      if (width > 60 && height > 40) chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
+      this.#movePlayhead();
+    }).observe(body);
+    return { signal, chart, values, head };
+  }
+
+  /** @param {State} state @returns {boolean} whether anything was drawn */
+  render(state) {
+    const seen = [state.reply, state.motion, state.showLinear];
+    if (!state.reply || seen.every((v, i) => v === this.#seen[i])) return false;
+    this.#seen = seen;
+    const fresh = this.#data === null;
+    const data = (this.#data = tracesOf(state.reply, state.motion, state.showLinear));
+    const end = data.t[data.t.length - 1];
+    if (end !== this.#time[1]) this.#zoom = null;
+    this.#time = [0, end];
+    const empty = Array(data.t.length).fill(null);
+    for (const { signal, chart } of this.plots) {
+      const [played, dashPitch, dashYaw, yaw, pitch] = data.plots[signal];
+      this.#ranges[signal] = rangeOf({
+        solid: extent([played, yaw, pitch]), dashed: extent([dashPitch, dashYaw]), include: [0, this.#reference(signal) ?? 0],
+        limit: isVoltage(signal) ? state.reply.limits?.[/** @type {'V_p'|'V_y'} */ (signal)] : undefined,
+        previous: fresh ? undefined : this.#ranges[signal],
+      });
+      const columns = /** @type {any} */ ([data.t, ...data.plots[signal].map((v) => v ?? empty)]);
+      chart.batch(() => chart.setData(columns));
+    }
+    this.#movePlayhead();
+    this.#showValues();
+    return true;
+  }
+
+  /** @param {Signal} signal @returns {number|undefined} the step that is asked of this axis, degrees */
+  #reference(signal) {
+    const reference = this.store.state.reply?.step.nonlinear.reference;
+    return isVoltage(signal) || !reference ? undefined : reference[/** @type {'theta'|'psi'} */ (signal)] * DEGREE;
+  }
+
+  /** @param {any} u @param {Signal} signal */
+  #drawLimits(u, signal) {
+    const limit = isVoltage(signal) ? this.store.state.reply?.limits?.[/** @type {'V_p'|'V_y'} */ (signal)] : undefined;
+    if (limit === undefined) return;
+    const { ctx, bbox } = u;
+    ctx.save();
+    for (const v of [limit, -limit]) {
+      if (v > u.scales.y.max || v < u.scales.y.min) continue;
+      const y = Math.round(u.valToPos(v, 'y', true));
+      ctx.fillStyle = this.#colors['limit-fill'];
+      if (v > 0) ctx.fillRect(bbox.left, bbox.top, bbox.width, y - bbox.top);
+      else ctx.fillRect(bbox.left, y, bbox.width, bbox.top + bbox.height - y);
+      this.#rule(u, y, this.#colors.danger, [], `limit ${v < 0 ? '\u2212' : ''}${Math.abs(v)} V`, v > 0 ? 1 : -1);
+    }
+    ctx.restore();
+  }
+
+  /** @param {any} u @param {Signal} signal */
+  #drawReference(u, signal) {
+    const r = this.#reference(signal);
+    if (r === undefined || r === 0) return;
+    u.ctx.save();
+    this.#rule(u, Math.round(u.valToPos(r, 'y', true)), this.#colors.ink, [1, 5], `reference ${fixed(r, 1)}°`, r > 0 ? 1 : -1);
+    u.ctx.restore();
+  }
+
+  /** A labelled horizontal line. @param {any} u @param {number} y @param {string} color @param {number[]} dash @param {string} label @param {number} side */
+  #rule(u, y, color, dash, label, side) {
+    const { ctx, bbox } = u;
+    const ratio = devicePixelRatio;
+    ctx.strokeStyle = color;
+    ctx.lineWidth = 1.25 * ratio;
+    ctx.lineCap = 'round';
+    ctx.setLineDash(dash.map((d) => d * ratio));
+    ctx.beginPath();
+    ctx.moveTo(bbox.left, y);
+    ctx.lineTo(bbox.left + bbox.width, y);
+    ctx.stroke();
+    ctx.font = `${10 * ratio}px system-ui, sans-serif`;
+    ctx.textAlign = 'right';
+    ctx.textBaseline = side > 0 ? 'top' : 'bottom';
+    ctx.fillStyle = color;
+    ctx.fillText(label, bbox.left + bbox.width - 4 * ratio, y + side * 3 * ratio);
+  }
+
+  /** @param {any} u */
+  #hovered(u) {
+    const { left } = u.cursor;
+    this.#hover = left === undefined || left < 0 ? null : u.posToVal(left, 'x');
+    this.#showValues();
+  }
+
+  /** @param {any} u */
+  #selected(u) {
+    if (u.select.width < 8) return;
+    this.#zoomTo([u.posToVal(u.select.left, 'x'), u.posToVal(u.select.left + u.select.width, 'x')]);
+    u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+  }
+
+  /** @param {[number, number]|null} range */
+  #zoomTo(range) {
+    this.#zoom = range;
+    const [min, max] = range ?? this.#time;
+    for (const { chart } of this.plots) chart.setScale('x', { min, max });
+    this.#movePlayhead();
+  }
+
+  /** The scene's time. @param {number} t */
+  setTime(t) {
+    this.#playhead = t;
+    this.#movePlayhead();
+    if (this.#hover === null) this.#showValues();
+  }
+
+  #movePlayhead() {
+    for (const { chart, head } of this.plots) {
+      const x = chart.valToPos(this.#playhead, 'x');
+      const inside = Number.isFinite(x) && x >= 0 && x <= chart.over.clientWidth;
+      head.hidden = !inside;
+      if (inside) head.style.transform = `translateX(${x.toFixed(1)}px)`;
+    }
+  }
+
+  #showValues() {
+    const steps = this.store.state.reply?.axis_steps;
+    if (!this.#data || !steps) return;
+    const i = indexAt(this.#data.t, this.#hover ?? this.#playhead);
+    for (const { signal, values } of this.plots) {
+      ['theta', 'psi'].forEach((axis, k) => {
+        const v = this.#data?.plots[signal][k === 0 ? 4 : 3]?.[i];
+        setText(values[k], v === undefined ? '' : `${fixed(v, isVoltage(signal) ? 1 : 2)}${ABOUT[signal].unit}`);
+      });
+    }
+  }
+}

@@ -1,0 +1,57 @@
+/** What lies behind the poles: axes, circles of constant ωₙ, rays of constant ζ, and the unstable half. Redrawn only when the view changes. */
+import { svg } from './dom.js';
+import { fixed } from './format.js';
+import { bounds, DAMPING, niceStep, rayEnd, ticks, toPixel } from './splane_math.js';
+
+/** @param {number} step */
+const decimalsOf = (step) => Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+
+/** @param {SVGGElement} layer @param {import('./splane_math.js').View} view */
+export function drawGrid(layer, view) {
+  const b = bounds(view);
+  const [x0, y0] = toPixel(view, { re: 0, im: 0 });
+  const step = niceStep(Math.max(b.right - b.left, b.top - b.bottom), 8);
+  const decimals = decimalsOf(step);
+  const nodes = [];
+
+  if (x0 < view.width) {
+    const left = Math.max(0, x0);
+    nodes.push(
+      svg('rect', { class: 'unstable-half', x: left, y: 0, width: view.width - left, height: view.height }),
+      svg('rect', { class: 'unstable-hatch', x: left, y: 0, width: view.width - left, height: view.height, fill: 'url(#hatch)' }),
+    );
+    if (view.width - left > 14) {
+      const x = Math.min(left + 13, view.width - 8);
+      nodes.push(svg('text', { class: 'unstable-label', x, y: 10, transform: `rotate(90 ${x} 10)` }, 'unstable'));
+    }
+  }
+
+  const farthest = Math.max(...[b.left, b.right].flatMap((re) => [b.bottom, b.top].map((im) => Math.hypot(re, im))));
+  for (const r of ticks(step, farthest, step)) {
+    nodes.push(svg('path', { class: 'grid', d: `M ${x0} ${y0 - r * view.scale} A ${r * view.scale} ${r * view.scale} 0 0 0 ${x0} ${y0 + r * view.scale}` }));
+  }
+  for (const zeta of DAMPING) {
+    const end = rayEnd(view, zeta);
+    if (!end) continue;
+    const [x, y] = end;
+    nodes.push(svg('path', { class: 'grid', d: `M ${x} ${y} L ${x0} ${y0} L ${x} ${2 * y0 - y}` }));
+    const atTop = y < 1;
+    nodes.push(svg('text', { class: 'zeta-label', x: atTop ? x + 4 : 5, y: atTop ? 12 : y + 13 }, `ζ ${fixed(zeta, 1)}`));
+  }
+
+  nodes.push(svg('line', { class: 'axis', x1: 0, x2: view.width, y1: y0, y2: y0 }));
+  nodes.push(svg('line', { class: 'axis imaginary', x1: x0, x2: x0, y1: 0, y2: view.height }));
+  const baseline = Math.max(14, Math.min(view.height - 6, y0 + 15));
+  for (const re of ticks(b.left, b.right, step)) {
+    const [x] = toPixel(view, { re, im: 0 });
+    if (x < 14 || x > view.width - 24 || re === 0) continue;
+    nodes.push(svg('text', { class: 'tick', x, y: baseline, 'text-anchor': 'middle' }, fixed(re, decimals)));
+  }
+  const column = Math.max(4, Math.min(view.width - 4, x0 - 5));
+  for (const im of ticks(b.bottom, b.top, step)) {
+    const [, y] = toPixel(view, { re: 0, im });
+    if (y < 22 || y > view.height - 10 || im === 0) continue;
+    nodes.push(svg('text', { class: 'tick', x: column, y: y + 4, 'text-anchor': 'end' }, `${fixed(im, decimals)}j`));
+  }
+  layer.replaceChildren(...nodes);
+}

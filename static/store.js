@@ -1,0 +1,127 @@
+/**
+ * The page's one state, and the only place that changes it. Knows no DOM and no network.
+ *
+ * `edit` changes the design (what the user chose) and can be undone; `set` changes everything else. Views listen to `change` and read; whoever
+ * sends the design listens to `design`.
+ * @typedef {import('./types.js').State} State
+ * @typedef {import('./types.js').Design} Design
+ * @typedef {import('./types.js').Preset} Preset
+ */
+import { fromWire } from './poles.js';
+
+const DEPTH = 200;
+
+/** @returns {State} */
+export const initialState = () => ({
+  presets: [], design: null, reply: null, problem: null, connection: 'connecting', motion: 'both', showLinear: true, dragging: false,
+  canUndo: false, canRedo: false,
+});
+
+/** What a preset proposes. @param {Preset} preset @param {Partial<Design>} [keep] @returns {Design} */
+export function designOf(preset, keep = {}) {
+  return {
+    preset: preset.name,
+    parameters: {},
+    poles: fromWire(preset.poles),
+    coupling: /** @type {Design['coupling']} */ (preset.coupling ?? 'triangular'),
+    lead: 'pitch',
+    outer: /** @type {Design['outer']} */ (preset.outer ?? 'pi'),
+    pairing: /** @type {Design['pairing']} */ (preset.pairing ?? 'diagonal'),
+    loops: { pitch: { ...preset.loops.pitch }, yaw: { ...preset.loops.yaw } },
+    scenario: {
+      reference: { theta: preset.scenario?.reference?.theta ?? 0.2, psi: preset.scenario?.reference?.psi ?? 0.5 },
+      duration: preset.scenario?.duration ?? 5,
+    },
+    ...keep,
+  };
+}
+
+/** The message to the server. @param {Design} design @param {number} seq */
+export function requestOf(design, seq) {
+  return {
+    seq,
+    preset: design.preset,
+    parameters: design.parameters,
+    poles: design.poles,
+    coupling: design.coupling,
+    lead: design.lead,
+    outer: design.outer,
+    pairing: design.pairing,
+    loops: design.loops,
+    scenario: { reference: design.scenario.reference, duration: design.scenario.duration, samples: 501, saturation: true },
+    each_axis: true,
+  };
+}
+
+export class Store extends EventTarget {
+  /** @type {State} */ state = initialState();
+  /** @type {Design[]} */ #past = [];
+  /** @type {Design[]} */ #future = [];
+  /** @type {string|null} */ #gesture = null;
+
+  /** Changes what is not the design. @param {Partial<State>} part */
+  set(part) {
+    this.state = { ...this.state, ...part };
+    this.dispatchEvent(new Event('change'));
+  }
+
+  /**
+   * Changes the design. Edits with the same gesture in a row are one step of undo.
+   * @param {(d: Design) => Design} change @param {{gesture?: string, stamp?: number}} [how] stamp: time of the input event
+   */
+  edit(change, { gesture, stamp } = {}) {
+    const before = this.state.design;
+    if (!before) return;
+    const after = change(before);
+    if (after === before) return;
+    if (!gesture || gesture !== this.#gesture) {
+      this.#past.push(before);
+      if (this.#past.length > DEPTH) this.#past.shift();
+    }
+    this.#gesture = gesture ?? null;
+    this.#future = [];
+    this.#put(after, stamp);
+  }
+
+  /** Ends a gesture: the next edit is a new step of undo. */
+  commit() {
+    this.#gesture = null;
+  }
+
+  /** Starts afresh, without history. @param {Design} design */
+  load(design) {
+    this.#past = [];
+    this.#future = [];
+    this.#gesture = null;
+    this.#put(design);
+  }
+
+  undo() {
+    this.#travel(this.#past, this.#future);
+  }
+
+  redo() {
+    this.#travel(this.#future, this.#past);
+  }
+
+  /** @param {Design[]} from @param {Design[]} to */
+  #travel(from, to) {
+    const design = from.pop();
+    if (!design || !this.state.design) return;
+    to.push(this.state.design);
+    this.#gesture = null;
+    this.#put(design);
+  }
+
+  /** @param {Design} design @param {number} [stamp] */
+  #put(design, stamp) {
+    this.state = { ...this.state, design, canUndo: this.#past.length > 0, canRedo: this.#future.length > 0 };
+    this.dispatchEvent(new CustomEvent('design', { detail: { stamp } }));
+    this.dispatchEvent(new Event('change'));
+  }
+
+  /** @returns {Preset|undefined} */
+  get preset() {
+    return this.state.presets.find((p) => p.name === this.state.design?.preset);
+  }
+}

@@ -1,0 +1,92 @@
+/**
+ * The shapes that travel through the page. Types only: nothing here runs.
+ *
+ * @typedef {{re: number, im: number}} Complex
+ * @typedef {[Complex, Complex, Complex, Complex]} Poles  1 and 2 are pitch's pair, 3 and 4 yaw's
+ * @typedef {{kp: number, ti: number}} Pi
+ * @typedef {{pitch: Pi, yaw: Pi}} Loops
+ * @typedef {{theta: number, psi: number}} Reference  step sizes, rad
+ * @typedef {'triangular'|'input-diagonal'|'axis-decoupled'} Coupling
+ *
+ * What the user chose, and all of it: everything else on the page follows from this.
+ * @typedef {object} Design
+ * @property {string} preset
+ * @property {Record<string, number>} parameters  overrides of the preset's values
+ * @property {Poles} poles
+ * @property {Coupling} coupling
+ * @property {'pitch'|'yaw'} lead
+ * @property {'pi'|'none'} outer
+ * @property {'diagonal'|'cross'} pairing
+ * @property {Loops} loops
+ * @property {{reference: Reference, duration: number}} scenario
+ *
+ * @typedef {object} Preset
+ * @property {string} name
+ * @property {string} title
+ * @property {string} source
+ * @property {string} rig
+ * @property {Record<string, number>} parameters
+ * @property {{V_p: number, V_y: number, theta?: number}} limits
+ * @property {Complex[]} poles
+ * @property {Loops} loops
+ * @property {{reference: Reference, duration: number}} scenario
+ * @property {string} [coupling]
+ * @property {string} [pairing]
+ * @property {string} [outer]
+ *
+ * @typedef {{code: string, severity: 'info'|'warning'|'error', message: string}} Finding
+ * @typedef {ArrayLike<number>} Series
+ *
+ * @typedef {object} AxisMetrics
+ * @property {number} [rise_time]
+ * @property {number} [settling_time]
+ * @property {number} [overshoot]
+ * @property {number} [peak]
+ * @property {number} [peak_time]
+ * @property {number} [steady_state_error]
+ * @property {number} [iae]
+ *
+ * @typedef {object} Step
+ * @property {Series} t
+ * @property {Series} theta
+ * @property {Series} psi
+ * @property {Series} V_p
+ * @property {Series} V_y
+ * @property {Reference} reference
+ * @property {{V_p: number, V_y: number}} trim
+ * @property {Record<string, any>} metrics
+ * @property {boolean} stable
+ *
+ * @typedef {{linear: Step, nonlinear: Step}} StepPair
+ *
+ * @typedef {object} Reply
+ * @property {number} seq
+ * @property {{K: number[][], closed_loop_poles: Complex[], pole_error: number, norm: number}} gains
+ * @property {Complex[]} open_loop_poles
+ * @property {{rga?: number[][], pairing?: number[][], niederlinski?: number}} [rga]
+ * @property {StepPair} step
+ * @property {{theta?: StepPair, psi?: StepPair}} axis_steps
+ * @property {Record<string, {gain_margin?: number, phase_margin?: number, delay_margin?: number}>} [margins]
+ * @property {Complex[]} loop_poles
+ * @property {boolean} stable
+ * @property {{V_p: number, V_y: number}} trim
+ * @property {{V_p?: number, V_y?: number, theta?: number}} limits
+ * @property {Finding[]} findings
+ *
+ * @typedef {{title?: string, detail?: string, code?: string, field?: string, value?: any, hint?: string, seq?: number}} Problem
+ * @typedef {'theta'|'psi'|'both'} Motion
+ * @typedef {'connecting'|'open'|'lost'} Connection
+ *
+ * @typedef {object} State
+ * @property {Preset[]} presets
+ * @property {Design|null} design
+ * @property {Reply|null} reply
+ * @property {Problem|null} problem
+ * @property {Connection} connection
+ * @property {Motion} motion
+ * @property {boolean} showLinear
+ * @property {boolean} dragging
+ * @property {boolean} canUndo
+ * @property {boolean} canRedo
+ */
+export {};

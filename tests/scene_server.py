@@ -1,0 +1,76 @@
+"""A small app with nothing but the scene, on a free port of the loopback, for several tests."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import asynccontextmanager, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import uvicorn
+from fastapi import FastAPI
+from fastapi.staticfiles import StaticFiles
+
+from app.scene import SceneSessions, build_router
+
+STATIC = Path(__file__).resolve().parent.parent / "static"
+
+
+@dataclass(frozen=True)
+class SceneServer:
+    """Where the app listens, and its sessions."""
+
+    port: int
+    sessions: SceneSessions
+
+    @property
+    def http(self) -> str:
+        return f"http://127.0.0.1:{self.port}"
+
+    def socket(self, session: str) -> str:
+        return f"ws://127.0.0.1:{self.port}/scene/{session}"
+
+
+def until(condition: Callable[[], object], what: str, seconds: float = 20.0) -> None:
+    """Wait until the condition holds; fail with `what` when the time is up."""
+    deadline = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > deadline:
+            raise AssertionError(f"not within {seconds} s: {what}")
+        time.sleep(0.02)
+
+
+@contextmanager
+def serving(
+    capacity: int = 8, idle_seconds: float = 45.0, host_page: str = ""
+) -> Iterator[SceneServer]:
+    """Run the app in a thread for as long as the context lasts."""
+    sessions = SceneSessions(capacity, idle_seconds)
+
+    @asynccontextmanager
+    async def lifespan(_: FastAPI) -> AsyncIterator[None]:
+        async with sessions.running():
+            yield
+
+    app = FastAPI(lifespan=lifespan)
+    app.include_router(build_router(sessions))
+    app.mount("/static", StaticFiles(directory=STATIC))
+    if host_page:
+        from fastapi.responses import HTMLResponse
+
+        app.add_route("/", lambda _: HTMLResponse(host_page))
+    config = uvicorn.Config(
+        app, host="127.0.0.1", port=0, log_level="warning", ws_per_message_deflate=False
+    )
+    server = uvicorn.Server(config)
+    thread = threading.Thread(target=server.run, daemon=True)
+    thread.start()
+    until(lambda: server.started or not thread.is_alive(), "the server starts")
+    try:
+        yield SceneServer(server.servers[0].sockets[0].getsockname()[1], sessions)
+    finally:
+        server.should_exit = True
+        thread.join(20.0)
+        assert not thread.is_alive(), "the server does not stop"
