@@ -107,8 +107,9 @@ async def _down(upstream: ClientConnection, visitor: WebSocket) -> tuple[int, st
         pass
     # 1005 and 1006 describe a missing close frame and may not be sent in one.
     code = upstream.close_code
-    sendable = code is not None and code not in (1005, 1006)
-    return (code if sendable else 1001), (upstream.close_reason or "the scene was stopped")
+    if code is None or code in (1005, 1006):
+        code = 1001
+    return code, upstream.close_reason or "the scene was stopped"
 
 
 async def _up(visitor: WebSocket, upstream: ClientConnection) -> tuple[int, str]:

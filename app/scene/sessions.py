@@ -35,10 +35,10 @@ class SessionsFullError(Exception):
 
 @dataclass(slots=True)
 class _Session:
-    """What is known of one session; `server` is None until its first use has made it."""
+    """What is known of one session; `making` yields its server once somebody has asked for it."""
 
     rig: RigName = DEFAULT_RIG
-    server: RigServer | None = None
+    making: asyncio.Task[RigServer] | None = None
     clients: int = 0
     idle_since: float = field(default_factory=monotonic)
     lock: asyncio.Lock = field(default_factory=asyncio.Lock)
@@ -87,8 +87,7 @@ class SceneSessions:
         session = await self._session(session_id)
         session.clients += 1
         try:
-            async with session.lock:
-                server = await self._started(session_id, session)
+            server = await self._server(session)
             yield server.get_port()
         finally:
             session.clients -= 1
@@ -103,12 +102,19 @@ class SceneSessions:
         session = await self._session(session_id)
         session.idle_since = monotonic()
         async with session.lock:
-            if session.server is None:
+            if session.making is None:
                 session.rig = rig
-                await self._started(session_id, session)
-            elif session.rig != rig:
-                await asyncio.to_thread(session.server.show, rig)
+            server = await self._server(session)
+            if session.rig != rig:
+                await asyncio.to_thread(server.show, rig)
                 session.rig = rig
+
+    def server(self, session_id: str) -> RigServer | None:
+        """Return the session's viser server, or None if it has none yet."""
+        session = self._sessions.get(session_id)
+        if session is None or session.making is None or not session.making.done():
+            return None
+        return session.making.result()
 
     async def _session(self, session_id: str) -> _Session:
         if session_id not in self._sessions:
@@ -119,16 +125,17 @@ class SceneSessions:
                 raise SessionsFullError(self.capacity)
         return self._sessions.setdefault(session_id, _Session())
 
-    async def _started(self, session_id: str, session: _Session) -> RigServer:
-        """Return the session's server, made in a thread; the caller holds the session's lock."""
-        if session.server is None:
-            try:
-                session.server = await asyncio.to_thread(_make_server, session.rig)
-            except BaseException:
-                self._sessions.pop(session_id, None)
-                raise
+    async def _server(self, session: _Session) -> RigServer:
+        """Return the session's server, made in a thread if this is the first to ask."""
+        if session.making is None:
+            session.making = asyncio.create_task(asyncio.to_thread(_make_server, session.rig))
             _log.info("scene started, %d of %d", len(self._sessions), self.capacity)
-        return session.server
+        try:
+            # Shielded: a visitor who leaves meanwhile must not lose a server that is half made.
+            return await asyncio.shield(session.making)
+        except Exception:
+            session.making = None  # the next visitor tries again
+            raise
 
     async def _make_room(self) -> None:
         """Stop the session that has gone unwatched for longest, if there is one."""
@@ -144,10 +151,11 @@ class SceneSessions:
                 await self._stop(idle)
 
     async def _stop(self, session_ids: list[str]) -> None:
-        servers = [self._sessions.pop(key).server for key in session_ids]
-        stops = [asyncio.to_thread(server.stop) for server in servers if server is not None]
+        tasks = [self._sessions.pop(key).making for key in session_ids]
+        made = await asyncio.gather(*(task for task in tasks if task), return_exceptions=True)
+        stops = [asyncio.to_thread(s.stop) for s in made if not isinstance(s, BaseException)]
+        await asyncio.gather(*stops)
         if stops:
-            await asyncio.gather(*stops)
             _log.info("scenes stopped: %d, left: %d", len(stops), len(self._sessions))
 
 

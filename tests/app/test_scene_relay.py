@@ -4,6 +4,7 @@ import asyncio
 import threading
 import time
 import urllib.error
+import urllib.parse
 import urllib.request
 from collections.abc import Iterator
 from typing import Any
@@ -124,7 +125,7 @@ def test_page_without_slash_redirects_to_the_page(server: SceneServer):
 
 @pytest.mark.parametrize("bad", ["short", "x" * 65, "spaces%20and%20more%20characters", "ä" * 22])
 def test_what_cannot_be_a_session_is_not_found(server: SceneServer, bad: str):
-    bad = urllib.request.quote(bad, safe="%")
+    bad = urllib.parse.quote(bad, safe="%")
     assert answer(f"{server.http}/scene/{bad}/")[0] == 404
     request = urllib.request.Request(
         f"{server.http}/scene/{bad}/rig",
@@ -158,7 +159,7 @@ def test_camera_reaches_viser(server: SceneServer):
         replay(socket)
         socket.send(encode({"type": "ShareUrlRequest"}))
         socket.send(encode(CAMERA))
-        viser = server.sessions._sessions[session_id("camera")].server  # noqa: SLF001
+        viser = server.sessions.server(session_id("camera"))
         assert viser is not None
         until(viser.get_clients, "viser counts the visitor")
         assert viser.request_share_url() is None
@@ -268,7 +269,7 @@ def test_stopping_the_app_stops_every_rig_and_tells_the_watchers():
     with serving() as server:
         socket = watch(server, "last")
         replay(socket)
-        viser = server.sessions._sessions[session_id("last")].server  # noqa: SLF001
+        viser = server.sessions.server(session_id("last"))
         assert viser is not None
         port = viser.get_port()
     with pytest.raises(ConnectionClosed):
@@ -281,7 +282,7 @@ def test_stopping_the_app_stops_every_rig_and_tells_the_watchers():
 def test_watcher_is_told_when_its_rig_stops(server: SceneServer):
     with watch(server, "stopped") as socket:
         replay(socket)
-        viser = server.sessions._sessions[session_id("stopped")].server  # noqa: SLF001
+        viser = server.sessions.server(session_id("stopped"))
         assert viser is not None
         viser.stop()
         until(lambda: closed(socket), "the connection ends")

@@ -1,0 +1,5 @@
+"""`python -m app serve`: the command line from a checkout."""
+
+from .cli import main
+
+main()

@@ -1,0 +1,72 @@
+"""The command line: `heli2dof serve`."""
+
+from __future__ import annotations
+
+import argparse
+import errno
+import logging
+import os
+import socket
+import sys
+
+import uvicorn
+
+from .main import create_app, package_version
+from .settings import Settings
+
+_LARGEST_MESSAGE = 1 << 20
+
+
+class AnnouncingServer(uvicorn.Server):
+    """Prints the address once the server answers."""
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Starts, then says where."""
+        await super().startup(sockets)
+        if self.started and sockets:
+            host, port = sockets[0].getsockname()[:2]
+            shown = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, host)
+            print(f"heli2dof {package_version()} is ready: http://{shown}:{port}", flush=True)
+
+
+def serve(host: str, port: int, settings: Settings) -> int:
+    """Serves until interrupted; returns the exit status."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    listener = socket.socket(family, socket.SOCK_STREAM)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind((host, port))
+    except OSError as error:
+        listener.close()
+        why = "it is in use" if error.errno == errno.EADDRINUSE else error.strerror
+        print(f"heli2dof: cannot listen on {host} port {port}: {why}. Try --port {port + 1}.", file=sys.stderr)
+        return 1
+    config = uvicorn.Config(
+        create_app(settings),
+        log_level="warning",
+        ws="websockets-sansio",
+        ws_max_size=_LARGEST_MESSAGE,
+        ws_per_message_deflate=False,  # five times slower, and the frames are small
+        ws_ping_interval=5.0,
+        ws_ping_timeout=5.0,
+        timeout_graceful_shutdown=5,
+    )
+    AnnouncingServer(config).run([listener])
+    return 0
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Entry point of the `heli2dof` command."""
+    parser = argparse.ArgumentParser(prog="heli2dof", description="Pole placement for a 2-DOF helicopter.")
+    parser.add_argument("--version", action="version", version=package_version())
+    commands = parser.add_subparsers(dest="command", required=True)
+    command = commands.add_parser("serve", help="start the app and print its address")
+    command.add_argument("--host", default="127.0.0.1", help="address to listen on (%(default)s)")
+    command.add_argument(
+        "--port", type=int, default=int(os.environ.get("PORT", "8000")), help="TCP port (%(default)s, or $PORT)"
+    )
+    command.add_argument("--scenes", type=int, default=100, help="most 3D scenes at once (%(default)s)")
+    options = parser.parse_args(arguments)
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(name)s: %(message)s")
+    logging.getLogger("websockets").setLevel(logging.WARNING)
+    sys.exit(serve(options.host, options.port, Settings(scenes=options.scenes)))

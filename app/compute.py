@@ -1,0 +1,64 @@
+"""The core's work off the event loop, in a small pool of threads."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from time import perf_counter
+from typing import TypeVar
+
+_log = logging.getLogger(__name__)
+T = TypeVar("T")
+
+
+class Compute:
+    """Runs functions of the core in threads, once the derivation is there.
+
+    The first derivation imports SymPy and takes a second or two; `start` runs it in the background,
+    so that the page is served meanwhile, and `run` waits for it.
+    """
+
+    def __init__(self, threads: int = 2) -> None:
+        self._pool = ThreadPoolExecutor(threads, thread_name_prefix="compute")
+        self._warm = threading.Event()
+        self._failure: BaseException | None = None
+
+    @property
+    def ready(self) -> bool:
+        """Whether the derivation is done."""
+        return self._warm.is_set() and self._failure is None
+
+    def start(self) -> None:
+        """Begins the derivation in the background."""
+        threading.Thread(target=self._warm_up, name="derivation", daemon=True).start()
+
+    async def run(self, function: Callable[..., T], *args: object) -> T:
+        """`function(*args)` in the pool, after the derivation."""
+
+        def work() -> T:
+            self._warm.wait()
+            if self._failure is not None:
+                raise RuntimeError("the derivation failed at start") from self._failure
+            return function(*args)
+
+        return await asyncio.get_running_loop().run_in_executor(self._pool, work)
+
+    def close(self) -> None:
+        """Drops what waits and stops the pool's threads."""
+        self._pool.shutdown(wait=False, cancel_futures=True)
+
+    def _warm_up(self) -> None:
+        began = perf_counter()
+        try:
+            from heli2dof_core.compiled import warm_up
+
+            warm_up()
+            _log.info("derivation ready after %.2f s", perf_counter() - began)
+        except BaseException as error:
+            self._failure = error
+            _log.exception("the derivation failed")
+        finally:
+            self._warm.set()

@@ -1,0 +1,45 @@
+"""Replies as bytes: JSON, or one binary frame with a JSON header and float32 arrays."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import orjson
+
+BINARY_SUBPROTOCOL = "heli2dof.v1+binary"
+ARRAY_KEY = "$f32"
+
+
+def json_bytes(value: Any) -> bytes:
+    """JSON, NumPy arrays included."""
+    return orjson.dumps(value, option=orjson.OPT_SERIALIZE_NUMPY)
+
+
+def binary_frame(reply: Mapping[str, Any]) -> bytes:
+    """uint32 header length, JSON header, then float32 arrays, all little endian.
+
+    In the header each array is ``{"$f32": [offset, length]}``, counted in elements from the end of
+    the header, which is padded with spaces so that the arrays are aligned. Equal arrays, as every
+    t is, travel once.
+    """
+    chunks: dict[bytes, int] = {}
+    size = 0
+
+    def placed(value: Any) -> Any:
+        nonlocal size
+        if isinstance(value, np.ndarray):
+            data = value.astype("<f4").tobytes()
+            if data not in chunks:
+                chunks[data] = size
+                size += value.size
+            return {ARRAY_KEY: [chunks[data], value.size]}
+        if isinstance(value, Mapping):
+            return {key: placed(item) for key, item in value.items()}
+        return value
+
+    header = orjson.dumps(placed(reply))
+    header += b" " * (-len(header) % 4)
+    return b"".join((struct.pack("<I", len(header)), header, *chunks))

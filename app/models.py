@@ -1,0 +1,295 @@
+"""The contract's replies as Pydantic models, for the schema at /openapi.json.
+
+Replies are encoded straight from the core's arrays (see `replies`); a test holds every reply
+against its model.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict
+
+from .problems import Problem
+
+
+class Model(BaseModel):
+    """A reply's part: all numbers are finite, and nothing is said that is not described here."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+class Complex(Model):
+    """A complex number."""
+
+    re: float
+    im: float
+
+
+class Finding(Model):
+    """A remark on a design or response that is legal but deserves a word."""
+
+    code: str
+    severity: str
+    message: str
+
+
+class Voltages(Model):
+    """Motor voltages, V."""
+
+    V_p: float
+    V_y: float
+
+
+class Angles(Model):
+    """Angles, rad; left out where there is none."""
+
+    theta: float | None = None
+    psi: float | None = None
+
+
+class Gains(Model):
+    """K in V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y."""
+
+    K: list[list[float]]
+    A: list[list[float]]
+    B: list[list[float]]
+    closed_loop_poles: list[Complex]
+    pole_error: float
+    norm: float
+    controllability_indices: list[int]
+    findings: list[Finding]
+
+
+class Rga(Model):
+    """RGA at s = 0, rows θ, ψ, columns V_p, V_y; left out without steady state."""
+
+    rga: list[list[float]] | None = None
+    pairing: list[list[str]] | None = None
+    niederlinski: float | None = None
+    frequencies: list[float] | None = None
+    rga_magnitude: list[list[list[float]]] | None = None
+    findings: list[Finding]
+
+
+class AxisMetrics(Model):
+    """Step metrics of one axis; s, %, rad, rad·s."""
+
+    rise_time: float | None = None
+    settling_time: float | None = None
+    overshoot: float
+    peak: float
+    peak_time: float
+    steady_state_error: float
+    iae: float
+
+
+class MotorMetrics(Model):
+    """Largest |voltage|, V, and share of time at the limit."""
+
+    peak: float
+    saturated: float
+
+
+class Metrics(Model):
+    """Metrics of each stepped axis, of the axis that is not, and of the motors."""
+
+    theta: AxisMetrics | None = None
+    psi: AxisMetrics | None = None
+    coupling_peak: float | None = None
+    V_p: MotorMetrics
+    V_y: MotorMetrics
+
+
+class Step(Model):
+    """A step response; s, rad, V. Linear voltages are deviations from the trim."""
+
+    t: list[float]
+    theta: list[float]
+    psi: list[float]
+    V_p: list[float]
+    V_y: list[float]
+    reference: Angles
+    trim: Voltages
+    metrics: Metrics
+    loop_poles: list[Complex]
+    stable: bool
+    findings: list[Finding]
+
+
+class BothModels(Model):
+    """The same experiment by both models."""
+
+    linear: Step
+    nonlinear: Step
+
+
+class Margins(Model):
+    """Margins at one motor's input: factors, rad, s; left out where unlimited."""
+
+    gain_margin: float | None = None
+    gain_reduction_margin: float | None = None
+    phase_margin: float | None = None
+    delay_margin: float | None = None
+
+
+class LoopMargins(Model):
+    """Margins at each motor; left out where the loop is unstable."""
+
+    pitch: Margins | None = None
+    yaw: Margins | None = None
+
+
+class AxisSteps(Model):
+    """Each axis of the reference stepped alone."""
+
+    theta: BothModels | None = None
+    psi: BothModels | None = None
+
+
+class Limits(Model):
+    """Voltage limits, V, and pitch travel, rad, where it is not free."""
+
+    V_p: float
+    V_y: float
+    theta: float | None = None
+
+
+class Evaluation(Model):
+    """Gains, RGA, responses and margins at once."""
+
+    seq: int | None = None
+    gains: Gains
+    open_loop_poles: list[Complex]
+    rga: Rga
+    step: BothModels
+    axis_steps: AxisSteps
+    margins: LoopMargins
+    loop_poles: list[Complex]
+    stable: bool
+    trim: Voltages
+    limits: Limits
+    findings: list[Finding]
+
+
+class PI(Model):
+    """kp in V/rad, ti in s."""
+
+    kp: float
+    ti: float
+
+
+class Loops(Model):
+    """PI values of both axes."""
+
+    pitch: PI
+    yaw: PI
+
+
+class Suggestion(Model):
+    """PI values and the whole loop's poles with them."""
+
+    loops: Loops
+    loop_poles: list[Complex]
+    stable: bool
+    rule: str
+
+
+class ParameterInfo(Model):
+    """What a parameter means."""
+
+    meaning: str
+    unit: str
+    minimum: float
+
+
+class Scenario(Model):
+    """A preset's own experiment."""
+
+    reference: Angles
+    duration: float
+    samples: int
+
+
+class Preset(Model):
+    """A rig with its source and everything that a design may change."""
+
+    name: str
+    title: str
+    source: str
+    rig: str
+    parameters: dict[str, float]
+    parameter_info: dict[str, ParameterInfo]
+    limits: Limits
+    operating_point: dict[str, float]
+    poles: list[Complex]
+    coupling: str
+    lead: str
+    outer: str
+    pairing: str
+    decoupler: bool
+    loops: Loops
+    scenario: Scenario
+
+
+class Method(Model):
+    """A placement method and the structures that it offers."""
+
+    name: str
+    title: str
+    source: str
+    couplings: list[str]
+    leads: list[str]
+
+
+FULL_RANK = Method(
+    name="full-rank",
+    title="Full-rank state feedback through Luenberger's canonical form",
+    source="Patel & Munro, Multivariable System Theory and Design, 1982; Luenberger, IEEE TAC 12 (1967) 290–293",
+    couplings=["triangular", "input-diagonal", "axis-decoupled"],
+    leads=["pitch", "yaw"],
+)
+
+
+class Formula(Model):
+    """One expression in three notations."""
+
+    sympy: str
+    latex: str
+    mathml: str
+
+
+class Symbol(Model):
+    """A symbol of the formulas."""
+
+    name: str
+    latex: str
+    meaning: str
+    unit: str
+
+
+class Symbolic(Model):
+    """All formulas of one structure; definitions say what the short names stand for."""
+
+    A: Formula
+    B: Formula
+    controllability_matrix: Formula
+    T: Formula
+    Q: Formula
+    K: Formula
+    closed_loop: Formula
+    G: Formula
+    RGA: Formula
+    entries: dict[str, dict[str, Formula]]
+    definitions: dict[str, Formula]
+    controllability_indices: list[int]
+    symbols: list[Symbol]
+
+
+def described(model: Any, summary: str) -> dict[str, Any]:
+    """Route options that put a reply's model, and that of its errors, into the schema."""
+    problem = {"model": Problem, "description": "Invalid input", "content": {"application/problem+json": {}}}
+    return {
+        "summary": summary,
+        "responses": {200: {"model": model, "description": summary}, 422: problem},
+    }

@@ -1,0 +1,106 @@
+"""One error shape everywhere: RFC 9457 problem objects, over HTTP and WebSocket alike."""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from fastapi import FastAPI, Request, Response
+from fastapi.exceptions import RequestValidationError
+from pydantic import BaseModel, Field, ValidationError
+from starlette.exceptions import HTTPException
+
+from heli2dof_core import Heli2DofError
+
+from .encoding import json_bytes
+
+_log = logging.getLogger(__name__)
+
+_CODES = {
+    "extra_forbidden": ("unknown_field", "This field does not exist here; see /docs for those that do."),
+    "missing": ("missing_field", "Give this field."),
+    "json_invalid": ("invalid_json", "Send one JSON object."),
+}
+_TITLES = {404: "Not found", 405: "Method not allowed", 422: "Invalid input", 503: "Not available now"}
+
+
+class Problem(BaseModel):
+    """What every error reply holds (RFC 9457), with code, field, value and hint added."""
+
+    type: str = Field(description="identifies the kind of problem")
+    title: str
+    status: int
+    detail: str = Field(description="what is wrong, in words")
+    code: str = Field(description="stable name for programs")
+    field: str = Field("", description="JSON path of the offending input")
+    value: Any = Field(None, description="the offending value")
+    hint: str = Field("", description="what to do")
+
+
+def problem(status: int, detail: str, code: str, **more: Any) -> dict[str, Any]:
+    """A problem object; `more` may give field, value and hint, and nothing empty is kept."""
+    known = {"type": f"urn:heli2dof:problem:{code}", "title": _TITLES.get(status, "Error"), "status": status}
+    extra = {name: _finite(value) for name, value in more.items() if value not in (None, "")}
+    return {**known, "detail": detail, "code": code, **extra}
+
+
+def problem_of(error: Exception) -> dict[str, Any]:
+    """The problem object of whatever a request may raise."""
+    match error:
+        case Heli2DofError():
+            return problem(
+                422, f"{error}.", error.code, field=error.field, value=error.value, hint=error.hint
+            )
+        case RequestValidationError() | ValidationError():
+            return _of_validation(error.errors()[0])
+        case HTTPException():
+            return problem(error.status_code, str(error.detail), f"http_{error.status_code}")
+        case _:
+            return problem(500, "The server failed to answer; this is a bug.", "internal_error")
+
+
+def problem_response(body: Mapping[str, Any], headers: Mapping[str, str] | None = None) -> Response:
+    """A problem object as an HTTP response."""
+    return Response(
+        json_bytes(body), body["status"], headers=headers, media_type="application/problem+json"
+    )
+
+
+def install(app: FastAPI) -> None:
+    """Makes every error of the app a problem object."""
+
+    async def answer(request: Request, error: Exception) -> Response:
+        body = problem_of(error)
+        if body["status"] == 500:
+            _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
+        headers = error.headers if isinstance(error, HTTPException) else None
+        return problem_response(body, headers)
+
+    for kind in (Heli2DofError, RequestValidationError, HTTPException, Exception):
+        app.add_exception_handler(kind, answer)
+
+
+def _of_validation(error: Mapping[str, Any]) -> dict[str, Any]:
+    code, hint = _CODES.get(error["type"], ("invalid_input", ""))
+    path = ".".join(str(part) for part in error["loc"] if part not in ("body", "query", "path"))
+    field = "" if code == "invalid_json" else path
+    message = error["msg"].removeprefix("Value error, ")
+    detail = f"{field}: {message}." if field else f"{message}."
+    return problem(422, detail, code, field=field, value=error.get("input"), hint=hint)
+
+
+def _finite(value: Any) -> Any:
+    """A value that JSON can carry: non-finite numbers and exotic objects as text."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else str(value)
+    if value is None or isinstance(value, (str, bool)):
+        return value
+    if isinstance(value, int):
+        return value if abs(value) < 2**63 else str(value)[:100]
+    if isinstance(value, Mapping):
+        return {str(key): _finite(item) for key, item in list(value.items())[:20]}
+    if isinstance(value, (list, tuple)):
+        return [_finite(item) for item in value[:20]]
+    return str(value)[:200]

@@ -1,0 +1,178 @@
+"""From the core's values to the contract's replies: plain dicts whose arrays stay NumPy's.
+
+What does not exist is left out; the models that describe these replies are in `models`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from heli2dof_core import Design, Finding, Interaction, Loop, Preset, Report, Spec, rga_over_frequency
+from heli2dof_core.controllability import controllability_indices
+from heli2dof_core.evaluate import Step
+from heli2dof_core.findings import merged
+from heli2dof_core.margins import Margins
+from heli2dof_core.parameters import PARAMETER_INFO
+from heli2dof_core.signals import AXES, INPUTS, OUTPUTS, Floats
+from heli2dof_core.spec import Limits
+from heli2dof_core.symbolic.render import SymbolicReport
+from heli2dof_core.tuning import Suggestion
+
+Reply = dict[str, Any]
+
+
+def poles_reply(poles: Iterable[complex]) -> list[Reply]:
+    """Complex numbers as ``{"re", "im"}``."""
+    return [{"re": float(p.real), "im": float(p.imag)} for p in poles]
+
+
+def findings_reply(findings: Iterable[Finding]) -> list[Reply]:
+    """Findings as objects."""
+    return [asdict(finding) for finding in findings]
+
+
+def gains_reply(design: Design) -> Reply:
+    """K and what it does to the poles."""
+    return {
+        "K": design.K.tolist(),
+        "A": design.plant.A.tolist(),
+        "B": design.plant.B.tolist(),
+        "closed_loop_poles": poles_reply(design.closed_loop_poles),
+        "pole_error": design.pole_error,
+        "norm": design.norm,
+        "controllability_indices": list(controllability_indices(design.plant.A, design.plant.B)),
+        "findings": findings_reply(design.findings),
+    }
+
+
+def rga_reply(design: Design, gains: Interaction, frequencies: Sequence[float] = ()) -> Reply:
+    """RGA, pairing and Niederlinski index; without steady state only the findings."""
+    no_steady_state = [f for f in design.findings if f.code == "no_steady_state"]
+    reply: Reply = {"findings": findings_reply([*no_steady_state, *gains.findings])}
+    if gains.rga is not None:
+        reply["rga"] = gains.rga.tolist()
+        reply["pairing"] = [list(pair) for pair in gains.pairing]
+    if gains.niederlinski is not None:
+        reply["niederlinski"] = gains.niederlinski
+    if frequencies and gains.rga is not None:
+        reply["frequencies"] = list(frequencies)
+        reply["rga_magnitude"] = np.abs(rga_over_frequency(design, np.array(frequencies))).tolist()
+    return reply
+
+
+def step_reply(step: Step, loop: Loop) -> Reply:
+    """Trajectories and metrics of one response; the long arrays are NumPy's."""
+    response, metrics = step.response, step.metrics
+    motors = {name: asdict(motor) for name, motor in metrics.motors.items()}
+    axes = {name: _present(asdict(axis)) for name, axis in metrics.axes.items()}
+    other = {} if metrics.coupling_peak is None else {"coupling_peak": metrics.coupling_peak}
+    return {
+        "t": response.t,
+        **{signal.name: response.angles[i] for i, signal in enumerate(OUTPUTS)},
+        **{signal.name: response.voltages[i] for i, signal in enumerate(INPUTS)},
+        "reference": dict(zip(("theta", "psi"), response.reference, strict=True)),
+        "trim": _voltages(loop.design.plant.trim),
+        "metrics": {**axes, **other, **motors},
+        "loop_poles": poles_reply(loop.poles),
+        "stable": loop.stable,
+        "findings": findings_reply(merged(loop.design.findings, loop.findings, response.findings)),
+    }
+
+
+def report_reply(report: Report, spec: Spec) -> Reply:
+    """Everything at once: what the page needs after a drag."""
+    loop = report.loop
+    open_loop = np.linalg.eigvals(report.design.plant.A).astype(complex)
+    return {
+        "gains": gains_reply(report.design),
+        "open_loop_poles": poles_reply(open_loop),
+        "rga": rga_reply(report.design, report.interaction),
+        "step": {model: step_reply(step, loop) for model, step in report.step.items()},
+        "axis_steps": {
+            axis: {model: step_reply(step, loop) for model, step in steps.items()}
+            for axis, steps in report.axis_steps.items()
+        },
+        "margins": _margins(report.margins),
+        "loop_poles": poles_reply(loop.poles),
+        "stable": loop.stable,
+        "trim": _voltages(report.design.plant.trim),
+        "limits": _limits(spec.limits),
+        "findings": findings_reply(report.findings),
+    }
+
+
+def suggestion_reply(suggestion: Suggestion) -> Reply:
+    """PI values, the whole loop's poles with them, and the rule in words."""
+    outer = suggestion.outer
+    return {
+        "loops": {"pitch": asdict(outer.pitch), "yaw": asdict(outer.yaw)},
+        "loop_poles": poles_reply(suggestion.loop.poles),
+        "stable": suggestion.loop.stable,
+        "rule": suggestion.rule,
+    }
+
+
+def preset_reply(preset: Preset) -> Reply:
+    """A preset with everything that a design may change."""
+    scenario = preset.scenario
+    return {
+        "name": preset.name,
+        "title": preset.title,
+        "source": preset.source,
+        "rig": preset.rig,
+        "parameters": preset.parameters.as_dict(),
+        "parameter_info": {
+            name: {"meaning": info["meaning"], "unit": info["unit"], "minimum": info["low"]}
+            for name, info in PARAMETER_INFO.items()
+        },
+        "limits": _limits(preset.limits),
+        "operating_point": {"theta": preset.theta_0},
+        "poles": poles_reply(preset.poles.values),
+        "coupling": preset.structure.coupling,
+        "lead": preset.structure.lead,
+        "outer": preset.outer.outer,
+        "pairing": preset.outer.pairing,
+        "decoupler": preset.outer.decoupler,
+        "loops": {"pitch": asdict(preset.outer.pitch), "yaw": asdict(preset.outer.yaw)},
+        "scenario": {
+            "reference": _present({"theta": scenario.theta, "psi": scenario.psi}),
+            "duration": scenario.duration,
+            "samples": scenario.samples,
+        },
+    }
+
+
+def symbolic_reply(report: SymbolicReport) -> Reply:
+    """Formulas as SymPy text, LaTeX and MathML."""
+    return {
+        **{name: asdict(formula) for name, formula in report.formulas.items()},
+        "entries": {
+            matrix: {name: asdict(formula) for name, formula in entries.items()}
+            for matrix, entries in report.entries.items()
+        },
+        "definitions": {name: asdict(formula) for name, formula in report.definitions.items()},
+        "controllability_indices": list(report.controllability_indices),
+        "symbols": [asdict(name) for name in report.symbols],
+    }
+
+
+def _margins(margins: tuple[Margins, Margins] | None) -> Reply:
+    if margins is None:
+        return {}
+    return {axis: _present(asdict(own)) for axis, own in zip(AXES, margins, strict=True)}
+
+
+def _limits(limits: Limits) -> Reply:
+    return _present(asdict(limits))
+
+
+def _voltages(values: Floats) -> Reply:
+    return {signal.name: float(value) for signal, value in zip(INPUTS, values, strict=True)}
+
+
+def _present(values: Reply) -> Reply:
+    return {name: value for name, value in values.items() if value is not None}

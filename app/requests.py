@@ -1,0 +1,235 @@
+"""The contract's requests as Pydantic models, and the only way from them to the core.
+
+Every field is optional: what is left out comes from the preset. Unknown fields are refused.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, create_model
+
+from heli2dof_core import OuterLoop, PIGains, PoleSet, Preset, Spec, Structure, preset
+from heli2dof_core.couplings import Coupling, Lead
+from heli2dof_core.parameters import PARAMETER_INFO
+from heli2dof_core.presets import DEFAULT
+from heli2dof_core.spec import AntiWindup, Model, Outer, Pairing, Scenario
+
+
+class Strict(BaseModel):
+    """Unknown fields, text for numbers, NaN and infinity are refused."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+
+
+def _complex(value: Any) -> complex:
+    """A plain number, or ``{"re": …, "im": …}``; ranges are the core's business."""
+    parts = (value, 0.0)
+    if isinstance(value, dict):
+        if set(value) != {"re", "im"}:
+            raise ValueError('a complex number is {"re": -3.0, "im": 4.0}')
+        parts = (value["re"], value["im"])
+    if any(isinstance(part, bool) or not isinstance(part, (int, float)) for part in parts):
+        raise ValueError('a pole is a number, or {"re": -3.0, "im": 4.0}')
+    try:
+        return complex(*parts)
+    except OverflowError as error:
+        raise ValueError("a pole's parts must be finite numbers") from error
+
+
+_NUMBER = {"type": "number", "minimum": -1e5, "maximum": 1e5}
+Pole = Annotated[
+    complex,
+    BeforeValidator(_complex),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                _NUMBER,
+                {
+                    "type": "object",
+                    "properties": {"re": _NUMBER, "im": _NUMBER},
+                    "required": ["re", "im"],
+                    "additionalProperties": False,
+                },
+            ],
+            "description": "rad/s; a real pole may be a plain number",
+        }
+    ),
+]
+
+ParameterChanges = create_model(
+    "ParameterChanges",
+    __base__=Strict,
+    **{  # pyright: ignore[reportArgumentType]
+        name: (float | None, Field(None, description=f"{info['meaning']}, {info['unit']}"))
+        for name, info in PARAMETER_INFO.items()
+    },
+)
+
+
+class LimitChanges(Strict):
+    """Limits that differ from the preset's."""
+
+    V_p: float | None = Field(None, description="limit of |V_p|, V")
+    V_y: float | None = Field(None, description="limit of |V_y|, V")
+    theta: float | None = Field(None, description="pitch travel ±theta, rad; null where it is free")
+
+
+class OperatingPoint(Strict):
+    """Where the rig rests and the model is linearized."""
+
+    theta: float = Field(0.0, description="pitch angle θ₀, rad")
+
+
+class LoopChanges(Strict):
+    """PI(s) = kp (1 + 1/(ti s)) of one axis."""
+
+    kp: float | None = Field(None, description="V/rad")
+    ti: float | None = Field(None, description="s")
+
+
+class LoopsChanges(Strict):
+    """The PI controllers of the pitch and the yaw error."""
+
+    pitch: LoopChanges = LoopChanges()
+    yaw: LoopChanges = LoopChanges()
+
+
+class DesignRequest(Strict):
+    """A design: what differs from the preset."""
+
+    preset: str = Field(DEFAULT, description="name of a preset, see GET /api/v1/presets")
+    parameters: ParameterChanges = ParameterChanges()  # pyright: ignore[reportInvalidTypeForm]
+    limits: LimitChanges = LimitChanges()
+    operating_point: OperatingPoint | None = None
+    poles: list[Pole] | None = Field(
+        None, min_length=4, max_length=4, description="p₁, p₂ (pitch's pair), p₃, p₄ (yaw's), rad/s"
+    )
+    method: Literal["full-rank"] = "full-rank"
+    coupling: Coupling | None = None
+    lead: Lead | None = Field(None, description="axis that leads where the coupling is triangular")
+    outer: Outer | None = Field(None, description="pi: two PI loops (Fig. 3); none: inner loop alone (Fig. 2)")
+    pairing: Pairing | None = None
+    decoupler: bool | None = Field(None, description="static decoupler between the PI loops and the motors")
+    loops: LoopsChanges = LoopsChanges()
+
+    def to_spec(self) -> Spec:
+        """The core's spec, with the preset's scenario.
+
+        Raises:
+            Heli2DofError: a value is out of its range or unknown; its field is the JSON path.
+        """
+        base = preset(self.preset)
+        point = base.theta_0 if self.operating_point is None else self.operating_point.theta
+        return Spec(
+            parameters=base.parameters.replaced(self.parameters.model_dump(exclude_none=True)),
+            limits=replace(base.limits, **self._limits()),
+            theta_0=point,
+            poles=base.poles if self.poles is None else PoleSet(self.poles),
+            structure=Structure(
+                self.coupling or base.structure.coupling, self.lead or base.structure.lead
+            ),
+            outer=self._outer(base),
+            scenario=base.scenario,
+        )
+
+    def _limits(self) -> dict[str, float | None]:
+        given = self.limits.model_dump(exclude_unset=True)
+        return {name: value for name, value in given.items() if value is not None or name == "theta"}
+
+    def _outer(self, base: Preset) -> OuterLoop:
+        pi = {}
+        for axis in ("pitch", "yaw"):
+            own: PIGains = getattr(base.outer, axis)
+            changes: LoopChanges = getattr(self.loops, axis)
+            kp = own.kp if changes.kp is None else changes.kp
+            pi[axis] = PIGains(kp, own.ti if changes.ti is None else changes.ti)
+        return OuterLoop(
+            outer=self.outer or base.outer.outer,
+            pairing=self.pairing or base.outer.pairing,
+            decoupler=base.outer.decoupler if self.decoupler is None else self.decoupler,
+            **pi,
+        )
+
+
+class RgaRequest(DesignRequest):
+    """A design, and frequencies at which |RGA(jω)| is wanted."""
+
+    frequencies: list[Annotated[float, Field(ge=0, le=1e6)]] = Field([], max_length=2000, description="rad/s")
+
+
+class Reference(Strict):
+    """Reference angles after t = 0, absolute."""
+
+    theta: float | None = Field(None, description="rad")
+    psi: float | None = Field(None, description="rad")
+
+
+class Initial(Strict):
+    """State at t = 0; angles are absolute, and at rest where left out."""
+
+    theta: float | None = Field(None, description="rad")
+    psi: float | None = Field(None, description="rad")
+    theta_dot: float = Field(0.0, description="rad/s")
+    psi_dot: float = Field(0.0, description="rad/s")
+
+
+class ScenarioChanges(Strict):
+    """An experiment: references step at t = 0; without a reference the preset's own is used."""
+
+    model: Model = Field("nonlinear", description="ignored by evaluate, which computes both")
+    reference: Reference | None = None
+    duration: float | None = Field(None, description="s")
+    samples: int | None = Field(None, description="t = linspace(0, duration, samples)")
+    initial: Initial = Initial()
+    saturation: bool = True
+    anti_windup: AntiWindup = "clamping"
+    travel_stops: bool = True
+    trim_feedforward: bool = True
+    rtol: float = Field(1e-8, description="tolerance of the nonlinear integration")
+
+    def to_scenario(self, base: Scenario) -> Scenario:
+        """The core's scenario; `base` is the preset's.
+
+        Raises:
+            Heli2DofError: a value is out of its range.
+        """
+        theta, psi = base.theta, base.psi
+        if self.reference is not None:
+            theta, psi = self.reference.theta, self.reference.psi
+        return Scenario(
+            theta=theta,
+            psi=psi,
+            duration=base.duration if self.duration is None else self.duration,
+            samples=base.samples if self.samples is None else self.samples,
+            initial=(self.initial.theta, self.initial.psi, self.initial.theta_dot, self.initial.psi_dot),
+            saturation=self.saturation,
+            anti_windup=self.anti_windup,
+            travel_stops=self.travel_stops,
+            trim_feedforward=self.trim_feedforward,
+            rtol=self.rtol,
+        )
+
+
+class StepRequest(DesignRequest):
+    """A design and an experiment."""
+
+    scenario: ScenarioChanges = ScenarioChanges()
+
+    def to_spec(self) -> Spec:
+        """The core's spec, with this scenario."""
+        spec = super().to_spec()
+        return replace(spec, scenario=self.scenario.to_scenario(spec.scenario))
+
+
+class EvaluateRequest(StepRequest):
+    """As a step request; both models are computed."""
+
+    each_axis: bool = Field(False, description="also step each axis of the reference alone")
+
+
+class LiveRequest(EvaluateRequest):
+    """An evaluate request with the number that its answer will carry."""
+
+    seq: int = Field(ge=0, le=2**53)

@@ -1,0 +1,50 @@
+"""GET calls: what there is. Presets, methods, formulas, health."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Response
+
+from heli2dof_core import PRESETS, Structure
+from heli2dof_core.couplings import Coupling, Lead
+
+from .. import models, replies
+from ..compute import Compute
+from ..encoding import json_bytes
+from ..problems import problem, problem_response
+
+
+def build_router(compute: Compute) -> APIRouter:
+    """The routes healthz, presets, methods and symbolic."""
+    router = APIRouter(tags=["catalogue"])
+
+    @router.get("/healthz", summary="200 once ready to serve")
+    async def healthz() -> Response:
+        if compute.ready:
+            return _json({"status": "ok"})
+        return problem_response(
+            problem(503, "The derivation is not ready yet.", "starting", hint="Ask again in a second."),
+            {"Retry-After": "1"},
+        )
+
+    @router.get("/api/v1/presets", **models.described(list[models.Preset], "The rigs, the default one first"))
+    async def presets() -> Response:
+        return _json([replies.preset_reply(preset) for preset in PRESETS.values()])
+
+    @router.get("/api/v1/methods", **models.described(list[models.Method], "Placement methods"))
+    async def methods() -> Response:
+        return _json([models.FULL_RANK.model_dump()])
+
+    @router.get("/api/v1/symbolic", **models.described(models.Symbolic, "The formulas, derived"))
+    async def symbolic(coupling: Coupling = "triangular", lead: Lead = "pitch") -> Response:
+        def work() -> replies.Reply:
+            from heli2dof_core.symbolic.render import symbolic_report
+
+            return replies.symbolic_reply(symbolic_report(Structure(coupling, lead)))
+
+        return _json(await compute.run(work))
+
+    return router
+
+
+def _json(reply: object) -> Response:
+    return Response(json_bytes(reply), media_type="application/json")

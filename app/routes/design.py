@@ -1,0 +1,63 @@
+"""POST calls: a design in, numbers out."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import APIRouter, Response
+
+from heli2dof_core import close_loop, evaluate, interaction, place, simulate, suggest_pi
+
+from .. import models, replies
+from ..compute import Compute
+from ..encoding import json_bytes
+from ..requests import DesignRequest, EvaluateRequest, RgaRequest, StepRequest
+
+
+def build_router(compute: Compute) -> APIRouter:
+    """The routes gains, rga, step, evaluate and suggest under /api/v1."""
+    router = APIRouter(prefix="/api/v1", tags=["design"])
+
+    @router.post("/gains", **models.described(models.Gains, "K of u = −Kx + v and the poles that it gives"))
+    async def gains(request: DesignRequest) -> Response:
+        return _json(await compute.run(lambda: replies.gains_reply(place(request.to_spec()))))
+
+    @router.post("/rga", **models.described(models.Rga, "Relative gain array, pairing and Niederlinski index"))
+    async def rga(request: RgaRequest) -> Response:
+        def work() -> replies.Reply:
+            design = place(request.to_spec())
+            return replies.rga_reply(design, interaction(design), request.frequencies)
+
+        return _json(await compute.run(work))
+
+    @router.post("/step", **models.described(models.Step, "Step response of the whole loop"))
+    async def step(request: StepRequest) -> Response:
+        def work() -> replies.Reply:
+            spec = request.to_spec()
+            loop = close_loop(place(spec), spec.outer)
+            return replies.step_reply(simulate(loop, spec, request.scenario.model), loop)
+
+        return _json(await compute.run(work))
+
+    @router.post("/evaluate", **models.described(models.Evaluation, "Everything that a design changes, at once"))
+    async def evaluate_(request: EvaluateRequest) -> Response:
+        def work() -> replies.Reply:
+            spec = request.to_spec()
+            return replies.report_reply(evaluate(spec, each_axis=request.each_axis), spec)
+
+        return _json(await compute.run(work))
+
+    @router.post("/suggest", **models.described(models.Suggestion, "PI values that suit the placed poles"))
+    async def suggest(request: DesignRequest) -> Response:
+        def work() -> replies.Reply:
+            spec = request.to_spec()
+            return replies.suggestion_reply(suggest_pi(place(spec), spec.outer))
+
+        return _json(await compute.run(work))
+
+    return router
+
+
+def _json(reply: Any) -> Response:
+    """Encodes past FastAPI's own encoder, which takes longer than the mathematics."""
+    return Response(json_bytes(reply), media_type="application/json")

@@ -1,0 +1,233 @@
+"""The scene in a real browser: a pose posted by the page moves what the viewer draws."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Frame, Page, sync_playwright
+
+from tests.scene_server import SceneServer, serving
+
+CHROMIUM = "/usr/bin/chromium"
+FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-networking"]
+PATIENCE = 90_000  # milliseconds; software rendering on two cores is slow
+
+HOST_PAGE = """<!doctype html><title>host</title>
+<style>body { margin: 0 } iframe { border: 0; width: 420px; height: 330px }</style>
+<script type="module">
+import { ScenePlayer } from "./static/scene.js";
+window.players = {};
+window.states = {};
+window.open_scene = (name) => {
+  const frame = document.createElement("iframe");
+  frame.name = name;
+  frame.src = `scene/${name.padEnd(22, "_")}/`;
+  document.body.append(frame);
+  window.players[name] = new ScenePlayer(frame, {
+    onState: (state) => { window.states[name] = state; },
+  });
+};
+window.hold = (name, theta, psi) => window.players[name].load({
+  t: [0, 1], theta: [theta, theta], psi: [psi, psi], V_p: [0, 0], V_y: [0, 0],
+});
+window.hosting = true;
+</script>"""
+
+ANGLES = """() => {
+  const data = window.__viserMutable?.nodePoseData ?? {};
+  const turn = (name) => data[name]?.wxyz ?? [1, 0, 0, 0];
+  const yoke = turn("/rig/yoke"), body = turn("/rig/yoke/body");
+  return { psi: -2 * Math.atan2(yoke[3], yoke[0]), theta: -2 * Math.atan2(body[2], body[0]) };
+}"""
+MESHES = """() => {
+  let count = 0;
+  window.__viserMutable?.scene?.traverse((object) => { count += object.isMesh ? 1 : 0; });
+  return count;
+}"""
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[SceneServer]:
+    with serving(host_page=HOST_PAGE) as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture
+def page(server: SceneServer, browser: Browser) -> Iterator[Page]:
+    context = browser.new_context(viewport={"width": 860, "height": 340})
+    page = context.new_page()
+    page.set_default_timeout(PATIENCE)
+    page.goto(server.http)
+    page.wait_for_function("window.hosting")
+    yield page
+    context.close()
+
+
+def open_scene(page: Page, name: str) -> Frame:
+    """Open a session in a frame and wait until the whole rig is drawn."""
+    page.evaluate("name => open_scene(name)", name)
+    page.wait_for_function("name => states[name]?.ready", arg=name)
+    frame = page.frame(name)
+    assert frame is not None
+    frame.wait_for_function(f"() => ({MESHES})() > 40")
+    rendered(frame)
+    return frame
+
+
+def rendered(frame: Frame, frames: int = 3) -> None:
+    """Wait until the viewer has drawn so many more frames."""
+    counter = "window.__viserTestpoints.rendererInfo.render.frame"
+    start = frame.evaluate(counter)
+    frame.wait_for_function(f"start => {counter} >= start + {frames}", arg=start)
+
+
+def hold(page: Page, frame: Frame, name: str, theta: float, psi: float) -> None:
+    page.evaluate("([name, theta, psi]) => hold(name, theta, psi)", [name, theta, psi])
+    frame.wait_for_function(
+        f"([theta, psi]) => {{ const a = ({ANGLES})();"
+        " return Math.abs(a.theta - theta) < 1e-6 && Math.abs(a.psi - psi) < 1e-6; }",
+        arg=[theta, psi],
+    )
+    rendered(frame)
+
+
+def pixels(page: Page, frame: Frame) -> bytes:
+    """What the canvas shows, as bytes of red, green, blue and opacity."""
+    return bytes(
+        frame.evaluate(
+            """() => {
+              const source = window.__viserMutable.canvas;
+              const copy = new OffscreenCanvas(210, 165);
+              const draw = copy.getContext("2d");
+              draw.drawImage(source, 0, 0, 210, 165);
+              return [...draw.getImageData(0, 0, 210, 165).data];
+            }"""
+        )
+    )
+
+
+def changed_share(before: bytes, after: bytes) -> float:
+    """The share of pixels that differ by more than noise in any channel."""
+    different = sum(
+        any(abs(before[k + c] - after[k + c]) > 24 for c in range(4))
+        for k in range(0, len(before), 4)
+    )
+    return different / (len(before) / 4)
+
+
+def test_posted_pose_moves_the_picture_and_taking_it_back_restores_it(page: Page):
+    frame = open_scene(page, "moving")
+    rest = pixels(page, frame)
+    hold(page, frame, "moving", 0.4, 0.8)
+    moved = pixels(page, frame)
+    hold(page, frame, "moving", 0.0, 0.0)
+    assert changed_share(rest, moved) > 0.04
+    assert changed_share(rest, pixels(page, frame)) < 0.004
+
+
+def test_sessions_do_not_disturb_each_other(page: Page):
+    left, right = open_scene(page, "left"), open_scene(page, "right")
+    hold(page, right, "right", -0.2, 0.3)
+    before = pixels(page, right)
+    hold(page, left, "left", 0.3, 1.0)
+    rendered(right)
+    assert right.evaluate(ANGLES) == pytest.approx({"theta": -0.2, "psi": 0.3})
+    assert changed_share(before, pixels(page, right)) < 0.004
+
+
+def test_playback_follows_the_trajectory(page: Page):
+    frame = open_scene(page, "playing")
+    worst: dict[str, Any] = page.evaluate(
+        """async () => {
+          const t = Array.from({ length: 101 }, (_, k) => k / 50);
+          const theta = t.map((s) => 0.3 * Math.sin(2 * s)), psi = t.map((s) => 0.5 * s);
+          const zero = t.map(() => 0);
+          const player = players.playing;
+          const read = () => {
+            const scene = document.querySelector("iframe").contentWindow;
+            const of = (name) => scene.__viserMutable.nodePoseData[name].wxyz;
+            const [yoke, body] = [of("/rig/yoke"), of("/rig/yoke/body")];
+            return [-2 * Math.atan2(body[2], body[0]), -2 * Math.atan2(yoke[3], yoke[0])];
+          };
+          let [shown, largest] = [0, 0];
+          player.load({ t, theta, psi, V_p: zero, V_y: zero });
+          player.play();
+          while (player.playing) {
+            await new Promise(requestAnimationFrame);
+            const [th, ps] = read();
+            // Pitch and yaw drawn together belong to one time: yaw tells which.
+            largest = Math.max(largest, Math.abs(th - 0.3 * Math.sin(4 * ps)));
+            shown += ps > 0.02 ? 1 : 0;
+          }
+          return { shown, largest, end: player.time };
+        }"""
+    )
+    assert worst["end"] == 2.0
+    assert worst["shown"] >= 3
+    assert worst["largest"] < 1e-3  # rad: the interpolation between points 20 ms apart
+    frame.wait_for_function(
+        f"end => Math.abs(({ANGLES})().psi - end) < 1e-6", arg=worst["end"] * 0.5
+    )
+
+
+def test_changing_the_rig_keeps_the_pose(page: Page, server: SceneServer):
+    frame = open_scene(page, "rebuilt")
+    hold(page, frame, "rebuilt", 0.25, -0.4)
+    session = "rebuilt".ljust(22, "_")
+    reply = page.request.put(f"{server.http}/scene/{session}/rig", data={"rig": "aero"})
+    assert reply.status == 204
+    frame.wait_for_function(
+        "() => Math.abs(window.__viserMutable.nodePoseData['/rig/yoke/body']?.position[2]"
+        " - 0.295) < 1e-9"
+    )
+    frame.wait_for_function(f"() => Math.abs(({ANGLES})().psi + 0.4) < 1e-6")
+
+
+def test_pose_returns_after_the_connection_was_lost(page: Page, server: SceneServer):
+    frame = open_scene(page, "lost")
+    hold(page, frame, "lost", 0.1, math.pi / 3)
+    viser = server.sessions.server("lost".ljust(22, "_"))
+    assert viser is not None
+    page.evaluate("() => { window.seen = []; }")
+    page.evaluate(
+        "() => addEventListener('message', (e) => window.seen.push(e.data.state))"
+    )
+    viser._websock_server.disconnect_all_clients()  # noqa: SLF001
+    page.wait_for_function("() => seen.includes('closed') && seen.at(-1) === 'ready'")
+    frame.wait_for_function(f"() => Math.abs(({ANGLES})().psi - Math.PI / 3) < 1e-6")
+
+
+def test_scene_takes_no_poses_from_elsewhere(page: Page):
+    frame = open_scene(page, "guarded")
+    hold(page, frame, "guarded", 0.2, 0.1)
+    message = {
+        "channel": "heli2dof-scene",
+        "kind": "pose",
+        "messages": [{"type": "SetOrientationMessage", "name": "/rig/yoke", "wxyz": [0, 0, 0, 1]}],
+    }
+    # From the frame itself, which is not its parent, and then a legal one that proves arrival.
+    frame.evaluate("m => window.postMessage(m, location.origin)", message)
+    hold(page, frame, "guarded", 0.3, 0.1)
+    assert frame.evaluate(ANGLES) == pytest.approx({"theta": 0.3, "psi": 0.1})
+
+
+def test_panel_and_notices_are_hidden(page: Page):
+    frame = open_scene(page, "bare")
+    visible = frame.evaluate(
+        """() => [...document.querySelectorAll("#root *")].filter((e) =>
+             e.children.length === 0 && e.textContent.trim() && e.checkVisibility()
+             && e.getBoundingClientRect().width > 0 && !["STYLE", "SCRIPT"].includes(e.tagName)
+           ).map((e) => e.textContent.trim())"""
+    )
+    assert visible == []
