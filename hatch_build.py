@@ -57,6 +57,4 @@ def install(root: Path, scratch: Path) -> None:
         shutil.copyfile(root / name, scratch / name)
     status = npm(["ci", "--omit=dev", "--prefix", str(scratch)])
     if status:
-        raise RuntimeError(
-            f"npm ci failed with status {status}: the page's JavaScript could not be fetched"
-        )
+        raise RuntimeError(f"npm ci failed with status {status}: the page's JavaScript could not be fetched")

@@ -39,7 +39,9 @@ def serve(host: str, port: int, settings: Settings) -> int:
     except OSError as error:
         listener.close()
         why = "it is in use" if error.errno == errno.EADDRINUSE else error.strerror
-        print(f"heli2dof: cannot listen on {host} port {port}: {why}. Try --port {port + 1}.", file=sys.stderr)
+        print(
+            f"heli2dof: cannot listen on {host} port {port}: {why}. Try --port {port + 1}.", file=sys.stderr
+        )
         return 1
     config = uvicorn.Config(
         create_app(settings),
@@ -63,7 +65,10 @@ def main(arguments: list[str] | None = None) -> None:
     command = commands.add_parser("serve", help="start the app and print its address")
     command.add_argument("--host", default="127.0.0.1", help="address to listen on (%(default)s)")
     command.add_argument(
-        "--port", type=int, default=int(os.environ.get("PORT", "8000")), help="TCP port (%(default)s, or $PORT)"
+        "--port",
+        type=int,
+        default=int(os.environ.get("PORT", "8000")),
+        help="TCP port (%(default)s, or $PORT)",
     )
     command.add_argument("--scenes", type=int, default=100, help="most 3D scenes at once (%(default)s)")
     options = parser.parse_args(arguments)

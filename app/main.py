@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import AsyncIterator
 from importlib.metadata import PackageNotFoundError, version
+from typing import Any
 
 from fastapi import FastAPI, Response
 from fastapi.openapi.docs import get_swagger_ui_html
@@ -75,7 +76,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 class RevalidatedFiles(StaticFiles):
     """Static files that browsers ask about again (ETag), so that an upgrade shows at once."""
 
-    def file_response(self, *args, **kwargs) -> Response:  # noqa: ANN002, ANN003 - starlette's own signature
+    def file_response(self, *args: Any, **kwargs: Any) -> Response:
+        """As starlette does, with no-cache."""
         response = super().file_response(*args, **kwargs)
         response.headers["Cache-Control"] = "no-cache"
         return response

@@ -245,7 +245,7 @@ class Method(Model):
 FULL_RANK = Method(
     name="full-rank",
     title="Full-rank state feedback through Luenberger's canonical form",
-    source="Patel & Munro, Multivariable System Theory and Design, 1982; Luenberger, IEEE TAC 12 (1967) 290–293",
+    source="Patel & Munro, Multivariable System Theory and Design, 1982; Luenberger, IEEE TAC 12 (1967) 290",
     couplings=["triangular", "input-diagonal", "axis-decoupled"],
     leads=["pitch", "yaw"],
 )

@@ -63,9 +63,7 @@ def problem_of(error: Exception) -> dict[str, Any]:
 
 def problem_response(body: Mapping[str, Any], headers: Mapping[str, str] | None = None) -> Response:
     """A problem object as an HTTP response."""
-    return Response(
-        json_bytes(body), body["status"], headers=headers, media_type="application/problem+json"
-    )
+    return Response(json_bytes(body), body["status"], headers=headers, media_type="application/problem+json")
 
 
 def install(app: FastAPI) -> None:

@@ -61,8 +61,8 @@ Pole = Annotated[
 ParameterChanges = create_model(
     "ParameterChanges",
     __base__=Strict,
-    **{  # pyright: ignore[reportArgumentType]
-        name: (float | None, Field(None, description=f"{info['meaning']}, {info['unit']}"))
+    **{  # pyright: ignore[reportArgumentType, reportCallIssue]
+        name: (float | None, Field(default=None, description=f"{info['meaning']}, {info['unit']}"))
         for name, info in PARAMETER_INFO.items()
     },
 )
@@ -71,22 +71,22 @@ ParameterChanges = create_model(
 class LimitChanges(Strict):
     """Limits that differ from the preset's."""
 
-    V_p: float | None = Field(None, description="limit of |V_p|, V")
-    V_y: float | None = Field(None, description="limit of |V_y|, V")
-    theta: float | None = Field(None, description="pitch travel ±theta, rad; null where it is free")
+    V_p: float | None = Field(default=None, description="limit of |V_p|, V")
+    V_y: float | None = Field(default=None, description="limit of |V_y|, V")
+    theta: float | None = Field(default=None, description="pitch travel ±theta, rad; null where it is free")
 
 
 class OperatingPoint(Strict):
     """Where the rig rests and the model is linearized."""
 
-    theta: float = Field(0.0, description="pitch angle θ₀, rad")
+    theta: float = Field(default=0.0, description="pitch angle θ₀, rad")
 
 
 class LoopChanges(Strict):
     """PI(s) = kp (1 + 1/(ti s)) of one axis."""
 
-    kp: float | None = Field(None, description="V/rad")
-    ti: float | None = Field(None, description="s")
+    kp: float | None = Field(default=None, description="V/rad")
+    ti: float | None = Field(default=None, description="s")
 
 
 class LoopsChanges(Strict):
@@ -99,19 +99,23 @@ class LoopsChanges(Strict):
 class DesignRequest(Strict):
     """A design: what differs from the preset."""
 
-    preset: str = Field(DEFAULT, description="name of a preset, see GET /api/v1/presets")
+    preset: str = Field(default=DEFAULT, description="name of a preset, see GET /api/v1/presets")
     parameters: ParameterChanges = ParameterChanges()  # pyright: ignore[reportInvalidTypeForm]
     limits: LimitChanges = LimitChanges()
     operating_point: OperatingPoint | None = None
     poles: list[Pole] | None = Field(
-        None, min_length=4, max_length=4, description="p₁, p₂ (pitch's pair), p₃, p₄ (yaw's), rad/s"
+        default=None, min_length=4, max_length=4, description="p₁, p₂ (pitch's pair), p₃, p₄ (yaw's), rad/s"
     )
     method: Literal["full-rank"] = "full-rank"
     coupling: Coupling | None = None
-    lead: Lead | None = Field(None, description="axis that leads where the coupling is triangular")
-    outer: Outer | None = Field(None, description="pi: two PI loops (Fig. 3); none: inner loop alone (Fig. 2)")
+    lead: Lead | None = Field(default=None, description="axis that leads where the coupling is triangular")
+    outer: Outer | None = Field(
+        default=None, description="pi: two PI loops (Fig. 3); none: inner loop alone (Fig. 2)"
+    )
     pairing: Pairing | None = None
-    decoupler: bool | None = Field(None, description="static decoupler between the PI loops and the motors")
+    decoupler: bool | None = Field(
+        default=None, description="static decoupler between the PI loops and the motors"
+    )
     loops: LoopsChanges = LoopsChanges()
 
     def to_spec(self) -> Spec:
@@ -127,9 +131,7 @@ class DesignRequest(Strict):
             limits=replace(base.limits, **self._limits()),
             theta_0=point,
             poles=base.poles if self.poles is None else PoleSet(self.poles),
-            structure=Structure(
-                self.coupling or base.structure.coupling, self.lead or base.structure.lead
-            ),
+            structure=Structure(self.coupling or base.structure.coupling, self.lead or base.structure.lead),
             outer=self._outer(base),
             scenario=base.scenario,
         )
@@ -156,38 +158,40 @@ class DesignRequest(Strict):
 class RgaRequest(DesignRequest):
     """A design, and frequencies at which |RGA(jω)| is wanted."""
 
-    frequencies: list[Annotated[float, Field(ge=0, le=1e6)]] = Field([], max_length=2000, description="rad/s")
+    frequencies: list[Annotated[float, Field(ge=0, le=1e6)]] = Field(
+        default=[], max_length=2000, description="rad/s"
+    )
 
 
 class Reference(Strict):
     """Reference angles after t = 0, absolute."""
 
-    theta: float | None = Field(None, description="rad")
-    psi: float | None = Field(None, description="rad")
+    theta: float | None = Field(default=None, description="rad")
+    psi: float | None = Field(default=None, description="rad")
 
 
 class Initial(Strict):
     """State at t = 0; angles are absolute, and at rest where left out."""
 
-    theta: float | None = Field(None, description="rad")
-    psi: float | None = Field(None, description="rad")
-    theta_dot: float = Field(0.0, description="rad/s")
-    psi_dot: float = Field(0.0, description="rad/s")
+    theta: float | None = Field(default=None, description="rad")
+    psi: float | None = Field(default=None, description="rad")
+    theta_dot: float = Field(default=0.0, description="rad/s")
+    psi_dot: float = Field(default=0.0, description="rad/s")
 
 
 class ScenarioChanges(Strict):
     """An experiment: references step at t = 0; without a reference the preset's own is used."""
 
-    model: Model = Field("nonlinear", description="ignored by evaluate, which computes both")
+    model: Model = Field(default="nonlinear", description="ignored by evaluate, which computes both")
     reference: Reference | None = None
-    duration: float | None = Field(None, description="s")
-    samples: int | None = Field(None, description="t = linspace(0, duration, samples)")
+    duration: float | None = Field(default=None, description="s")
+    samples: int | None = Field(default=None, description="t = linspace(0, duration, samples)")
     initial: Initial = Initial()
     saturation: bool = True
     anti_windup: AntiWindup = "clamping"
     travel_stops: bool = True
     trim_feedforward: bool = True
-    rtol: float = Field(1e-8, description="tolerance of the nonlinear integration")
+    rtol: float = Field(default=1e-8, description="tolerance of the nonlinear integration")
 
     def to_scenario(self, base: Scenario) -> Scenario:
         """The core's scenario; `base` is the preset's.
@@ -226,7 +230,7 @@ class StepRequest(DesignRequest):
 class EvaluateRequest(StepRequest):
     """As a step request; both models are computed."""
 
-    each_axis: bool = Field(False, description="also step each axis of the reference alone")
+    each_axis: bool = Field(default=False, description="also step each axis of the reference alone")
 
 
 class LiveRequest(EvaluateRequest):

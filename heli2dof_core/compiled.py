@@ -50,7 +50,7 @@ def accelerations() -> Callable[..., tuple[float, float]]:
     from .symbolic.mechanics import mechanics
 
     arguments = [names.theta, names.theta_dot, names.psi_dot, names.V_p, names.V_y]
-    return _compile([*arguments, *names.PARAMETERS.values()], tuple(mechanics().accelerations))
+    return _compile([*arguments, *names.PARAMETERS.values()], list(mechanics().accelerations.flat()))
 
 
 def warm_up() -> None:

@@ -73,8 +73,8 @@ class Loop:
     @cached_property
     def poles(self) -> Complexes:
         """Poles of the whole loop, rad/s: six with PI, four without; slowest first."""
-        values = np.linalg.eigvals(self.A).astype(complex)
-        return values[np.lexsort((-values.imag, -values.real))]
+        values: Complexes = np.linalg.eigvals(self.A).astype(np.complex128)
+        return values[np.lexsort((-np.imag(values), -np.real(values)))]
 
     @property
     def stable(self) -> bool:

@@ -49,7 +49,7 @@ def _margins(loop: Loop, motor: int) -> Margins:
     b = np.zeros(n)
     b[:4] = loop.design.plant.B[:, motor]
     c = -loop.voltage_from_state[motor]
-    A = loop.A + np.outer(b, c)
+    A = loop.A + b[:, None] * c
 
     def response(omega: float) -> complex:
         return complex(c @ np.linalg.solve(1j * omega * np.eye(n) - A, b))
@@ -88,7 +88,5 @@ def _phase_crossovers(A: Floats, b: Floats, c: Floats) -> list[float]:
 def _imaginary(values: np.ndarray) -> list[float]:
     largest = float(np.max(np.abs(values), initial=0.0))
     return [
-        float(v.imag)
-        for v in values
-        if v.imag > 1e-9 * max(largest, 1.0) and abs(v.real) <= ON_AXIS * abs(v)
+        float(v.imag) for v in values if v.imag > 1e-9 * max(largest, 1.0) and abs(v.real) <= ON_AXIS * abs(v)
     ]

@@ -82,4 +82,3 @@ class Parameters:
 
 PARAMETER_INFO: dict[str, dict[str, Any]] = {f.name: dict(f.metadata) for f in fields(Parameters)}
 """Per parameter: meaning, unit and the lowest value allowed."""
-

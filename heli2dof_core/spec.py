@@ -105,4 +105,3 @@ class Scenario:
         require_within(self.samples, "scenario.samples", "", 2, MOST_SAMPLES)
         require_one_of(self.anti_windup, AntiWindup, "scenario.anti_windup")
         require_within(self.rtol, "scenario.rtol", "", 1e-12, 1e-2)
-

@@ -71,7 +71,9 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
         close_loop(design, replace(outer, outer="pi", pitch=pitch, yaw=yaw))
         for pitch, yaw in product(*([_scaled(f, *g) for f in FACTORS] for g in gains))
     )
-    best = max((loop for loop in candidates if loop.stable), key=lambda loop: _merit(loop, target), default=None)
+    best = max(
+        (loop for loop in candidates if loop.stable), key=lambda loop: _merit(loop, target), default=None
+    )
     if best is None:
         raise InvalidInputError(
             "no PI values were found that keep the whole loop stable",
@@ -92,4 +94,3 @@ def _scaled(factor: float, kp: float, ti: float) -> PIGains:
 
 def _least_damping(poles: Complexes) -> float:
     return float(np.min(-poles.real / np.abs(poles)))
-

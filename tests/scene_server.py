@@ -43,9 +43,7 @@ def until(condition: Callable[[], object], what: str, seconds: float = 20.0) -> 
 
 
 @contextmanager
-def serving(
-    capacity: int = 8, idle_seconds: float = 45.0, host_page: str = ""
-) -> Iterator[SceneServer]:
+def serving(capacity: int = 8, idle_seconds: float = 45.0, host_page: str = "") -> Iterator[SceneServer]:
     """Run the app in a thread for as long as the context lasts."""
     sessions = SceneSessions(capacity, idle_seconds)
 
@@ -61,9 +59,7 @@ def serving(
         from fastapi.responses import HTMLResponse
 
         app.add_route("/", lambda _: HTMLResponse(host_page))
-    config = uvicorn.Config(
-        app, host="127.0.0.1", port=0, log_level="warning", ws_per_message_deflate=False
-    )
+    config = uvicorn.Config(app, host="127.0.0.1", port=0, log_level="warning", ws_per_message_deflate=False)
     server = uvicorn.Server(config)
     thread = threading.Thread(target=server.run, daemon=True)
     thread.start()

@@ -22,7 +22,9 @@ def build_router(compute: Compute) -> APIRouter:
     async def gains(request: DesignRequest) -> Response:
         return _json(await compute.run(lambda: replies.gains_reply(place(request.to_spec()))))
 
-    @router.post("/rga", **models.described(models.Rga, "Relative gain array, pairing and Niederlinski index"))
+    @router.post(
+        "/rga", **models.described(models.Rga, "Relative gain array, pairing and Niederlinski index")
+    )
     async def rga(request: RgaRequest) -> Response:
         def work() -> replies.Reply:
             design = place(request.to_spec())
@@ -39,7 +41,9 @@ def build_router(compute: Compute) -> APIRouter:
 
         return _json(await compute.run(work))
 
-    @router.post("/evaluate", **models.described(models.Evaluation, "Everything that a design changes, at once"))
+    @router.post(
+        "/evaluate", **models.described(models.Evaluation, "Everything that a design changes, at once")
+    )
     async def evaluate_(request: EvaluateRequest) -> Response:
         def work() -> replies.Reply:
             spec = request.to_spec()

@@ -60,9 +60,7 @@ def glb(parts: Sequence[Part]) -> bytes:
 
     def store(data: bytes, target: int, accessor: dict[str, Any]) -> int:
         body.extend(bytes(-len(body) % 4))
-        views.append(
-            {"buffer": 0, "byteOffset": len(body), "byteLength": len(data), "target": target}
-        )
+        views.append({"buffer": 0, "byteOffset": len(body), "byteLength": len(data), "target": target})
         accessors.append({"bufferView": len(views) - 1, **accessor})
         body.extend(data)
         return len(accessors) - 1

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from typing import Any
 
 import msgspec
 from fastapi import WebSocket, WebSocketDisconnect
@@ -25,9 +24,7 @@ _Quaternion = tuple[float, float, float, float]
 _Vector = tuple[float, float, float]
 
 
-class _ViewerCamera(
-    msgspec.Struct, tag_field="type", tag="ViewerCameraMessage", forbid_unknown_fields=True
-):
+class _ViewerCamera(msgspec.Struct, tag_field="type", tag="ViewerCameraMessage", forbid_unknown_fields=True):
     """Where the visitor looks from; viser counts a client as present from its first one."""
 
     wxyz: _Quaternion
@@ -115,7 +112,7 @@ async def _down(upstream: ClientConnection, visitor: WebSocket) -> tuple[int, st
 async def _up(visitor: WebSocket, upstream: ClientConnection) -> tuple[int, str]:
     """Carry the visitor's admissible frames to viser; return how to close the visitor."""
     while True:
-        message: dict[str, Any] = await visitor.receive()
+        message = await visitor.receive()
         if message["type"] == "websocket.disconnect":
             return 1000, ""
         frame = message.get("bytes")

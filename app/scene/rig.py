@@ -9,7 +9,7 @@ from __future__ import annotations
 import functools
 
 import rich
-from viser import ViserServer
+from viser import GlbHandle, ViserServer
 
 from heli2dof_core.geometry import RigGeometry, RigName, geometry
 
@@ -17,6 +17,8 @@ from . import machine
 from .glb import glb
 
 LOOPBACK = "127.0.0.1"
+Point = tuple[float, float, float]
+ORIGIN: Point = (0.0, 0.0, 0.0)
 
 # viser prints a table of addresses per server, to standard output, whatever `verbose` says.
 rich.reconfigure(quiet=True)
@@ -69,27 +71,29 @@ def _build(server: ViserServer, rig: RigGeometry) -> None:
     scene, files = server.scene, _files(rig.name)
     pivot = (0.0, 0.0, rig.pivot_height)
 
-    # Round parts that receive shadows show the shadow map's steps, so only the flat base does.
-    round_part = {"receive_shadow": False}
-    flat = {"cast_shadow": False, "receive_shadow": False}
-    scene.add_glb("/rig/base", files["base"])
-    scene.add_glb("/rig/mast", files["mast"], **round_part)
-    scene.add_glb("/rig/scale", files["scale"], cast_shadow=False)
+    def part(node: str, file: str, *, at: Point = ORIGIN, solid: bool = True) -> GlbHandle:
+        # Round parts that receive shadows show the shadow map's steps, so only the flat base does.
+        flat_top = file == "base"
+        return scene.add_glb(node, files[file], position=at, cast_shadow=solid, receive_shadow=flat_top)
+
+    part("/rig/base", "base")
+    part("/rig/mast", "mast")
+    part("/rig/scale", "scale", solid=False)
     scene.add_frame("/rig/yoke", show_axes=False)
-    scene.add_glb("/rig/yoke/shape", files["yoke"], **round_part)
+    part("/rig/yoke/shape", "yoke")
     scene.add_frame("/rig/yoke/body", show_axes=False, position=pivot)
-    scene.add_glb("/rig/yoke/body/shape", files["body"], **round_part)
+    part("/rig/yoke/body/shape", "body")
     for name, rotor in (("pitch", rig.pitch_rotor), ("yaw", rig.yaw_rotor)):
         node, hub = f"/rig/yoke/body/{name}", machine.hub_position(rotor)
-        scene.add_glb(f"{node}_rotor", files[f"{name}_rotor"], position=hub, **round_part)
-        scene.add_glb(f"{node}_blur", files[f"{name}_blur"], position=hub, visible=False, **flat)
+        part(f"{node}_rotor", f"{name}_rotor", at=hub)
+        part(f"{node}_blur", f"{name}_blur", at=hub, solid=False).visible = False
 
     # The page shows the ghost where the reference differs from the pose.
     scene.add_frame("/ghost", show_axes=False, visible=False)
     scene.add_frame("/ghost/yoke", show_axes=False)
-    scene.add_glb("/ghost/yoke/shape", files["ghost_yoke"], **flat)
+    part("/ghost/yoke/shape", "ghost_yoke", solid=False)
     scene.add_frame("/ghost/yoke/body", show_axes=False, position=pivot)
-    scene.add_glb("/ghost/yoke/body/shape", files["ghost_body"], **flat)
+    part("/ghost/yoke/body/shape", "ghost_body", solid=False)
 
     _light(server, rig)
     _frame(server, rig)
@@ -101,11 +105,11 @@ def _light(server: ViserServer, rig: RigGeometry) -> None:
     # shadow for a third of the work, and the client's built-in surroundings give the metal shine.
     scene.configure_default_lights(enabled=False)
     lamp = (0.55, -0.35, 1.7)
-    target = (0.0, 0.0, 0.75 * rig.pivot_height)
+    aim = 0.75 * rig.pivot_height
     scene.add_light_spot(
         "/light/key",
         position=lamp,
-        direction=tuple(b - a for a, b in zip(lamp, target, strict=True)),
+        direction=(-lamp[0], -lamp[1], aim - lamp[2]),
         intensity=4.2,
         angle=0.50,
         penumbra=0.7,

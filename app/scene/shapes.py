@@ -50,9 +50,7 @@ def merged(meshes: Iterable[Mesh]) -> Mesh:
     )
 
 
-def lathe(
-    profile: Sequence[tuple[float, float]], segments: int = 40, *, smooth: bool = False
-) -> Mesh:
+def lathe(profile: Sequence[tuple[float, float]], segments: int = 40, *, smooth: bool = False) -> Mesh:
     """Turn a closed or open profile of (radius, height) about z; its outside is on the right.
 
     With `smooth` the profile is a closed curve without repeated end and is rounded along itself;
@@ -81,9 +79,7 @@ def lathe(
     columns = np.arange(segments)
     first = (2 * np.arange(len(edge)) * (segments + 1))[:, None] + columns
     second = first + segments + 1
-    faces = np.stack(
-        [first, first + 1, second + 1, first, second + 1, second], axis=-1
-    ).reshape(-1, 3)
+    faces = np.stack([first, first + 1, second + 1, first, second + 1, second], axis=-1).reshape(-1, 3)
     return Mesh(swept(edge).reshape(-1, 3), swept(normal).reshape(-1, 3), faces)
 
 
@@ -108,9 +104,7 @@ def hoop(radius: float, height: float, thickness: float, *, segments: int = 56) 
 def torus(radius: float, thickness: float, *, segments: int = 56) -> Mesh:
     """Return a round wire of the given thickness bent to a circle about z (metres)."""
     angle = np.linspace(0.0, 2.0 * math.pi, 10, endpoint=False)
-    curve = [
-        (radius + thickness / 2 * math.cos(a), thickness / 2 * math.sin(a)) for a in angle
-    ]
+    curve = [(radius + thickness / 2 * math.cos(a), thickness / 2 * math.sin(a)) for a in angle]
     return lathe(curve, segments, smooth=True)
 
 

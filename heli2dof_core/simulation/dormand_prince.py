@@ -26,9 +26,7 @@ _A[3, :3] = [44 / 45, -56 / 15, 32 / 9]
 _A[4, :4] = [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729]
 _A[5, :5] = [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656]
 _A[6, :6] = [35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84]
-_ERROR = _A[6] - np.array(
-    [5179 / 57600, 0, 7571 / 16695, 393 / 640, -92097 / 339200, 187 / 2100, 1 / 40]
-)
+_ERROR = _A[6] - np.array([5179 / 57600, 0, 7571 / 16695, 393 / 640, -92097 / 339200, 187 / 2100, 1 / 40])
 _DENSE = np.array(
     [
         -12715105075 / 11282082432,
@@ -77,9 +75,11 @@ def integrate(
 
     Args:
         rate: the right-hand side.
-        t, state: start, s and shape (n,).
+        t: start, s.
+        state: start, shape (n,).
         samples: increasing times at which the states are wanted, shape (m,).
-        rtol, atol: relative and absolute tolerance per step, in the states' units.
+        rtol: relative tolerance per step.
+        atol: absolute tolerance per step, in the states' units.
         event: its change from < 0 to ≥ 0 ends the integration, located on the continuous output.
         most_steps: after that many steps the system counts as stiff.
 
@@ -94,6 +94,7 @@ def integrate(
     before = event(state) if event else 0.0
     for _ in range(most_steps):
         step = min(step, end - t)
+        trial = state
         for i in range(1, 7):
             trial = state + step * (_A[i, :i] @ k[:i])
             k[i] = rate(trial)
@@ -116,10 +117,7 @@ def integrate(
             shares = (samples[done : done + count] - t) / step
             states[:, done : done + count] = _continuous(state, trial, step, k, shares)
             done += count
-        if found:
-            state = _continuous(state, trial, step, k, np.array([share]))[:, 0]
-        else:
-            state = trial
+        state = _continuous(state, trial, step, k, np.array([share]))[:, 0] if found else trial
         t, before = reached, after
         if found or t >= end:
             return Segment(states[:, :done], t, state, found)

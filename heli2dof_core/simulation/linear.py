@@ -32,7 +32,7 @@ def simulate_linear(loop: Loop, scenario: Scenario) -> Response:
 
     t = np.linspace(0.0, scenario.duration, scenario.samples)
     with np.errstate(over="ignore", invalid="ignore"):
-        states = propagate(expm(augmented * t[1]), state, scenario.samples)
+        states = propagate(np.asarray(expm(augmented * t[1]), dtype=np.float64), state, scenario.samples)
         voltages = loop.voltage_from_state @ states[:n]
         voltages += (loop.voltage_from_reference @ (reference - rest))[:, None]
         angles = states[:2] + rest[:, None]

@@ -160,13 +160,15 @@ def _run(
     state, time, done, impacts = system.start, 0.0, 0, 0
     if abs(state[0]) > system.travel:
         state = system.switch(state)
-        findings.append(Finding("starts_on_stop", "warning", "The start lies beyond a stop of the pitch travel."))
+        findings.append(
+            Finding("starts_on_stop", "warning", "The start lies beyond a stop of the pitch travel.")
+        )
+    rtol, atol = scenario.rtol, ABSOLUTE_TOLERANCE * scenario.rtol
     fastest = float(np.max(np.abs(loop.poles)))
     method = integrate_stiff if fastest * scenario.duration > STIFF else integrate
-    tolerances = {"rtol": scenario.rtol, "atol": ABSOLUTE_TOLERANCE * scenario.rtol}
     try:
         while done < scenario.samples and impacts < MOST_IMPACTS:
-            segment = method(system.rate, time, state, t[done:], event=system.event, **tolerances)
+            segment = method(system.rate, time, state, t[done:], event=system.event, rtol=rtol, atol=atol)
             reached = segment.states.shape[1]
             states[:, done : done + reached] = segment.states
             done, time, state = done + reached, segment.t, segment.state

@@ -45,11 +45,11 @@ def mechanics() -> Mechanics:
     q, rates = sp.Matrix([theta, psi]), sp.Matrix([theta_dot, psi_dot])
     m, l = P["m"], P["l"]  # noqa: E741
 
-    centre = l * sp.Matrix([sp.cos(psi) * sp.cos(theta), -sp.sin(psi) * sp.cos(theta), sp.sin(theta)])
-    velocity = centre.jacobian(q) * rates
+    direction = sp.Matrix([sp.cos(psi) * sp.cos(theta), -sp.sin(psi) * sp.cos(theta), sp.sin(theta)])
+    velocity = l * direction.jacobian(q) * rates
     translation = _without_squared_sines(velocity.dot(velocity))
     kinetic = m * translation / 2 + P["J_p"] * theta_dot**2 / 2 + P["J_y"] * psi_dot**2 / 2
-    potential = m * P["g"] * centre[2] + P["K_s"] * theta**2 / 2
+    potential = m * P["g"] * l * direction[2] + P["K_s"] * theta**2 / 2
 
     momentum = sp.Matrix([kinetic]).jacobian(rates).T
     mass_matrix = momentum.jacobian(rates).expand()

@@ -1,5 +1,8 @@
 """Formulas for people and for tools: grouped, as SymPy text, LaTeX and MathML."""
 
+# pyright: reportArgumentType=false, reportCallIssue=false
+# (SymPy annotates its functions with classes that are wider than what they return.)
+
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -14,10 +17,30 @@ from ..couplings import Structure
 from .full_rank import full_rank, indices, plant
 from .linearization import linear_model
 from .luenberger import controllability_matrix
-from .names import COEFFICIENTS_OF_POLES, LATEX, NAMES, PARAMETERS, Name, d_11, d_21, gamma_, p_1, p_2, p_3, p_4, s
+from .names import (
+    COEFFICIENTS_OF_POLES,
+    LATEX,
+    NAMES,
+    PARAMETERS,
+    Name,
+    d_11,
+    d_21,
+    gamma_,
+    p_1,
+    p_2,
+    p_3,
+    p_4,
+    s,
+)
 from .rga import relative_gain_array, transfer_matrix
 
 _DETERMINANT = PARAMETERS["K_pp"] * PARAMETERS["K_yy"] - PARAMETERS["K_py"] * PARAMETERS["K_yp"]
+_SUMS = {sp.Dummy(): p_1 + p_2, sp.Dummy(): p_3 + p_4}
+_SIGNED = {  # −(p₁ + p₂) keeps its sign outside the bracket only if the bracket is a name at first
+    **COEFFICIENTS_OF_POLES,
+    **{d: -name for d, name in zip((d_11, d_21), _SUMS, strict=True)},
+}
+_ORDER = [PARAMETERS[name] for name in ("K_pp", "K_yy", "K_py", "K_yp")]
 
 
 @dataclass(frozen=True)
@@ -65,7 +88,9 @@ def symbolic_report(structure: Structure) -> SymbolicReport:
         "RGA": grouped(relative_gain_array(structure)),
     }
     short = {str(name): value for name, value in model.definitions.items()}
-    used = set().union(*(m.free_symbols for m in matrices.values()), *(v.free_symbols for v in short.values()))
+    used = set().union(
+        *(m.free_symbols for m in matrices.values()), *(v.free_symbols for v in short.values())
+    )
     used |= {sp.Symbol(name) for name in short}
     return SymbolicReport(
         formulas={name: formula(matrix) for name, matrix in matrices.items()},
@@ -108,14 +133,6 @@ def group(expression: sp.Expr) -> sp.Expr:
     with_gamma = [term for term in sp.Add.make_args(sp.expand(numerator)) if term.has(gamma_)]
     without = [term for term in sp.Add.make_args(sp.expand(numerator)) if not term.has(gamma_)]
     return sp.Add(*(_part(part, denominator) for part in (with_gamma, without) if part))
-
-
-_SUMS = {sp.Dummy(): p_1 + p_2, sp.Dummy(): p_3 + p_4}
-_SIGNED = {  # −(p₁ + p₂) keeps its sign outside the bracket only if the bracket is a name at first
-    **COEFFICIENTS_OF_POLES,
-    **{d: -name for d, name in zip((d_11, d_21), _SUMS, strict=True)},
-}
-_ORDER = [PARAMETERS[name] for name in ("K_pp", "K_yy", "K_py", "K_yp")]
 
 
 def _part(terms: Iterable[sp.Expr], denominator: sp.Expr) -> sp.Expr:

