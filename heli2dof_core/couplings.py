@@ -39,22 +39,22 @@ class Structure:
             object.__setattr__(self, "lead", "pitch")
 
 
-def require_structure(parameters: Parameters, structure: Structure) -> None:
-    """Raises if the rig has no such structure.
-
-    Raises:
-        UncontrollableError: γ = 0, the motors' torques are parallel.
-        StructureUnavailableError: the leading axis' own motor has no thrust on it.
-    """
+def require_controllable(parameters: Parameters) -> None:
+    """Raises UncontrollableError if γ = 0: the motors' torques are parallel."""
     p = parameters
     products = abs(p.K_pp * p.K_yy) + abs(p.K_py * p.K_yp)
     if abs(p.gamma) <= NEGLIGIBLE * products:
         raise UncontrollableError(
-            "the rig is not controllable: K_pp K_yy = K_py K_yp, so both motors push one way",
+            "the rig is not controllable: K_pp K_yy = K_py K_yp, so both motors push alike",
             field="parameters",
             value=p.gamma,
             hint="Change one thrust constant so that K_pp K_yy and K_py K_yp differ.",
         )
+
+
+def require_structure(parameters: Parameters, structure: Structure) -> None:
+    """Raises StructureUnavailableError if the leading axis' own motor has no thrust on it."""
+    p = parameters
     if structure.coupling != "triangular":
         return
     own, name = (p.K_pp, "K_pp") if structure.lead == "pitch" else (p.K_yy, "K_yy")

@@ -58,7 +58,6 @@ def design(plant: Plant, poles: PoleSet, structure: Structure = Structure()) -> 
     """Places the four poles by full-rank state feedback, by the derived closed form.
 
     Raises:
-        UncontrollableError: the rig's motors cannot move both axes.
         StructureUnavailableError: the rig has no such structure.
     """
     parameters = plant.parameters

@@ -8,6 +8,7 @@ import numpy as np
 
 from .checks import require_within
 from .compiled import linear_matrices
+from .couplings import require_controllable
 from .parameters import Parameters
 from .signals import Floats
 
@@ -38,7 +39,9 @@ def plant(parameters: Parameters, theta_0: float = 0.0) -> Plant:
 
     Raises:
         InvalidInputError: `theta_0` is not a number within ±`STEEPEST`.
+        UncontrollableError: the motors cannot hold the rig, as their torques are parallel.
     """
+    require_controllable(parameters)
     angle = require_within(theta_0, "operating_point.theta", "rad", -STEEPEST, STEEPEST)
     A, B, trim = linear_matrices()(*parameters.as_dict().values(), angle)
     return Plant(parameters, angle, np.array(A, dtype=float), np.array(B, dtype=float), np.array(trim))

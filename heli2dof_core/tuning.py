@@ -18,7 +18,7 @@ DAMPING = 0.7
 EASED = 0.8
 """Share of the placed poles' own least damping that must remain where they have less."""
 
-FACTORS = np.geomspace(0.05, 4.0, 18)
+FACTORS = np.geomspace(0.01, 4.0, 22)
 """Factors on each axis' own kp that are tried, for both axes independently."""
 
 RULE = (

@@ -154,6 +154,11 @@ export function poseMessages(pose) {
   return messages;
 }
 
+/** Returns whether this browser can draw the scene at all. */
+export function webglSupported() {
+  return document.createElement("canvas").getContext("webgl2") !== null;
+}
+
 /** Plays a trajectory in the scene of a frame, in real time. */
 export class ScenePlayer {
   /**
@@ -182,6 +187,8 @@ export class ScenePlayer {
   #time = 0;
   #playing = false;
   #ready = false;
+  /** Whether the scene holds the rig's nodes: also while its connection is lost. */
+  #drawn = false;
   #reason = "";
   /** @type {boolean | null} */
   #dark = null;
@@ -293,8 +300,10 @@ export class ScenePlayer {
   #listen = (event) => {
     const ours = event.source === this.#iframe.contentWindow && event.origin === location.origin;
     if (!ours || event.data?.channel !== CHANNEL) return;
-    this.#ready = event.data.state === "ready";
-    this.#reason = event.data.reason ?? "";
+    const { state, reason } = event.data;
+    this.#ready = state === "ready";
+    this.#drawn = this.#ready || (this.#drawn && state === "closed");
+    this.#reason = reason ?? "";
     // The scene was built anew and has forgotten what it was told.
     if (this.#ready) {
       this.#sent.clear();
@@ -313,7 +322,7 @@ export class ScenePlayer {
   /** Sends the pose at the present time, as far as the scene does not show it already. */
   #move() {
     const trajectory = this.#trajectory;
-    if (trajectory === null || !this.#ready) return;
+    if (trajectory === null || !this.#drawn) return;
     const sample = sampleTrajectory(trajectory, this.#time);
     const { pitch, yaw } = this.#angles;
     const [pitchRotor, yawRotor] = interpolate(trajectory.t, [pitch, yaw], this.#time);

@@ -13,6 +13,10 @@
   ]);
   const framed = window.parent !== window;
 
+  // Viser's client obeys its address: ?websocket= would connect it to any server, and
+  // ?playbackPath= load any recording, either of which may carry scripts into this origin.
+  history.replaceState(null, "", location.pathname);
+
   /** @type {Worker | null} The worker that holds viser's socket. */
   let socketWorker = null;
   let state = { state: "loading", reason: "" };

@@ -104,7 +104,8 @@ def yoke_parts(rig: RigGeometry) -> list[Part]:
     ticks = pitch_ticks(0.041, 0.055).turned("x", math.pi / 2)
     parts.append((PAPER, dial.moved(y=-face - 0.0012, z=pivot)))
     parts.append((INK, ticks.moved(y=-face - 0.0020, z=pivot)))
-    parts.append((Material(YAW_COLOR, roughness=0.7), _pointer(rig).moved(z=0.0020)))
+    # Flat under the lamp, the axis's own colour would look pale.
+    parts.append((Material("#174a72", roughness=0.9), _pointer(rig).moved(z=0.0020)))
     return parts
 
 
@@ -170,8 +171,8 @@ def hub_position(rotor: Rotor) -> tuple[float, float, float]:
 
 
 def _scale_radius(rig: RigGeometry) -> float:
-    """Return the yaw scale's radius: just outside the sweep of the guards, at most 0.33 m."""
-    return min(rig.reach + 0.02, 0.33)
+    """Return the yaw scale's radius in metres: around the base, and whole in the first view."""
+    return min(rig.reach + 0.02, 0.285)
 
 
 def _pointer(rig: RigGeometry) -> Mesh:

@@ -1,6 +1,7 @@
 """The scene over the wire: page, socket, allow-list, isolation, capacity and idle sessions."""
 
 import asyncio
+import re
 import threading
 import time
 import urllib.error
@@ -236,6 +237,18 @@ def test_rig_changes_for_those_who_watch_and_only_when_it_differs(server: SceneS
 @pytest.mark.parametrize("body", ['{"rig": "submarine"}', "{}", '{"rig": "aero", "x": 1}', "no"])
 def test_unknown_rigs_are_refused(server: SceneServer, body: str):
     assert put_rig(server, "refused", body)[0] == 422
+
+
+def test_everything_works_under_a_path_prefix():
+    with serving(prefix="/lab/one") as mounted:
+        url = f"{mounted.http}/scene/{session_id('prefix')}"
+        with urllib.request.urlopen(url, timeout=20) as response:
+            page, address = response.read().decode(), response.url
+        (shim,) = re.findall(r'<script src="([^"]+)">', page)
+        assert answer(urllib.parse.urljoin(address, shim))[0] == 200
+        assert put_rig(mounted, "prefix", '{"rig": "aero"}')[0] == 204
+        with watch(mounted, "prefix") as socket:
+            assert replay(socket)
 
 
 def test_full_server_says_so_and_makes_room_when_someone_leaves(monkeypatch: pytest.MonkeyPatch):

@@ -97,8 +97,8 @@ describe("ScenePlayer", () => {
 
   /** Runs the waiting animation frames at a time in milliseconds. */
   const frame = (now) => frames.splice(0).forEach((callback) => callback(now));
-  const say = (state, source = scene, origin = "http://lab") =>
-    listeners.message({ source, origin, data: { channel: "heli2dof-scene", state } });
+  const say = (state, source = scene, origin = "http://lab", reason = "") =>
+    listeners.message({ source, origin, data: { channel: "heli2dof-scene", state, reason } });
   const poses = () => posted.filter((message) => message.kind === "pose");
 
   beforeEach(() => {
@@ -191,6 +191,16 @@ describe("ScenePlayer", () => {
     say("ready");
     assert.equal(poses().length, 2);
     assert.equal(states.at(-1).ready, true);
+  });
+  test("goes on moving a scene that has lost its connection, and says why it was lost", () => {
+    player.load(ramp);
+    say("closed", scene, "http://lab", "all scenes are in use");
+    assert.deepEqual([states.at(-1).ready, states.at(-1).reason], [false, "all scenes are in use"]);
+    assert.equal(poses().length, 0);
+    say("ready");
+    say("closed");
+    player.seek(1);
+    assert.deepEqual([poses().length, states.at(-1).ready], [2, false]);
   });
   test("sends only what changes", () => {
     player.load(ramp);

@@ -1,0 +1,185 @@
+"""Linear responses, metrics and margins against python-control."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import control
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from heli2dof_core import OuterLoop, PIGains, PoleSet, Scenario, close_loop, design, plant, preset
+from heli2dof_core.margins import loop_margins
+from heli2dof_core.metrics import step_metrics
+from heli2dof_core.simulation.linear import simulate_linear
+from heli2dof_core.tuning import DAMPING, EASED, suggest_pi
+from tests.strategies import operating_points, pole_sets, rigs, structures
+
+OUTERS = (
+    OuterLoop(),
+    OuterLoop(outer="none"),
+    OuterLoop(pitch=PIGains(12.0, 0.4), yaw=PIGains(20.0, 0.2), decoupler=True),
+    OuterLoop(pitch=PIGains(3.0, 0.5), yaw=PIGains(2.0, 0.6), pairing="cross"),
+)
+
+
+def whole_loop(placed, outer):
+    """Reference → (θ, ψ, V_p, V_y) by python-control's own interconnection of named blocks."""
+    K, A, B = placed.K, placed.plant.A, placed.plant.B
+    rig = control.ss(A, B, np.eye(4), 0, name="rig", inputs=["u[0]", "u[1]"], outputs=4)
+    if outer.outer == "none":
+        static = np.linalg.inv(np.eye(2, 4) @ np.linalg.solve(-(A - B @ K), B))
+    else:
+        G_0 = np.eye(2, 4) @ np.linalg.solve(-(A - B @ K), B)
+        paired = [G_0[0, 0], G_0[1, 1]] if outer.pairing == "diagonal" else [G_0[0, 1], G_0[1, 0]]
+        if outer.decoupler:
+            static = np.linalg.inv(G_0) @ np.diag(np.abs(paired))
+        elif outer.pairing == "diagonal":
+            static = np.eye(2)
+        else:
+            static = np.array([[0, np.sign(paired[1])], [np.sign(paired[0]), 0]])
+    s = control.tf("s")
+    pi = [
+        g.kp * (1 + 1 / (g.ti * s)) if outer.outer == "pi" else control.tf(1, 1)
+        for g in (outer.pitch, outer.yaw)
+    ]
+    controllers = control.ss(control.append(*[control.ss(x) for x in pi]))
+    feedback = np.eye(2) if outer.outer == "pi" else np.zeros((2, 2))
+    # u = static · PI (r − y) − K x, closed by hand: x' = Ax + Bu, z' = A_c z + B_c (r − y)
+    A_c, B_c, C_c, D_c = controllers.A, controllers.B, controllers.C, controllers.D
+    y = np.eye(2, 4)
+    u_x, u_z, u_r = -K - static @ D_c @ feedback @ y, static @ C_c, static @ D_c
+    A_all = np.block([[A + B @ u_x, B @ u_z], [-B_c @ feedback @ y, A_c]])
+    B_all = np.vstack([B @ u_r, B_c])
+    C_all = np.block([[y, np.zeros((2, len(A_c)))], [u_x, u_z]])
+    assert rig.ninputs == 2
+    return control.ss(A_all, B_all, C_all, np.vstack([np.zeros((2, 2)), u_r]))
+
+
+@pytest.mark.parametrize("outer", OUTERS, ids=str)
+@pytest.mark.parametrize("step", [(0.2, 0.0), (0.0, -0.3), (0.1, 0.4)])
+def test_step_response_is_python_controls(spec, outer, step):
+    placed = design(plant(spec.parameters), spec.poles)
+    response = simulate_linear(close_loop(placed, outer), Scenario(theta=step[0], psi=step[1], duration=2.0))
+    reference = np.repeat(np.array(step)[:, None], len(response.t), axis=1)
+    expected = control.forced_response(whole_loop(placed, outer), response.t, reference)
+    np.testing.assert_allclose(response.angles, expected.outputs[:2], atol=1e-10)
+    np.testing.assert_allclose(response.voltages, expected.outputs[2:], atol=1e-8)
+
+
+@settings(max_examples=30)
+@given(rigs(), operating_points, pole_sets(), structures)
+def test_inner_loop_alone_settles_on_the_reference_with_the_placed_poles(rig, theta_0, poles, structure):
+    placed = design(plant(rig, theta_0), poles, structure)
+    loop = close_loop(placed, OuterLoop(outer="none"))
+    slowest = -np.max(poles.array.real)
+    response = simulate_linear(loop, Scenario(theta=theta_0 + 0.1, psi=-0.2, duration=60 / slowest))
+    np.testing.assert_allclose(response.angles[:, -1], [theta_0 + 0.1, -0.2], atol=1e-6)
+    np.testing.assert_allclose(np.poly(loop.A), np.poly(poles.array).real, rtol=1e-8, atol=1e-8)
+
+
+def test_response_from_an_initial_state_is_python_controls(spec, design):
+    loop = close_loop(design)
+    start = (0.1, -0.2, 0.5, -0.4)
+    response = simulate_linear(loop, Scenario(initial=start, duration=3.0, samples=301))
+    system = control.ss(loop.A, loop.B, np.eye(6), 0)
+    expected = control.initial_response(system, response.t, [*start, 0.0, 0.0])
+    np.testing.assert_allclose(response.angles, expected.outputs[:2], atol=1e-10)
+
+
+def test_response_does_not_depend_on_its_grid(spec, design):
+    loop = close_loop(design)
+    fine = simulate_linear(loop, Scenario(theta=0.2, psi=0.3, duration=2.0, samples=1001))
+    coarse = simulate_linear(loop, Scenario(theta=0.2, psi=0.3, duration=2.0, samples=11))
+    np.testing.assert_allclose(fine.angles[:, ::100], coarse.angles, atol=1e-12)
+
+
+def test_unstable_responses_stay_finite_and_say_so(spec):
+    placed = design(plant(spec.parameters), PoleSet([1e5, 900.0, -3.0, -4.0]))
+    response = simulate_linear(close_loop(placed, OuterLoop(outer="none")), Scenario(theta=0.1))
+    assert np.all(np.isfinite(response.angles)) and np.all(np.isfinite(response.voltages))
+    assert [f.code for f in response.findings] == ["diverges"]
+
+
+@pytest.mark.parametrize("axis", ["theta", "psi"])
+def test_metrics_are_those_of_step_info(spec, design, axis):
+    response = simulate_linear(close_loop(design), Scenario(**{axis: 0.2}, duration=3.0, samples=3001))
+    metrics = step_metrics(response).axes[axis]
+    row = ["theta", "psi"].index(axis)
+    info = control.step_info(response.angles[row], response.t, final_output=0.2)
+    sample = response.t[1]
+    assert metrics.rise_time == pytest.approx(info["RiseTime"], abs=2 * sample)
+    assert metrics.settling_time == pytest.approx(info["SettlingTime"], abs=2 * sample)
+    assert metrics.overshoot == pytest.approx(info["Overshoot"], abs=1e-9)
+    assert metrics.peak == pytest.approx(info["Peak"])
+    assert metrics.peak_time == pytest.approx(info["PeakTime"])
+    assert step_metrics(response).coupling_peak == pytest.approx(np.max(np.abs(response.angles[1 - row])))
+
+
+@pytest.mark.parametrize("name", ["quanser-2dof-manual", "quanser-aero-2", "quanser-aero"])
+def test_margins_are_python_controls(name):
+    p = preset(name)
+    loop = close_loop(design(plant(p.parameters), p.poles, p.structure), p.outer)
+    found = loop_margins(loop)
+    assert found is not None
+    for motor, margins in enumerate(found):
+        b = np.zeros((6, 1))
+        b[:4, 0] = loop.design.plant.B[:, motor]
+        c = -loop.voltage_from_state[[motor]]
+        system = control.ss(loop.A + b @ c, b, c, 0)
+        gains, phases, _, phase_crossovers, gain_crossovers, _ = control.stability_margins(
+            system, returnall=True
+        )
+        finite = gains[phase_crossovers > 1e-6]
+        above, below = finite[finite > 1], finite[finite < 1]
+        for own, theirs in (
+            (margins.gain_margin, above.min() if len(above) else None),
+            (margins.gain_reduction_margin, below.max() if len(below) else None),
+        ):
+            assert own == (None if theirs is None else pytest.approx(theirs, rel=1e-5))
+        lags = np.radians(phases % 360)
+        assert margins.phase_margin == pytest.approx(np.min(np.minimum(lags, 2 * np.pi - lags)), rel=1e-6)
+        assert margins.delay_margin == pytest.approx(np.min(lags / gain_crossovers), rel=1e-6)
+
+
+def test_delay_margin_is_where_the_loop_turns_unstable(spec, design):
+    """The characteristic function 1 + L(jω) e^{−jωτ} is zero at the margin."""
+    loop = close_loop(design)
+    margins = loop_margins(loop)
+    for motor in range(2):
+        b = np.zeros(6)
+        b[:4] = loop.design.plant.B[:, motor]
+        c = -loop.voltage_from_state[motor]
+        omegas = np.linspace(0.5, 60, 20_001)
+        pencils = 1j * omegas[:, None, None] * np.eye(6) - (loop.A + np.outer(b, c))
+        L = np.linalg.solve(pencils, b[:, None])[:, :, 0] @ c
+        distance = np.abs(1 + L * np.exp(-1j * omegas * margins[motor].delay_margin))
+        assert distance.min() < 5e-3
+        assert np.abs(1 + L * np.exp(-1j * omegas * 0.5 * margins[motor].delay_margin)).min() > 0.1
+
+
+@settings(max_examples=20)
+@given(pole_sets())
+def test_suggested_pi_is_stable_and_as_damped_as_promised(poles):
+    placed = design(plant(preset().parameters), poles)
+    suggestion = suggest_pi(placed)
+    assert suggestion.loop.stable
+    own = np.min(-poles.array.real / np.abs(poles.array))
+    found = suggestion.loop.poles
+    assert np.min(-found.real / np.abs(found)) >= min(DAMPING, EASED * own) - 1e-3
+
+
+def test_suggested_pi_is_for_stable_poles_only(spec):
+    placed = design(plant(spec.parameters), PoleSet([1.0, -2.0, -3.0, -4.0]))
+    with pytest.raises(ValueError, match="stable poles"):
+        suggest_pi(placed)
+
+
+def test_cross_pairing_works_on_the_rig_that_asks_for_it():
+    p = preset("quanser-aero")
+    placed = design(plant(p.parameters), p.poles, p.structure)
+    crossed = suggest_pi(placed, replace(p.outer, pairing="cross"))
+    assert crossed.loop.stable
+    diagonal = suggest_pi(placed, p.outer)
+    assert crossed.loop.poles[0].real < diagonal.loop.poles[0].real

@@ -1,0 +1,206 @@
+"""The nonlinear response against laws and against SciPy."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from heli2dof_core import Limits, OuterLoop, PIGains, PoleSet, Scenario, close_loop, design, plant, preset
+from heli2dof_core.simulation.dormand_prince import StepBudgetError, integrate
+from heli2dof_core.simulation.linear import simulate_linear
+from heli2dof_core.simulation.nonlinear import simulate_nonlinear
+
+FREE = Limits(V_p=1e6, V_y=1e6)
+LIMITS = preset().limits
+
+
+def independent_rates(rig, voltages):
+    """Theory section 1, typed here from the sheet, with voltages as a function of the state."""
+    ml2 = rig.m * rig.l**2
+
+    def rates(_t, x):
+        theta, _, theta_dot, psi_dot = x[:4]
+        V_p, V_y, extra = voltages(x)
+        s, c = np.sin(theta), np.cos(theta)
+        pitch = rig.K_pp * V_p + rig.K_py * V_y - rig.B_p * theta_dot - rig.K_s * theta
+        pitch -= ml2 * s * c * psi_dot**2 + rig.m * rig.g * rig.l * c
+        yaw = rig.K_yp * V_p + rig.K_yy * V_y - rig.B_y * psi_dot + 2 * ml2 * s * c * theta_dot * psi_dot
+        return [theta_dot, psi_dot, pitch / (rig.J_p + ml2), yaw / (rig.J_y + ml2 * c**2), *extra]
+
+    return rates
+
+
+@pytest.mark.parametrize("reference", [(0.3, 0.5), (0.5, 0.0), (0.0, 1.2)])
+def test_saturating_response_is_scipys(spec, design, reference):
+    """Limits without anti-windup: DOP853 at 1e-11 with a hand-written right-hand side."""
+    loop = close_loop(design)
+    trim, K = design.plant.trim, design.K
+    limits = Limits(V_p=16.0, V_y=6.0)
+
+    def voltages(x):
+        error = np.array(reference) - x[:2]
+        u = trim - K @ x[:4] + 30 * (error + x[4:] / 0.1)
+        return (*np.clip(u, [-16, -6], [16, 6]), error)
+
+    scenario = Scenario(*reference, anti_windup="none", rtol=1e-9)
+    response = simulate_nonlinear(loop, limits, scenario)
+    expected = solve_ivp(
+        independent_rates(spec.parameters, voltages),
+        (0, 5),
+        np.zeros(6),
+        "DOP853",
+        t_eval=response.t,
+        rtol=1e-11,
+        atol=1e-12,
+        max_step=0.01,
+    )
+    assert max(response.saturated) > 0
+    np.testing.assert_allclose(response.angles, expected.y[:2], atol=1e-6)
+
+
+def test_small_steps_tend_to_the_linear_response(design):
+    """The difference to the linear response shrinks with the square of the step."""
+    loop = close_loop(design)
+    differences = []
+    for size in (0.04, 0.02, 0.01):
+        scenario = Scenario(theta=size, psi=size, rtol=1e-11)
+        nonlinear = simulate_nonlinear(loop, FREE, scenario)
+        linear = simulate_linear(loop, scenario)
+        differences.append(np.max(np.abs(nonlinear.angles - linear.angles)))
+    assert differences[0] / differences[1] == pytest.approx(4, rel=0.1)
+    assert differences[1] / differences[2] == pytest.approx(4, rel=0.1)
+
+
+def test_energy_is_conserved_without_friction_and_motors():
+    """A rig that barely reacts to its motors swings as a spherical pendulum."""
+    rig = preset().parameters.replaced(
+        {"B_p": 0, "B_y": 0, "K_pp": 1e-5, "K_yy": 1e-5, "K_py": 0, "K_yp": 0, "K_s": 2.0}
+    )
+    placed = design(plant(rig), PoleSet([-1, -2, -3, -4]))
+    loop = close_loop(placed, OuterLoop(pitch=PIGains(0, 1), yaw=PIGains(0, 1)))
+    weak = Limits(V_p=1e-3, V_y=1e-3)  # at most 1e-8 N·m
+    scenario = Scenario(
+        initial=(0.3, 0.0, 0.2, 1.5), duration=5.0, samples=10_001, rtol=1e-10, trim_feedforward=False
+    )
+    response = simulate_nonlinear(loop, weak, scenario)
+    theta, psi = response.angles
+    h = response.t[1]
+    rates = [np.gradient(a, h, edge_order=2) for a in (theta, psi)]
+    ml2 = rig.m * rig.l**2
+    energy = (
+        0.5 * (rig.J_p + ml2) * rates[0] ** 2 + 0.5 * (rig.J_y + ml2 * np.cos(theta) ** 2) * rates[1] ** 2
+    )
+    energy += rig.m * rig.g * rig.l * np.sin(theta) + 0.5 * rig.K_s * theta**2
+    assert np.ptp(theta) > 0.3
+    assert np.ptp(energy[2:-2]) < 1e-5 * np.max(np.abs(energy))  # what the differences leave
+
+
+def test_response_does_not_depend_on_its_grid_and_repeats(design):
+    loop = close_loop(design)
+    fine = simulate_nonlinear(loop, LIMITS, Scenario(theta=0.4, psi=0.8, samples=1001))
+    coarse = simulate_nonlinear(loop, LIMITS, Scenario(theta=0.4, psi=0.8, samples=11))
+    np.testing.assert_array_equal(fine.angles[:, ::100], coarse.angles)
+
+
+def test_rest_stays_rest_with_feedforward_and_sags_without(spec):
+    for theta_0 in (0.0, 0.3):
+        loop = close_loop(design(plant(spec.parameters, theta_0), spec.poles))
+        still = simulate_nonlinear(loop, LIMITS, Scenario())
+        np.testing.assert_allclose(still.angles, [[theta_0], [0]] * np.ones((1, 501)), atol=1e-9)
+        np.testing.assert_allclose(still.voltages[:, 0], loop.design.plant.trim)
+        sagging = simulate_nonlinear(loop, LIMITS, Scenario(trim_feedforward=False))
+        assert np.min(sagging.angles[0]) < theta_0 - 0.05
+        assert sagging.angles[0, -1] == pytest.approx(theta_0, abs=1e-3)  # PI finds the trim
+
+
+def test_voltages_keep_their_limits_and_the_share_is_told(design):
+    response = simulate_nonlinear(close_loop(design), LIMITS, Scenario(theta=0.6, psi=1.5))
+    assert np.all(np.abs(response.voltages[0]) <= 24) and np.all(np.abs(response.voltages[1]) <= 15)
+    share = np.mean(np.abs(response.voltages) >= [[24], [15]], axis=1)
+    assert response.saturated == tuple(share)
+    assert {"saturation_V_p", "saturation_V_y"} <= {f.code for f in response.findings}
+    free = simulate_nonlinear(close_loop(design), LIMITS, Scenario(theta=0.6, psi=1.5, saturation=False))
+    assert np.max(np.abs(free.voltages[0])) > 24
+
+
+def test_anti_windup_lowers_the_overshoot(design):
+    loop, wide = close_loop(design), replace(LIMITS, theta=None)
+    overshoot = {}
+    for way in ("none", "clamping", "back-calculation"):
+        response = simulate_nonlinear(loop, wide, Scenario(theta=0.6, anti_windup=way, duration=8.0))
+        assert response.angles[0, -1] == pytest.approx(0.6, abs=1e-3)
+        overshoot[way] = np.max(response.angles[0]) - 0.6
+    assert overshoot["clamping"] < 0.5 * overshoot["none"]
+    assert overshoot["back-calculation"] < 0.7 * overshoot["none"]
+
+
+def test_pitch_stops_at_its_travel_and_leaves_when_the_torque_turns(design):
+    loop = close_loop(design)
+    pressed = simulate_nonlinear(loop, LIMITS, Scenario(theta=1.0))
+    assert np.max(pressed.angles[0]) == pytest.approx(LIMITS.theta, abs=1e-9)
+    assert pressed.angles[0, -1] == pytest.approx(LIMITS.theta, abs=1e-9)
+    assert {"travel_stop", "reference_beyond_stop"} <= {f.code for f in pressed.findings}
+    thrown = simulate_nonlinear(loop, LIMITS, Scenario(initial=(0.5, 0.0, 10.0, 0.0)))
+    assert np.max(thrown.angles[0]) == pytest.approx(LIMITS.theta, abs=1e-9)
+    assert thrown.angles[0, -1] == pytest.approx(0.0, abs=1e-3)
+    free = simulate_nonlinear(loop, LIMITS, Scenario(initial=(0.5, 0.0, 10.0, 0.0), travel_stops=False))
+    assert np.max(free.angles[0]) > LIMITS.theta
+
+
+def test_very_fast_poles_are_simulated_all_the_same(spec):
+    loop = close_loop(design(plant(spec.parameters), PoleSet([-1e4, -1.1e4, -9.0, -8.0])))
+    response = simulate_nonlinear(loop, LIMITS, Scenario(theta=0.01, psi=0.1, rtol=1e-6))
+    assert not {"integration_stopped", "diverges"} & {f.code for f in response.findings}
+    assert np.all(np.isfinite(response.angles))
+
+
+def test_unstable_designs_end_finite(spec):
+    loop = close_loop(design(plant(spec.parameters), PoleSet([5.0, 4.0, 3.0, 2.0])))
+    response = simulate_nonlinear(loop, LIMITS, Scenario(theta=0.2, psi=0.3))
+    assert np.all(np.isfinite(response.angles)) and np.all(np.isfinite(response.voltages))
+
+
+def test_order_of_the_method_and_its_continuous_output():
+    """Error against a harmonic oscillator falls at least as fast as the tolerance."""
+    t = np.linspace(0, 10, 101)
+    errors = []
+    for rtol in (1e-5, 1e-7, 1e-9):
+        segment = integrate(
+            lambda y: np.array([y[1], -y[0]]), 0.0, np.array([1.0, 0.0]), t, rtol=rtol, atol=rtol
+        )
+        errors.append(np.max(np.abs(segment.states[0] - np.cos(t))))
+    assert errors[0] < 1e-3
+    assert errors[1] < errors[0] / 30
+    assert errors[2] < errors[1] / 30
+
+
+def test_event_is_located():
+    """A falling ball reaches the ground at √(2h/g)."""
+    segment = integrate(
+        lambda y: np.array([y[1], -9.81]),
+        0.0,
+        np.array([1.0, 0.0]),
+        np.linspace(0, 1, 11),
+        rtol=1e-9,
+        atol=1e-12,
+        event=lambda y: -float(y[0]),
+    )
+    assert segment.event
+    assert segment.t == pytest.approx(np.sqrt(2 / 9.81), abs=1e-10)
+    assert segment.states.shape[1] == 5
+
+
+def test_budget_of_steps_ends_what_is_stiff():
+    with pytest.raises(StepBudgetError):
+        integrate(
+            lambda y: -1e6 * y,
+            0.0,
+            np.array([1.0]),
+            np.array([0.0, 10.0]),
+            rtol=1e-6,
+            atol=1e-9,
+            most_steps=100,
+        )
