@@ -24,10 +24,6 @@ class PIGains:
     kp: float
     ti: float
 
-    def __post_init__(self) -> None:
-        require_within(self.kp, "loops.kp", "V/rad", -1e6, 1e6)
-        require_within(self.ti, "loops.ti", "s", 1e-6, 1e6)
-
 
 @dataclass(frozen=True)
 class OuterLoop:
@@ -50,6 +46,9 @@ class OuterLoop:
     def __post_init__(self) -> None:
         require_one_of(self.outer, Outer, "outer")
         require_one_of(self.pairing, Pairing, "pairing")
+        for axis, gains in (("pitch", self.pitch), ("yaw", self.yaw)):
+            require_within(gains.kp, f"loops.{axis}.kp", "V/rad", -1e6, 1e6)
+            require_within(gains.ti, f"loops.{axis}.ti", "s", 1e-6, 1e6)
 
 
 @dataclass(frozen=True)

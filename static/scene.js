@@ -154,11 +154,6 @@ export function poseMessages(pose) {
   return messages;
 }
 
-/** Returns whether this browser can draw the scene at all. */
-export function webglSupported() {
-  return document.createElement("canvas").getContext("webgl2") !== null;
-}
-
 /** Plays a trajectory in the scene of a frame, in real time. */
 export class ScenePlayer {
   /**

@@ -144,7 +144,8 @@ def test_pitch_stops_at_its_travel_and_leaves_when_the_torque_turns(design):
     assert pressed.angles[0, -1] == pytest.approx(LIMITS.theta, abs=1e-9)
     assert {"travel_stop", "reference_beyond_stop"} <= {f.code for f in pressed.findings}
     thrown = simulate_nonlinear(loop, LIMITS, Scenario(initial=(0.5, 0.0, 10.0, 0.0)))
-    assert np.max(thrown.angles[0]) == pytest.approx(LIMITS.theta, abs=1e-9)
+    assert "travel_stop" in {f.code for f in thrown.findings}
+    assert LIMITS.theta - 0.01 < np.max(thrown.angles[0]) <= LIMITS.theta
     assert thrown.angles[0, -1] == pytest.approx(0.0, abs=1e-3)
     free = simulate_nonlinear(loop, LIMITS, Scenario(initial=(0.5, 0.0, 10.0, 0.0), travel_stops=False))
     assert np.max(free.angles[0]) > LIMITS.theta

@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from heli2dof_core import PRESETS, InvalidInputError, Limits, PIGains, Scenario, Spec, evaluate, plant, preset
+from heli2dof_core import PRESETS, InvalidInputError, Limits, OuterLoop, PIGains, Scenario, Spec, evaluate, plant, preset
 from heli2dof_core.parameters import PARAMETER_INFO
 
 
@@ -73,8 +73,8 @@ def test_unknown_preset_lists_those_that_exist():
 @pytest.mark.parametrize(
     ("make", "field"),
     [
-        (lambda: PIGains(math.nan, 1.0), "loops.kp"),
-        (lambda: PIGains(1.0, 0.0), "loops.ti"),
+        (lambda: OuterLoop(pitch=PIGains(math.nan, 1.0)), "loops.pitch.kp"),
+        (lambda: OuterLoop(yaw=PIGains(1.0, 0.0)), "loops.yaw.ti"),
         (lambda: Limits(0.0, 15.0), "limits.V_p"),
         (lambda: Scenario(samples=1), "scenario.samples"),
         (lambda: Scenario(duration=-1.0), "scenario.duration"),

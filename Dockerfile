@@ -1,0 +1,26 @@
+# syntax=docker/dockerfile:1
+# heli2dof in one container: docker build -t heli2dof . && docker run --rm -p 8000:8000 heli2dof
+
+FROM python:3.13-slim AS build
+WORKDIR /src
+RUN python -m venv /opt/heli2dof
+COPY constraints.txt pyproject.toml hatch_build.py package.json package-lock.json .npmrc README.md LICENSE ./
+COPY heli2dof_core heli2dof_core
+COPY app app
+COPY static static
+# Bytecode is made here, since the server may not write at run time. Tests of packages stay out.
+RUN /opt/heli2dof/bin/pip install --no-cache-dir --disable-pip-version-check -c constraints.txt . \
+ && /opt/heli2dof/bin/pip uninstall --yes pip \
+ && find /opt/heli2dof -type d \( -name tests -o -name testing -o -name examples \) -path '*site-packages*' \
+      -not -path '*/numpy/*' -not -path '*/sympy/*' -prune -exec rm -rf {} + \
+ && /opt/heli2dof/bin/python -m compileall -q /opt/heli2dof
+
+FROM python:3.13-slim
+RUN useradd --system --uid 10001 --no-create-home --shell /usr/sbin/nologin heli2dof
+COPY --from=build /opt/heli2dof /opt/heli2dof
+USER 10001
+ENV PATH=/opt/heli2dof/bin:$PATH PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1 PORT=8000
+EXPOSE 8000
+HEALTHCHECK --interval=15s --timeout=3s --start-period=20s --retries=3 \
+  CMD ["python", "-c", "import os, urllib.request as r; r.urlopen(f'http://127.0.0.1:{os.environ[\"PORT\"]}/healthz', timeout=2)"]
+CMD ["heli2dof", "serve", "--host", "0.0.0.0"]
