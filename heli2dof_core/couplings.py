@@ -60,7 +60,7 @@ def require_structure(parameters: Parameters, structure: Structure) -> None:
     own, name = (p.K_pp, "K_pp") if structure.lead == "pitch" else (p.K_yy, "K_yy")
     if abs(own) <= NEGLIGIBLE * max(abs(p.K_pp), abs(p.K_py), abs(p.K_yp), abs(p.K_yy)):
         raise StructureUnavailableError(
-            f"triangular with {structure.lead} leading needs {name} ≠ 0: the shift of the basis divides by it",
+            f"triangular with {structure.lead} leading needs {name} ≠ 0: the basis' shift divides by it",
             field="lead",
             value=structure.lead,
             hint="Let the other axis lead, or choose another coupling.",

@@ -78,7 +78,7 @@ def test_replies_without_steady_state_or_stability_are_as_their_models_say(clien
 def test_presets_are_complete_and_each_names_its_source(client):
     reply = client.get("/api/v1/presets").json()
     TypeAdapter(list[models.Preset]).validate_python(reply)
-    assert [p["name"] for p in reply][0] == "quanser-2dof-manual"
+    assert reply[0]["name"] == "quanser-2dof-manual"
     assert {p["name"] for p in reply} == set(PRESETS)
     assert all(p["source"] for p in reply)
     assert "theta" in reply[0]["limits"]

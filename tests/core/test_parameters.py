@@ -5,7 +5,18 @@ import math
 
 import pytest
 
-from heli2dof_core import PRESETS, InvalidInputError, Limits, OuterLoop, PIGains, Scenario, Spec, evaluate, plant, preset
+from heli2dof_core import (
+    PRESETS,
+    InvalidInputError,
+    Limits,
+    OuterLoop,
+    PIGains,
+    Scenario,
+    Spec,
+    evaluate,
+    plant,
+    preset,
+)
 from heli2dof_core.parameters import PARAMETER_INFO
 
 
