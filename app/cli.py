@@ -43,18 +43,22 @@ def serve(host: str, port: int, settings: Settings) -> int:
             f"heli2dof: cannot listen on {host} port {port}: {why}. Try --port {port + 1}.", file=sys.stderr
         )
         return 1
-    config = uvicorn.Config(
+    AnnouncingServer(server_config(settings)).run([listener])
+    return 0
+
+
+def server_config(settings: Settings) -> uvicorn.Config:
+    """How uvicorn serves the app; the scene's relay relies on the socket settings."""
+    return uvicorn.Config(
         create_app(settings),
         log_level="warning",
         ws="websockets-sansio",
         ws_max_size=_LARGEST_MESSAGE,
         ws_per_message_deflate=False,  # five times slower, and the frames are small
-        ws_ping_interval=5.0,
+        ws_ping_interval=5.0,  # a client that is gone is dropped after 10 s
         ws_ping_timeout=5.0,
         timeout_graceful_shutdown=5,
     )
-    AnnouncingServer(config).run([listener])
-    return 0
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -278,6 +278,7 @@ class Symbolic(Model):
     Q: Formula
     K: Formula
     closed_loop: Formula
+    canonical_closed_loop: Formula
     G: Formula
     RGA: Formula
     entries: dict[str, dict[str, Formula]]

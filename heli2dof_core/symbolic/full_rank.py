@@ -31,12 +31,14 @@ class FullRank:
     Attributes:
         form: the canonical form used, with T and Q.
         K: 2×4 gain of u = −Kx + v, V/rad and V·s/rad, in the coefficients of d₁ and d₂.
-        closed_loop: T (A − BK) T⁻¹, block triangular or block diagonal.
+        closed_loop: A − BK.
+        canonical_closed_loop: T (A − BK) T⁻¹, block triangular or block diagonal.
     """
 
     form: CanonicalForm
     K: DomainMatrix
     closed_loop: DomainMatrix
+    canonical_closed_loop: DomainMatrix
 
 
 @cache
@@ -65,8 +67,8 @@ def full_rank(structure: Structure) -> FullRank:
     if structure.coupling == "triangular":  # the block that couples the axes stays as it is
         K_bar = to_field(sp.Matrix([[1, 1, 0, 0], [0, 0, 1, 1]])).mul_elementwise(K_bar)
     K = form.Q.inv().matmul(K_bar).matmul(form.T)
-    closed_loop = form.T.matmul(A - B.matmul(K)).matmul(form.T.inv())
-    return FullRank(form, K, closed_loop)
+    closed_loop = A - B.matmul(K)
+    return FullRank(form, K, closed_loop, form.T.matmul(closed_loop).matmul(form.T.inv()))
 
 
 def to_field(matrix: sp.Matrix) -> DomainMatrix:

@@ -57,7 +57,8 @@ class SymbolicReport:
     """All formulas of one structure.
 
     Attributes:
-        formulas: A, B, controllability_matrix, T, Q, K, closed_loop, G, RGA.
+        formulas: A, B, controllability_matrix, T, Q, K, closed_loop (A − BK),
+            canonical_closed_loop (T (A − BK) T⁻¹), G, RGA.
         entries: per matrix of K, RGA and G its entries, such as ``k_11``.
         definitions: what the short names α, β₀, γ, a stand for.
         controllability_indices: σ, one per input.
@@ -84,6 +85,7 @@ def symbolic_report(structure: Structure) -> SymbolicReport:
         "Q": grouped(result.form.Q),
         "K": grouped(result.K),
         "closed_loop": grouped(result.closed_loop),
+        "canonical_closed_loop": grouped(result.canonical_closed_loop),
         "G": grouped(transfer_matrix(structure)),
         "RGA": grouped(relative_gain_array(structure)),
     }

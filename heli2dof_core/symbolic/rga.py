@@ -21,7 +21,7 @@ def transfer_matrix(structure: Structure) -> DomainMatrix:
     """
     result = full_rank(structure)
     form = result.form
-    pencil = to_field(sp.eye(4) * s) - result.closed_loop
+    pencil = to_field(sp.eye(4) * s) - result.canonical_closed_loop
     states = pencil.lu_solve(form.B_bar)
     return to_field(sp.eye(2, 4)).matmul(form.T.inv()).matmul(states)
 

@@ -105,7 +105,10 @@ def test_canonical_form_is_similar_and_block_companion(structure):
 
 @pytest.mark.parametrize("structure", STRUCTURES, ids=str)
 def test_closed_loop_has_exactly_the_desired_polynomial_and_shape(structure):
-    closed = full_rank(structure).closed_loop.to_Matrix()
+    result = full_rank(structure)
+    A, B = plant()
+    assert result.closed_loop == A - B.matmul(result.K)
+    closed = result.canonical_closed_loop.to_Matrix()
     s = n.s
     d_1, d_2 = s**2 + n.d_11 * s + n.d_10, s**2 + n.d_21 * s + n.d_20
     assert sp.expand(closed.charpoly(s).as_expr() - d_1 * d_2) == 0
@@ -185,6 +188,7 @@ def test_rendered_formulas_parse_back_to_what_was_derived(structure):
         "T": full_rank(structure).form.T,
         "Q": full_rank(structure).form.Q,
         "closed_loop": full_rank(structure).closed_loop,
+        "canonical_closed_loop": full_rank(structure).canonical_closed_loop,
     }
     for name, matrix in derived.items():
         parsed = Matrix(sp.sympify(report.formulas[name].sympy))

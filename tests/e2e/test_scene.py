@@ -7,13 +7,10 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Frame, Page, sync_playwright
+from playwright.sync_api import Browser, Frame, Page
 
+from tests.e2e.conftest import PATIENCE
 from tests.scene_server import SceneServer, serving
-
-CHROMIUM = "/usr/bin/chromium"
-FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-networking"]
-PATIENCE = 90_000  # milliseconds; software rendering on two cores is slow
 
 HOST_PAGE = """<!doctype html><title>host</title>
 <style>body { margin: 0 } iframe { border: 0; width: 300px; height: 230px }</style>
@@ -56,14 +53,6 @@ PARTS = 29  # of the helicopter, counted by material
 def server() -> Iterator[SceneServer]:
     with serving(host_page=HOST_PAGE) as running:
         yield running
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

@@ -1,0 +1,105 @@
+"""The whole app on a free port, and a real browser."""
+
+from __future__ import annotations
+
+import os
+import socket
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import httpx2
+import pytest
+import uvicorn
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from app.cli import server_config
+from app.settings import Settings
+from tests.scene_server import until
+
+FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-networking"]
+PATIENCE = 90_000
+"""Milliseconds; software rendering on two cores is slow."""
+
+
+@dataclass
+class App:
+    """The running app."""
+
+    port: int
+    server: uvicorn.Server
+
+    @property
+    def url(self) -> str:
+        return f"http://127.0.0.1:{self.port}/"
+
+
+@contextmanager
+def running_app(port: int = 0) -> Iterator[App]:
+    """The app as the command line serves it, in a thread, ready."""
+    listener = socket.socket()
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listener.bind(("127.0.0.1", port))
+    server = uvicorn.Server(server_config(Settings()))
+    thread = threading.Thread(target=server.run, args=([listener],))
+    thread.start()
+    app = App(listener.getsockname()[1], server)
+
+    def ready() -> bool:
+        try:
+            return httpx2.get(app.url + "healthz").status_code == 200
+        except httpx2.TransportError:
+            return False
+
+    try:
+        until(ready, "the app is ready", 60)
+        yield app
+    finally:
+        server.should_exit = True
+        thread.join(30)
+        assert not thread.is_alive()
+
+
+@pytest.fixture(scope="session")
+def app() -> Iterator[App]:
+    with running_app() as app:
+        yield app
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Browser]:
+    with sync_playwright() as playwright:
+        path = os.environ.get("CHROMIUM") or "/usr/bin/chromium"
+        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def page(chromium: Browser, app: App) -> Iterator[Page]:
+    """The page at 1280×800, its first answer drawn; fails on any error in its console."""
+    context = chromium.new_context(viewport={"width": 1280, "height": 800})
+    page = context.new_page()
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.on("console", lambda message: message.type == "error" and errors.append(message.text))
+    opened(page, app.url)
+    yield page
+    context.close()
+    assert errors == []
+
+
+def opened(page: Page, url: str) -> None:
+    page.set_default_timeout(PATIENCE)
+    page.goto(url)
+    settled(page)
+
+
+def settled(page: Page) -> None:
+    """Waits until what is shown answers what was asked last."""
+    page.wait_for_function("() => JSON.parse(document.documentElement.dataset.state ?? '{}').settled")
+
+
+def state(page: Page) -> dict:
+    return page.evaluate("() => JSON.parse(document.documentElement.dataset.state)")

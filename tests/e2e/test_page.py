@@ -1,0 +1,257 @@
+"""The page in a real browser: drag a pole with the mouse, see K, the plots and the rig follow."""
+
+from __future__ import annotations
+
+import socket
+
+import pytest
+from playwright.sync_api import Browser, Frame, Page
+
+from tests.e2e.conftest import App, opened, running_app, settled, state
+
+POSE = """() => {
+  const data = window.__viserMutable?.nodePoseData ?? {};
+  const [yoke, body] = ["/rig/yoke", "/rig/yoke/body"].map((name) => data[name]?.wxyz);
+  return yoke && body ? [-2 * Math.atan2(body[2], body[0]), -2 * Math.atan2(yoke[3], yoke[0])] : null;
+}"""
+TRACES = """(id) => {
+  const canvas = document.querySelector(`[data-testid="${id}"] canvas`);
+  return canvas.toDataURL();
+}"""
+PLOTS = ("plot-theta", "plot-psi", "plot-V_p", "plot-V_y")
+
+
+def centre(page: Page, testid: str) -> tuple[float, float]:
+    box = page.get_by_test_id(testid).bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def drag(page: Page, testid: str, dx: float, dy: float = 0.0, steps: int = 12) -> None:
+    """Drags with the real mouse, over several moves."""
+    x, y = centre(page, testid)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + dx, y + dy, steps=steps)
+    page.mouse.up()
+    settled(page)
+
+
+def scene(page: Page) -> Frame:
+    """The scene's frame, its rig there."""
+    frame = next(f for f in page.frames if "/scene/" in f.url)
+    frame.wait_for_function(f"() => ({POSE})() !== null")
+    return frame
+
+
+def seek(page: Page, share: float) -> None:
+    """Moves the time slider to a share of its length."""
+    page.get_by_test_id("time").evaluate(
+        "(slider, share) => { slider.value = Number(slider.max) * share;"
+        " slider.dispatchEvent(new Event('input', { bubbles: true })); }",
+        share,
+    )
+
+
+def test_dragging_a_pole_moves_gain_plots_and_rig(page: Page):
+    rig = scene(page)
+    seek(page, 0.1)
+    rig.wait_for_function(f"() => Math.abs(({POSE})()[1]) > 0.01")
+    pose, before = rig.evaluate(POSE), state(page)
+    traces = {plot: page.evaluate(TRACES, plot) for plot in PLOTS}
+    shown = page.get_by_test_id("k-matrix").inner_text()
+
+    drag(page, "pole-2", 60)
+
+    after = state(page)
+    assert after["poles"][2]["re"] > before["poles"][2]["re"] + 1
+    assert after["poles"][:2] == before["poles"][:2]
+    assert after["K"] != before["K"]
+    assert page.get_by_test_id("k-matrix").inner_text() != shown
+    for plot in PLOTS:
+        assert page.evaluate(TRACES, plot) != traces[plot], plot
+    seek(page, 0.1)
+    rig.wait_for_function(f"(old) => Math.abs(({POSE})()[1] - old) > 1e-3", arg=pose[1])
+
+
+def test_gain_shown_is_the_gain_of_the_poles_shown(page: Page, app: App):
+    drag(page, "pole-0", -40)
+    now = state(page)
+    reply = page.request.post(app.url + "api/v1/gains", data={"poles": now["poles"]}).json()
+    assert reply["K"] == now["K"]
+    figures = page.get_by_test_id("k-matrix-00").inner_text().replace("−", "-")
+    assert float(figures) == pytest.approx(reply["K"][0][0], rel=1e-4)
+
+
+def test_conjugates_move_together_and_a_real_pair_can_turn_complex(page: Page):
+    first, second = (centre(page, f"pole-{i}") for i in (0, 1))
+    drag(page, "pole-0", second[0] - first[0], -60, steps=25)
+    poles = state(page)["poles"]
+    assert poles[0]["im"] == -poles[1]["im"] != 0
+    assert poles[0]["re"] == poles[1]["re"]
+    drag(page, "pole-0", -20, -20)
+    moved = state(page)["poles"]
+    assert moved[0]["im"] == -moved[1]["im"]
+    assert moved[0]["re"] == moved[1]["re"] < poles[0]["re"]
+
+
+def test_poles_move_by_keyboard_as_sliders_with_a_name(page: Page):
+    pole = page.get_by_role("slider", name="yaw pole 3").first
+    pole.focus()
+    before = state(page)["poles"][2]["re"]
+    page.keyboard.press("ArrowLeft")
+    settled(page)
+    after = state(page)["poles"][2]["re"]
+    assert after < before
+    assert "rad/s" in (pole.get_attribute("aria-valuetext") or "")
+
+
+def test_two_tabs_do_not_disturb_each_other(page: Page, app: App, chromium: Browser):
+    other = chromium.new_context(viewport={"width": 1280, "height": 800}).new_page()
+    opened(other, app.url)
+    assert page.locator("iframe").get_attribute("src") != other.locator("iframe").get_attribute("src")
+    mine, theirs = scene(page), scene(other)
+    for tab in (page, other):
+        seek(tab, 1.0)
+    for rig in (mine, theirs):
+        rig.wait_for_function(f"() => Math.abs(({POSE})()[0] - 0.2) < 5e-3")
+    before, pose = state(page), mine.evaluate(POSE)
+
+    drag(other, "pole-1", 30)
+    seek(other, 0.05)
+    theirs.wait_for_function(f"() => Math.abs(({POSE})()[0]) < 0.1")
+
+    assert state(page) == before
+    assert mine.evaluate(POSE) == pytest.approx(pose, abs=1e-6)
+    other.context.close()
+
+
+def test_inner_loop_alone_has_the_placed_poles_and_pi_moves_them(page: Page):
+    assert len(state(page)["loopPoles"]) == 6
+    page.get_by_test_id("outer-none").click()
+    page.wait_for_function("() => JSON.parse(document.documentElement.dataset.state).outer === 'none'")
+    settled(page)
+    found = sorted(p["re"] for p in state(page)["loopPoles"])
+    assert found == pytest.approx([-12, -10, -9.25, -8.76], abs=1e-6)
+
+
+def test_unstable_pi_is_told_and_the_suggestion_mends_it(page: Page):
+    for index, value in enumerate((-3, -2, -3, -2)):
+        field = page.get_by_test_id(f"pole-field-{index}")
+        field.fill(str(value))
+        field.press("Enter")
+    page.wait_for_function("() => JSON.parse(document.documentElement.dataset.state).stable === false")
+    assert "pi_unstable" in state(page)["findings"]
+    assert "unstable" in page.get_by_test_id("findings").inner_text()
+    page.get_by_test_id("suggest-pi").click()
+    page.wait_for_function("() => JSON.parse(document.documentElement.dataset.state).stable === true")
+    assert "pi_unstable" not in state(page)["findings"]
+    page.get_by_test_id("reset").click()
+    page.wait_for_function("() => JSON.parse(document.documentElement.dataset.state).poles[0].re === -12")
+
+
+def test_other_preset_changes_the_rig_and_tells_of_its_pairing(page: Page):
+    rig = scene(page)
+    height = "() => window.__viserMutable.nodePoseData['/rig/yoke/body']?.position[2]"
+    old = rig.evaluate(height)
+    page.get_by_test_id("preset").select_option("quanser-aero")
+    page.wait_for_function(
+        "() => JSON.parse(document.documentElement.dataset.state).preset === 'quanser-aero'"
+    )
+    settled(page)
+    assert state(page)["findings"] == ["pairing_cross"]
+    assert "cross" in page.get_by_test_id("findings").inner_text()
+    rig.wait_for_function(f"(old) => Math.abs(({height})() - old) > 1e-3", arg=old)
+
+
+def test_formulas_are_typeset(page: Page):
+    page.get_by_role("button", name="Formulas").click()
+    formulas = page.get_by_test_id("formulas")
+    formulas.locator("math").first.wait_for()
+    assert formulas.locator("math").count() >= 12
+    assert formulas.locator("mfrac").first.bounding_box()["height"] > 10
+
+
+def test_bad_number_is_told_at_its_field_and_nothing_else_changes(page: Page):
+    before = state(page)
+    field = page.get_by_test_id("kp-pitch")
+    field.fill("-1e9")
+    field.press("Enter")
+    page.wait_for_function(
+        "(id) => document.querySelector(`[data-testid=\"${id}\"]`).ariaInvalid === 'true'", arg="kp-pitch"
+    )
+    assert state(page)["K"] == before["K"]
+
+
+def test_playing_ends_at_the_end_in_real_time(page: Page):
+    scene(page)
+    page.get_by_test_id("replay").click()
+    began = page.evaluate("() => performance.now()")
+    page.wait_for_function("() => Number(document.querySelector('[data-testid=time]').value) >= 2.99")
+    seconds = (page.evaluate("() => performance.now()") - began) / 1000
+    assert 2.5 < seconds < 4.5
+    assert page.get_by_test_id("hud-theta").inner_text().startswith("11.5")
+
+
+def test_no_request_leaves_the_server(chromium: Browser, app: App):
+    page = chromium.new_page()
+    strangers: list[str] = []
+    page.on("request", lambda r: r.url.startswith((app.url, "blob:", "data:")) or strangers.append(r.url))
+    page.on("websocket", lambda s: f"127.0.0.1:{app.port}/" in s.url or strangers.append(s.url))
+    opened(page, app.url)
+    scene(page)
+    page.goto(app.url + "docs")
+    page.locator("#operations-design-gains_api_v1_gains_post").wait_for()
+    assert strangers == []
+    page.close()
+
+
+@pytest.mark.parametrize("size", [(1280, 800), (1920, 1080)])
+def test_the_main_loop_needs_no_scrolling(chromium: Browser, app: App, size: tuple[int, int]):
+    page = chromium.new_page(viewport={"width": size[0], "height": size[1]})
+    opened(page, app.url)
+    for testid in ("splane", *PLOTS, "scene", "k-matrix", "rga-matrix", "suggest-pi", "kp-yaw", "ti-yaw"):
+        box = page.get_by_test_id(testid).bounding_box()
+        assert box is not None, testid
+        assert box["x"] >= 0 and box["x"] + box["width"] <= size[0], testid
+        assert box["y"] >= 0 and box["y"] + box["height"] <= size[1], testid
+    overflow = "() => document.scrollingElement.scrollHeight - innerHeight"
+    assert page.evaluate(overflow) <= 0
+    page.close()
+
+
+def test_lost_server_is_told_edits_continue_and_are_sent_when_it_returns(chromium: Browser):
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    page = chromium.new_page()
+    lost = "() => JSON.parse(document.documentElement.dataset.state).connection !== 'open'"
+    with running_app(port) as app:
+        opened(page, app.url)
+    page.wait_for_function(lost)
+    field = page.get_by_test_id("pole-field-0")
+    field.fill("-15")
+    field.press("Enter")
+    assert state(page)["settled"] is False
+    with running_app(port):
+        settled(page)
+        assert state(page)["poles"][0]["re"] == -15
+        assert state(page)["connection"] == "open"
+        page.close()
+
+
+def test_a_drag_updates_many_times_a_second(page: Page, record_property):
+    """Reports updates a second and pointer-to-plots latency; judges only that the drag is live."""
+    page.evaluate("() => heli2dofStats.reset()")
+    x, y = centre(page, "pole-0")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for k in range(60):
+        page.mouse.move(x - 40 + 40 * abs((k % 20) - 10) / 10, y)
+    page.mouse.up()
+    settled(page)
+    summary = page.evaluate("() => heli2dofStats.summary()")
+    for name in ("updates", "perSecond", "median", "p95"):
+        record_property(name, summary[name])
+    print(f"\na drag: {summary}")
+    assert summary["updates"] >= 10
