@@ -8,11 +8,10 @@ COPY constraints.txt pyproject.toml hatch_build.py package.json package-lock.jso
 COPY heli2dof_core heli2dof_core
 COPY app app
 COPY static static
-# Bytecode is made here, since the server may not write at run time. Tests of packages stay out.
+# Bytecode is made here, since the server may not write at run time. The packages' own tests stay out.
 RUN /opt/heli2dof/bin/pip install --no-cache-dir --disable-pip-version-check -c constraints.txt . \
  && /opt/heli2dof/bin/pip uninstall --yes pip \
- && find /opt/heli2dof -type d \( -name tests -o -name testing -o -name examples \) -path '*site-packages*' \
-      -not -path '*/numpy/*' -not -path '*/sympy/*' -prune -exec rm -rf {} + \
+ && find /opt/heli2dof/lib -type d -name tests -prune -exec rm -rf {} + \
  && /opt/heli2dof/bin/python -m compileall -q /opt/heli2dof
 
 FROM python:3.13-slim

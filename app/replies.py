@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,8 +19,10 @@ from heli2dof_core.margins import Margins
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.signals import AXES, INPUTS, OUTPUTS, Floats
 from heli2dof_core.spec import Limits
-from heli2dof_core.symbolic.render import SymbolicReport
 from heli2dof_core.tuning import Suggestion
+
+if TYPE_CHECKING:  # it would import SymPy before the first page
+    from heli2dof_core.symbolic.render import SymbolicReport
 
 Reply = dict[str, Any]
 

@@ -1,0 +1,67 @@
+"""The house's rules, proved: no cycles, small files, imports that stay light, nothing of other hosts."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import grimp
+import pytest
+
+ROOT = Path(__file__).parents[1]
+TRACKED = subprocess.run(
+    ["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True
+).stdout.split("\n")
+SOURCES = [ROOT / name for name in TRACKED if name.endswith((".py", ".js", ".mjs", ".css", ".html"))]
+SOURCES = [path for path in SOURCES if path.is_file()]
+
+
+def test_no_import_cycle():
+    graph = grimp.build_graph("heli2dof_core", "app", cache_dir=None)
+    done: set[str] = set()
+
+    def visit(module: str, path: tuple[str, ...]) -> None:
+        assert module not in path, " → ".join((*path[path.index(module) :], module))
+        if module not in done:
+            for imported in graph.find_modules_directly_imported_by(module):
+                visit(imported, (*path, module))
+            done.add(module)
+
+    for module in graph.modules:
+        visit(module, ())
+    assert len(done) > 40
+
+
+def test_files_are_small():
+    lengths = {path: len(path.read_text(encoding="utf-8").splitlines()) for path in SOURCES}
+    modules = [n for path, n in lengths.items() if path.parts[-2] not in ("tests",) and path.suffix == ".py"]
+    assert max(lengths.values()) <= 400, max(lengths, key=lambda path: lengths[path])
+    assert sorted(modules)[len(modules) // 2] <= 160
+
+
+@pytest.mark.parametrize(
+    ("statement", "forbidden"),
+    [
+        ("import heli2dof_core", ("sympy", "control", "viser", "fastapi", "scipy.integrate", "scipy.signal")),
+        (
+            "import app.main; app.main.create_app()",
+            ("sympy", "control", "viser", "scipy.integrate", "scipy.signal"),
+        ),
+    ],
+)
+def test_imports_stay_light(statement: str, forbidden: tuple[str, ...]):
+    code = f"import sys; {statement}; print([m for m in {forbidden!r} if m in sys.modules])"
+    result = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert result.stdout.strip() == "[]"
+
+
+def test_page_and_locks_name_no_other_host():
+    for name in TRACKED:
+        path = ROOT / name
+        if path.suffix in (".js", ".html", ".css", ".json", ".txt") and path.is_file():
+            hosts = set(re.findall(r"https?://([\w.-]+)", path.read_text(encoding="utf-8")))
+            assert hosts <= {"www.w3.org", "127.0.0.1"}, (name, hosts)
