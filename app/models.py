@@ -264,6 +264,7 @@ class Symbol(Model):
 
     name: str
     latex: str
+    mathml: str
     meaning: str
     unit: str
 

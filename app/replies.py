@@ -158,7 +158,7 @@ def symbolic_reply(report: SymbolicReport) -> Reply:
         },
         "definitions": {name: asdict(formula) for name, formula in report.definitions.items()},
         "controllability_indices": list(report.controllability_indices),
-        "symbols": [asdict(name) for name in report.symbols],
+        "symbols": [{**asdict(name), "mathml": report.notation[name.name].mathml} for name in report.symbols],
     }
 
 

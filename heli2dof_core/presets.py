@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import radians
 from types import MappingProxyType
 
 from .couplings import Structure
@@ -35,12 +36,12 @@ class Preset:
     theta_0: float = 0.0
 
 
-_TRAVEL = 0.7068583470577035  # 40.5°
+_TRAVEL = radians(40.5)
 _HELICOPTER_LIMITS = Limits(V_p=24.0, V_y=15.0, theta=_TRAVEL)
 _PAPER_POLES = PoleSet([-12.0, -10.0, -9.25, -8.76])
 _PAPER_PI = OuterLoop(pitch=PIGains(30.0, 0.1), yaw=PIGains(30.0, 0.1))
 _AERO_POLES = PoleSet([complex(-1.8, 1.0), complex(-1.8, -1.0), -2.0, -2.4])
-_GENTLE = Scenario(theta=0.2, psi=0.3, duration=3.0)
+_GENTLE = Scenario(theta=radians(10), psi=radians(20), duration=3.0)
 
 _MANUAL = Parameters(
     K_pp=0.204,
@@ -126,7 +127,7 @@ _ALL = (
         Limits(V_p=18.0, V_y=18.0),
         _AERO_POLES,
         OuterLoop(pitch=PIGains(60.0, 0.85), yaw=PIGains(36.0, 0.5)),
-        Scenario(theta=0.15, psi=0.3, duration=10.0),
+        Scenario(theta=radians(10), psi=radians(15), duration=10.0),
     ),
     Preset(
         "quanser-aero",
@@ -149,7 +150,7 @@ _ALL = (
         Limits(V_p=24.0, V_y=24.0),
         _AERO_POLES,
         OuterLoop(pitch=PIGains(7.6, 0.85), yaw=PIGains(19.0, 0.5)),
-        Scenario(theta=0.15, psi=0.3, duration=15.0),
+        Scenario(theta=radians(10), psi=radians(15), duration=15.0),
         Structure("axis-decoupled"),
     ),
 )

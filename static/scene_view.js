@@ -4,6 +4,7 @@
  * @typedef {import('./types.js').State} State
  */
 import { h, setAttr, setText, symbol } from './dom.js';
+import { Choice } from './fields.js';
 import { degrees, fixed } from './format.js';
 import { putRig } from './api.js';
 import { ScenePlayer } from './scene.js';
@@ -57,12 +58,14 @@ export class SceneView {
     this.hud = Object.fromEntries(['theta', 'psi', 'V_p', 'V_y'].map((name) => [name, h('span', { class: 'hud-value', 'data-testid': `hud-${name}` })]));
     const label = (/** @type {string} */ name, /** @type {Node} */ mark) => h('div', { class: `hud-item ${name}` }, mark, this.hud[name]);
     const hud = h('div', { class: 'hud', 'data-testid': 'hud' }, label('theta', symbol('θ')), label('psi', symbol('ψ')), label('V_p', symbol('V', 'p')), label('V_y', symbol('V', 'y')));
+    this.motion = new Choice({ label: 'Motion that the scene plays', testid: 'motion', onChange: (v) => store.set({ motion: /** @type {any} */ (v) }),
+      options: [['theta', 'pitch step', 'the scene plays the pitch step alone'], ['psi', 'yaw step', 'the scene plays the yaw step alone'], ['both', 'both', 'the scene plays both steps at once']] });
     this.play = h('button', { type: 'button', class: 'play', 'data-testid': 'play', onclick: () => this.#toggle() });
     this.replay = h('button', { type: 'button', 'data-testid': 'replay', title: 'Play from the start', onclick: () => this.player.replay() }, 'Replay');
     this.time = h('input', { type: 'range', min: 0, max: 5, step: 0.01, value: 0, 'aria-label': 'Time in the motion', 'data-testid': 'time', oninput: () => this.#seek(Number(this.time.value)) });
     this.clock = h('output', { class: 'clock', 'data-testid': 'clock' });
     this.loop = h('input', { type: 'checkbox', 'data-testid': 'loop' });
-    root.append(h('div', { class: 'stage' }, this.webgl ? this.frame : null, this.notice, hud),
+    root.append(h('div', { class: 'stage' }, this.webgl ? this.frame : null, this.notice, hud, h('div', { class: 'motion' }, this.motion.node)),
       h('div', { class: 'transport' }, this.play, this.replay, this.time, this.clock, h('label', { class: 'check', title: 'Play again and again' }, this.loop, 'loop')));
     const target = this.webgl ? this.frame : /** @type {HTMLIFrameElement} */ (/** @type {unknown} */ ({ contentWindow: null }));
     this.player = new ScenePlayer(target, { onFrame: (s) => this.#show(s), onState: (s) => this.#state(s) });
@@ -95,8 +98,10 @@ export class SceneView {
 
   /** @param {State} state */
   render(state) {
+    this.motion.set(state.motion);
     const rig = this.store.preset?.rig;
-    if (rig && rig !== this.#rig) this.#setRig(rig);
+    if (state.connection === 'lost') this.#rig = null; // a server that returns knows nothing of this tab
+    else if (rig && rig !== this.#rig) this.#setRig(rig);
     if (!state.reply) return;
     const motion = motionOf(state.reply, state.motion) ?? state.reply.step;
     if (motion.nonlinear !== this.#loaded) {

@@ -14,6 +14,8 @@ const REACH = 26; // px: how near a press must be to take a pole
 const SNAP = 9; // px: how near the real axis a complex pair turns real
 const MEET = 13; // px: how near two real poles count as met
 const CROSS = 'M -5.5 -5.5 L 5.5 5.5 M -5.5 5.5 L 5.5 -5.5';
+const OPEN_MARK = 'M -4 -4 L 4 4 M -4 4 L 4 -4';
+const LOOP_MARK = 'M 0 -5.5 L 5.5 0 L 0 5.5 L -5.5 0 Z';
 const NAMES = ['pitch', 'yaw'];
 /** @type {Record<string, [number, number]>} direction in the plane, in keyboard steps */
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1], PageUp: [10, 0], PageDown: [-10, 0] };
@@ -43,7 +45,10 @@ export class SPlane {
       h('button', { type: 'button', title: 'Zoom in', 'aria-label': 'Zoom in', onclick: () => this.#zoomBy(1.4) }, '+'),
       h('button', { type: 'button', title: 'Zoom out', 'aria-label': 'Zoom out', onclick: () => this.#zoomBy(1 / 1.4) }, '\u2212'),
       h('button', { type: 'button', title: 'Fit all poles into view', 'data-testid': 'fit', onclick: () => this.fit() }, 'Fit'));
-    root.append(this.svg, this.readout, tools);
+    this.key = h('div', { class: 'splane-key', 'data-testid': 'splane-key' },
+      h('span', { title: 'poles of the whole loop: PI moves the poles that you placed' }, svg('svg', { class: 'loop-poles', 'aria-hidden': 'true', viewBox: '-7 -7 14 14' }, svg('path', { d: LOOP_MARK })), 'with PI'),
+      h('span', { title: 'poles of the rig without feedback' }, svg('svg', { class: 'open-poles', 'aria-hidden': 'true', viewBox: '-7 -7 14 14' }, svg('path', { d: OPEN_MARK })), 'open loop'));
+    root.append(this.svg, this.readout, tools, this.key);
     this.#listen();
     new ResizeObserver(([entry]) => this.#resize(entry.contentRect.width, entry.contentRect.height)).observe(this.svg);
   }
@@ -238,8 +243,8 @@ export class SPlane {
       const [x2, y2] = toPixel(this.#view, design.poles[2 * pair + 1]);
       for (const [name, value] of Object.entries({ x1, y1, x2, y2 })) setAttr(link, name, value.toFixed(1));
     }
-    this.#marks(this.open, reply?.open_loop_poles ?? [], () => svg('path', { d: 'M -4 -4 L 4 4 M -4 4 L 4 -4' }));
-    this.#marks(this.loop, design.outer === 'pi' ? reply?.loop_poles ?? [] : [], () => svg('path', { d: 'M 0 -5.5 L 5.5 0 L 0 5.5 L -5.5 0 Z' }));
+    this.#marks(this.open, reply?.open_loop_poles ?? [], () => svg('path', { d: OPEN_MARK }));
+    this.#marks(this.loop, design.outer === 'pi' ? reply?.loop_poles ?? [] : [], () => svg('path', { d: LOOP_MARK }));
     this.#drawReadout();
   }
 

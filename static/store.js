@@ -24,7 +24,7 @@ export function designOf(preset, keep = {}) {
     parameters: {},
     poles: fromWire(preset.poles),
     coupling: /** @type {Design['coupling']} */ (preset.coupling ?? 'triangular'),
-    lead: 'pitch',
+    lead: preset.lead ?? 'pitch',
     outer: /** @type {Design['outer']} */ (preset.outer ?? 'pi'),
     pairing: /** @type {Design['pairing']} */ (preset.pairing ?? 'diagonal'),
     loops: { pitch: { ...preset.loops.pitch }, yaw: { ...preset.loops.yaw } },
@@ -48,7 +48,7 @@ export function requestOf(design, seq) {
     outer: design.outer,
     pairing: design.pairing,
     loops: design.loops,
-    scenario: { reference: design.scenario.reference, duration: design.scenario.duration, samples: 501, saturation: true },
+    scenario: { reference: design.scenario.reference, duration: design.scenario.duration, samples: 501, rtol: 1e-6 },
     each_axis: true,
   };
 }

@@ -31,6 +31,7 @@
  * @property {Loops} loops
  * @property {{reference: Reference, duration: number}} scenario
  * @property {string} [coupling]
+ * @property {'pitch'|'yaw'} [lead]
  * @property {string} [pairing]
  * @property {string} [outer]
  *
@@ -63,7 +64,7 @@
  * @property {number} seq
  * @property {{K: number[][], closed_loop_poles: Complex[], pole_error: number, norm: number}} gains
  * @property {Complex[]} open_loop_poles
- * @property {{rga?: number[][], pairing?: number[][], niederlinski?: number}} [rga]
+ * @property {{rga?: number[][], pairing?: string[][], niederlinski?: number}} [rga]
  * @property {StepPair} step
  * @property {{theta?: StepPair, psi?: StepPair}} axis_steps
  * @property {Record<string, {gain_margin?: number, phase_margin?: number, delay_margin?: number}>} [margins]

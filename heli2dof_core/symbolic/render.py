@@ -63,6 +63,7 @@ class SymbolicReport:
         definitions: what the short names α, β₀, γ, a stand for.
         controllability_indices: σ, one per input.
         symbols: every symbol that occurs, with meaning and unit.
+        notation: the same symbols as formulas, by name.
     """
 
     formulas: dict[str, Formula]
@@ -70,6 +71,7 @@ class SymbolicReport:
     definitions: dict[str, Formula]
     controllability_indices: tuple[int, ...]
     symbols: tuple[Name, ...]
+    notation: dict[str, Formula]
 
 
 @cache
@@ -94,6 +96,7 @@ def symbolic_report(structure: Structure) -> SymbolicReport:
         *(m.free_symbols for m in matrices.values()), *(v.free_symbols for v in short.values())
     )
     used |= {sp.Symbol(name) for name in short}
+    symbols = tuple(name for name in NAMES if sp.Symbol(name.name) in used)
     return SymbolicReport(
         formulas={name: formula(matrix) for name, matrix in matrices.items()},
         entries={
@@ -106,7 +109,8 @@ def symbolic_report(structure: Structure) -> SymbolicReport:
         },
         definitions={name: formula(value) for name, value in short.items()},
         controllability_indices=indices(),
-        symbols=tuple(n for n in NAMES if sp.Symbol(n.name) in used),
+        symbols=symbols,
+        notation={name.name: formula(sp.Symbol(name.name)) for name in symbols},
     )
 
 

@@ -51,13 +51,13 @@ export class FindingsPanel {
     this.verdict.className = `verdict ${kind}`;
     setText(this.icon, { refused: '!', waiting: '…', stable: '✓', unstable: '✕' }[kind]);
     setText(this.word, { refused: 'Not computed', waiting: 'Waiting', stable: 'Stable', unstable: 'Unstable' }[kind]);
-    setText(this.detail, reply && !problem ? `slowest of ${reply.loop_poles.length} poles: Re ${fixed(worst)}` : '');
+    setText(this.detail, reply && !problem ? `slowest of ${reply.loop_poles.length} poles at Re ${fixed(worst)}` : '');
 
     const findings = findingsOf(state);
-    const key = JSON.stringify(findings);
+    const key = JSON.stringify([kind, findings]);
     if (key === this.#key) return;
     this.#key = key;
-    const none = h('li', { class: 'none' }, h('span', { class: 'message' }, reply ? 'Nothing to object: within the limits, and the poles are where you put them.' : ''));
+    const none = h('li', { class: 'none' }, h('span', { class: 'message' }, reply ? 'Nothing to object: the motors stay within their limits.' : ''));
     this.list.replaceChildren(...(findings.length ? findings.slice(0, SHOWN).map((f) => this.#item(f)) : [none]));
     this.all.replaceChildren(...findings.map((f) => this.#item(f)));
     this.more.hidden = findings.length <= SHOWN;

@@ -18,7 +18,7 @@ function formula(text) {
 }
 
 const SUB = '₀₁₂₃₄';
-const OTHERS = [['RGA', 'Relative gain array at s = 0'], ['A', 'System matrix A'], ['B', 'Input matrix B'], ['T', 'Luenberger’s transformation T'], ['Q', 'Q'], ['closed_loop', 'Closed loop A − BK'], ['G', 'Closed loop Ĝ(s)']];
+const OTHERS = [['RGA', 'Relative gain array at s = 0'], ['A', 'System matrix A'], ['B', 'Input matrix B'], ['T', 'Luenberger’s transformation T'], ['Q', 'Q'], ['closed_loop', 'Closed loop A − BK'], ['canonical_closed_loop', 'Closed loop in Luenberger’s basis, T(A − BK)T⁻¹'], ['G', 'Closed loop Ĝ(s)']];
 
 export class FormulasPanel {
   #structure = '';
@@ -62,16 +62,18 @@ export class FormulasPanel {
   /** @param {any} symbolic */
   #show(symbolic) {
     this.#values = [];
-    const entries = Object.entries(symbolic.K?.entries ?? {});
+    const entries = Object.entries(symbolic.entries?.K ?? {});
     const gains = entries.length
       ? h('div', { class: 'entries', 'data-testid': 'k-formulas' }, entries.map(([name, entry]) => this.#entry(name, /** @type {any} */ (entry))))
       : h('div', { class: 'scroll', 'data-testid': 'k-formulas' }, formula(symbolic.K?.mathml));
     const cards = OTHERS.filter(([key]) => symbolic[key]?.mathml).map(([key, title]) =>
       h('section', { class: `card ${key === 'RGA' ? 'wide' : ''}` }, h('h3', {}, title), h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': title, 'data-testid': `formula-${key}` }, formula(symbolic[key].mathml))));
-    const definitions = Object.entries(symbolic.definitions ?? {}).map(([, d]) => h('div', { class: 'scroll' }, formula(/** @type {any} */ (d)?.mathml)));
+    const marks = new Map((symbolic.symbols ?? []).map((/** @type {any} */ s) => [s.name, s.mathml]));
+    const definitions = Object.entries(symbolic.definitions ?? {}).map(([name, d]) =>
+      h('div', { class: 'definition' }, formula(marks.get(name)), h('span', {}, '='), formula(/** @type {any} */ (d).mathml)));
     const symbols = h('section', { class: 'card' }, h('h3', {}, 'Symbols'), h('table', { class: 'symbols' }, h('tbody', {},
       (symbolic.symbols ?? []).map((/** @type {any} */ s) => h('tr', {}, h('th', { scope: 'row' }, s.mathml ? formula(s.mathml) : s.name), h('td', {}, s.meaning), h('td', {}, s.unit))))));
-    this.body.replaceChildren(h('section', { class: 'card gains' }, h('h3', {}, 'State feedback K, u = −Kx + v'), gains, definitions), ...cards, symbols);
+    this.body.replaceChildren(h('section', { class: 'card gains' }, h('h3', {}, 'State feedback K, u = −Kx + v'), gains, h('div', { class: 'definitions' }, 'with', definitions)), ...cards, symbols);
   }
 
   /** @param {string} name like k_12 @param {{mathml: string}} entry */

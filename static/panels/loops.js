@@ -7,6 +7,13 @@ import { requestOf } from '../store.js';
 /** @typedef {'pitch'|'yaw'} Axis */
 const AXES = /** @type {Axis[]} */ (['pitch', 'yaw']);
 
+const STRUCTURES = [
+  ['triangular/pitch', 'triangular, pitch leads', 'pitch has exactly its own pair and drives yaw: the paper’s'],
+  ['triangular/yaw', 'triangular, yaw leads', 'yaw has exactly its own pair and drives pitch'],
+  ['input-diagonal', 'input-diagonal', 'standard Luenberger: diagonal in B₂⁻¹[θ, ψ]'],
+  ['axis-decoupled', 'axis-decoupled', 'pitch and yaw do not feel each other'],
+];
+
 export class LoopsPanel {
   /** @type {import('../types.js').Preset|undefined} */ #preset;
 
@@ -15,16 +22,18 @@ export class LoopsPanel {
     this.store = store;
     this.outer = new Choice({ label: 'Outer loop', testid: 'outer', onChange: (v) => this.#set({ outer: /** @type {any} */ (v) }),
       options: [['none', 'Inner loop alone', 'v = Ĝ(0)⁻¹ r: the placed poles, and no others'], ['pi', 'PI loops', 'a PI controller on each axis, which moves the placed poles']] });
-    this.suggest = h('button', { type: 'button', 'data-testid': 'suggest-pi', title: 'Suggest PI values for these poles', onclick: () => this.#suggest() }, 'Suggest PI for these poles');
+    this.suggest = h('button', { type: 'button', 'data-testid': 'suggest-pi', title: 'Suggest PI values that suit these poles', 'aria-label': 'Suggest PI for these poles', onclick: () => this.#suggest() }, 'Suggest PI');
     this.note = h('p', { class: 'note', 'data-testid': 'loops-note', 'aria-live': 'polite' });
-    this.pairing = this.#select('Pairing', 'pairing', [['diagonal', 'diagonal'], ['cross', 'crosswise']]);
-    this.coupling = this.#select('Structure', 'coupling', [['triangular', 'triangular'], ['input-diagonal', 'input-diagonal'], ['axis-decoupled', 'axis-decoupled']]);
-    this.lead = this.#select('Leads', 'lead', [['pitch', 'pitch'], ['yaw', 'yaw']]);
+    this.structure = this.#select('Structure', 'structure', STRUCTURES, (value) => {
+      const [coupling, lead] = /** @type {[any, any]} */ (value.split('/'));
+      return { coupling, lead: lead ?? 'pitch' };
+    });
+    this.pairing = this.#select('Pairing', 'pairing', [['diagonal', 'diagonal', 'pitch error to the pitch motor'], ['cross', 'crosswise', 'pitch error to the yaw motor']], (value) => ({ pairing: /** @type {any} */ (value) }));
     this.axes = AXES.map((axis) => this.#axis(axis));
     root.append(
       h('div', { class: 'row spread' }, this.outer.node, this.suggest),
       h('div', { class: 'pis' }, this.axes.map((a) => a.node)),
-      h('div', { class: 'row advanced' }, this.coupling.node, this.lead.node, this.pairing.node),
+      h('div', { class: 'row advanced' }, this.structure.node, this.pairing.node),
       this.note,
     );
   }
@@ -34,9 +43,9 @@ export class LoopsPanel {
     this.store.edit((d) => ({ ...d, ...part }));
   }
 
-  /** @param {string} text @param {'pairing'|'coupling'|'lead'} key @param {[string, string][]} options */
-  #select(text, key, options) {
-    const select = h('select', { 'data-testid': key, 'data-field': key, onchange: () => this.#set({ [key]: select.value }) }, options.map(([value, name]) => h('option', { value }, name)));
+  /** @param {string} text @param {string} key @param {string[][]} options value, name, explanation @param {(value: string) => Partial<import('../types.js').Design>} read */
+  #select(text, key, options, read) {
+    const select = h('select', { 'data-testid': key, 'data-field': key, onchange: () => this.#set(read(select.value)) }, options.map(([value, name, title]) => h('option', { value, title }, name)));
     return { select, node: h('label', { class: 'select' }, h('span', {}, text), select) };
   }
 
@@ -92,8 +101,6 @@ export class LoopsPanel {
     }
     this.pairing.select.value = design.pairing;
     this.pairing.select.disabled = off;
-    this.coupling.select.value = design.coupling;
-    this.lead.select.value = design.lead;
-    this.lead.select.disabled = design.coupling !== 'triangular';
+    this.structure.select.value = design.coupling === 'triangular' ? `triangular/${design.lead}` : design.coupling;
   }
 }

@@ -29,9 +29,9 @@ const ROWS = [
   { id: 'coupling', name: () => ['Other axis moves'], title: 'largest deviation of the axis that is not stepped', of: (m) => degrees(m?.coupling_peak, 2) },
   { id: 'V_p', name: () => [symbol('V', 'p'), ' peak'], title: 'pitch motor, trim included', of: (m) => motorText(m, 'V_p'), warn: (m) => motor(m, 'V_p').saturated > 0 },
   { id: 'V_y', name: () => [symbol('V', 'y'), ' peak'], title: 'yaw motor, trim included', of: (m) => motorText(m, 'V_y'), warn: (m) => motor(m, 'V_y').saturated > 0 },
-  { id: 'margin', name: () => ['Gain · phase margin'], title: 'of this loop, the other one closed',
+  { id: 'margin', name: () => ['Gain · phase margin'], title: 'at this axis’ own motor, everything else closed',
     of: (_m, _a, g) => (g?.gain_margin === undefined && g?.phase_margin === undefined ? '–' : `${g.gain_margin === undefined ? '∞' : decibel(g.gain_margin)} · ${degrees(g.phase_margin, 0)}`) },
-  { id: 'delay', name: () => ['Delay margin'], title: 'the dead time that this loop would still bear', of: (_m, _a, g) => seconds(g?.delay_margin) },
+  { id: 'delay', name: () => ['Delay margin'], title: 'the dead time that this motor would still bear', of: (_m, _a, g) => seconds(g?.delay_margin) },
 ];
 
 export class MetricsPanel {

@@ -1,5 +1,5 @@
 /** K and the RGA as matrices, and what the RGA says, in words. */
-import { h, setText, symbol } from '../dom.js';
+import { h, setAttr, setText, symbol } from '../dom.js';
 import { fixed, significant } from '../format.js';
 
 const dotted = (/** @type {string} */ s) => h('span', { class: 'sym' }, h('i', {}, `${s}\u0307`));
@@ -10,7 +10,8 @@ const MOTORS = ['V_p', 'V_y'];
 class Matrix {
   /** @param {string} testid @param {Node} name @param {Node[]} rows @param {Node[]} columns @param {(i: number, j: number) => string} title */
   constructor(testid, name, rows, columns, title) {
-    this.cells = rows.map((_r, i) => columns.map((_c, j) => h('td', { title: title(i, j), 'data-testid': `${testid}-${i}${j}` })));
+    this.title = title;
+    this.cells = rows.map((_r, i) => columns.map((_c, j) => h('td', { 'data-testid': `${testid}-${i}${j}` })));
     this.node = h('table', { class: 'matrix', 'data-testid': testid },
       h('thead', {}, h('tr', {}, h('th', { class: 'name' }, name), columns.map((c) => h('th', { scope: 'col' }, c)))),
       h('tbody', {}, rows.map((r, i) => h('tr', {}, h('th', { scope: 'row' }, r), this.cells[i]))));
@@ -18,14 +19,17 @@ class Matrix {
 
   /** @param {number[][]|undefined} values @param {(v: number) => string} format */
   render(values, format) {
-    this.cells.forEach((row, i) => row.forEach((cell, j) => setText(cell, values ? format(values[i][j]) : '–')));
+    this.cells.forEach((row, i) => row.forEach((cell, j) => {
+      setText(cell, values ? format(values[i][j]) : '–');
+      setAttr(cell, 'title', `${this.title(i, j)}${values ? `\n${significant(values[i][j], 8)}` : ''}`);
+    }));
   }
 }
 
 /** What the RGA and the Niederlinski index mean for the pairing in use. @param {import('../types.js').Reply} reply @param {'diagonal'|'cross'} pairing */
 export function pairingWords({ rga }, pairing) {
   if (!rga?.rga) return { level: 'info', text: 'No steady state, so no relative gains: a pole lies at 0.' };
-  const advised = rga.pairing?.[0]?.[1] === 1 ? 'cross' : 'diagonal';
+  const advised = rga.pairing?.[0]?.[1] === 'V_y' ? 'cross' : 'diagonal';
   const gain = pairing === 'cross' ? rga.rga[0][1] : rga.rga[0][0];
   const strength = Math.abs(gain - 1) < 0.05 ? 'hardly any interaction' : gain > 0.7 && gain < 2 ? 'moderate interaction' : gain <= 0 ? 'the loops fight each other' : 'strong interaction';
   const n = rga.niederlinski;
@@ -48,7 +52,7 @@ export class NumbersPanel {
 
   /** @param {import('../types.js').State} state */
   render({ reply, design }) {
-    this.k.render(reply?.gains.K, (v) => significant(v, 5));
+    this.k.render(reply?.gains.K, (v) => significant(v, 4));
     this.rga.render(reply?.rga?.rga, (v) => fixed(v, 3));
     if (!reply || !design) return;
     const { level, text } = pairingWords(reply, design.pairing);

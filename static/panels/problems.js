@@ -18,7 +18,7 @@ export class FieldProblems {
     this.#marked?.classList.add('refused');
   }
 
-  /** The field itself, or the one whose path begins or continues it ("poles[0].re", "poles"). @param {string} path */
+  /** The field itself, or the one whose path begins or continues it ("poles.0", "poles"). @param {string} path */
   #find(path) {
     const fields = [...this.root.querySelectorAll('[data-field]')];
     return fields.find((f) => path.startsWith(f.getAttribute('data-field') ?? '-')) ?? fields.find((f) => f.getAttribute('data-field')?.startsWith(path)) ?? null;

@@ -1,6 +1,6 @@
-/** What is asked of the rig: how far it steps and how long one watches; and which of the motions the scene plays. */
+/** What is asked of the rig: how far it steps and how long one watches; and what the plots' lines mean. */
 import { h, symbol } from '../dom.js';
-import { Choice, NumberField } from '../fields.js';
+import { NumberField } from '../fields.js';
 import { DEGREE } from '../format.js';
 
 /** @typedef {'theta'|'psi'} Axis */
@@ -14,17 +14,14 @@ export class ScenarioPanel {
     this.duration = new NumberField({ label: 'duration in seconds', mark: 'over', unit: 's', testid: 'duration', field: 'scenario.duration', min: 0.1, max: 60, positive: true,
       onInput: (v, stamp) => store.edit((d) => ({ ...d, scenario: { ...d.scenario, duration: v } }), { gesture: 'duration', stamp }), onCommit: () => store.commit() });
     this.linear = h('input', { type: 'checkbox', 'data-testid': 'show-linear', onchange: () => store.set({ showLinear: this.linear.checked }) });
-    this.motion = new Choice({ label: 'Motion that the scene plays', testid: 'motion', onChange: (v) => store.set({ motion: /** @type {any} */ (v) }),
-      options: [['theta', 'pitch step', 'the scene plays the pitch step alone'], ['psi', 'yaw step', 'the scene plays the yaw step alone'], ['both', 'both', 'the scene plays both steps at once']] });
     const key = (/** @type {string} */ kind, /** @type {string} */ text, /** @type {string} */ title) => h('span', { class: 'key', title }, h('span', { class: `line ${kind}`, 'aria-hidden': 'true' }), text);
     root.append(
-      h('div', { class: 'row steps' }, h('span', { class: 'caption' }, 'Step'), this.theta.node, this.psi.node, this.duration.node,
-        h('span', { class: 'plays' }, h('span', { class: 'caption' }, 'Scene plays'), this.motion.node)),
+      h('div', { class: 'row steps' }, h('span', { class: 'caption' }, 'Step'), this.theta.node, this.psi.node, this.duration.node),
       h('div', { class: 'row legend', 'data-testid': 'legend' },
         key('pitch solid', 'pitch step', 'nonlinear rig, pitch reference stepped alone'), key('yaw solid', 'yaw step', 'nonlinear rig, yaw reference stepped alone'),
         key('halo', 'played', 'the motion that the scene plays'),
         h('label', { class: 'key', title: 'The linear model knows no limits. Its voltages are deviations; the trim is added here, so that both models share one absolute scale.' },
-          this.linear, h('span', { class: 'line pitch dashed', 'aria-hidden': 'true' }), h('span', { class: 'line yaw dotted', 'aria-hidden': 'true' }), 'linear model', h('span', { class: 'aside' }, '(+ trim)'))),
+          this.linear, h('span', { class: 'line pitch dashed', 'aria-hidden': 'true' }), h('span', { class: 'line yaw dotted', 'aria-hidden': 'true' }), 'linear', h('span', { class: 'aside' }, '(+ trim)'))),
     );
   }
 
@@ -38,14 +35,13 @@ export class ScenarioPanel {
   }
 
   /** @param {import('../types.js').State} state */
-  render({ design, motion, showLinear }) {
+  render({ design, showLinear }) {
     if (!design) return;
     const { reference, duration } = design.scenario;
     const degrees = (/** @type {number} */ v) => Math.round(v * DEGREE * 1e4) / 1e4;
     this.theta.set(degrees(reference.theta));
     this.psi.set(degrees(reference.psi));
     this.duration.set(duration);
-    this.motion.set(motion);
     this.linear.checked = showLinear;
   }
 }

@@ -76,11 +76,15 @@ def chromium() -> Iterator[Browser]:
         browser.close()
 
 
-@pytest.fixture
-def page(chromium: Browser, app: App) -> Iterator[Page]:
+@contextmanager
+def page_of(chromium: Browser, app: App, *, scene: bool) -> Iterator[Page]:
     """The page at 1280×800, its first answer drawn; fails on any error in its console."""
     context = chromium.new_context(viewport={"width": 1280, "height": 800})
     page = context.new_page()
+    if not scene:  # software rendering takes most of two cores
+        page.route(
+            "**/scene/*/", lambda route: route.fulfill(content_type="text/html", body="<title>-</title>")
+        )
     errors: list[str] = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.on("console", lambda message: message.type == "error" and errors.append(message.text))
@@ -88,6 +92,20 @@ def page(chromium: Browser, app: App) -> Iterator[Page]:
     yield page
     context.close()
     assert errors == []
+
+
+@pytest.fixture
+def page(chromium: Browser, app: App) -> Iterator[Page]:
+    """The page, nothing in its scene's frame."""
+    with page_of(chromium, app, scene=False) as page:
+        yield page
+
+
+@pytest.fixture
+def page_with_scene(chromium: Browser, app: App) -> Iterator[Page]:
+    """The page with its scene."""
+    with page_of(chromium, app, scene=True) as page:
+        yield page
 
 
 def opened(page: Page, url: str) -> None:

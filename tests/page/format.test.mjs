@@ -1,0 +1,52 @@
+// Numbers in words and figures.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { complex, decibel, degrees, fixed, forField, parseNumber, percent, poleText, seconds, significant } from "../../static/format.js";
+import { Stats } from "../../static/stats.js";
+
+test("the minus is a minus, and zero has none", () => {
+  assert.equal(fixed(-1.005, 1), "\u22121.0");
+  assert.equal(fixed(-0.001, 2), "0.00");
+  assert.equal(fixed(undefined), "–");
+});
+
+test("significant digits, with an exponent only where it helps", () => {
+  assert.equal(significant(51.170053, 5), "51.170");
+  assert.equal(significant(-0.61941, 5), "\u22120.6194");
+  assert.equal(significant(4526.3, 4), "4526");
+  assert.equal(significant(2.5e-7, 4), "2.50e-7");
+});
+
+test("fields show plain numbers and accept what people type", () => {
+  assert.equal(forField(-8.76), "-8.76");
+  assert.equal(parseNumber(" −9,25 "), -9.25);
+  for (const nonsense of ["", "abc", "1..2"]) assert.ok(Number.isNaN(parseNumber(nonsense)));
+});
+
+test("a pole for a screen reader", () => {
+  const poles = [{ re: -12, im: 0 }, { re: -10, im: 0 }, { re: -3, im: 4 }, { re: -3, im: -4 }];
+  assert.equal(poleText(poles, 0), "pitch pole 1: \u221212.0 rad/s");
+  assert.equal(poleText(poles, 3), "yaw pole 4: \u22123.0 \u2212 4.0j rad/s");
+  assert.equal(complex(poles[2]), "\u22123.00 + 4.00j");
+});
+
+test("figures of merit", () => {
+  assert.equal(decibel(2), "6.0 dB");
+  assert.equal(degrees(Math.PI / 4), "45.0°");
+  assert.equal(seconds(0.012), "12 ms");
+  assert.equal(seconds(1.234), "1.23 s");
+  assert.equal(percent(0.256), "26 %");
+});
+
+test("statistics of the updates", () => {
+  const stats = new Stats();
+  for (let k = 0; k < 5; k++) stats.drawn(100 * k, k === 2 ? undefined : 100 * k - 10 * k, 3);
+  const s = stats.summary();
+  assert.equal(s.updates, 5);
+  assert.equal(s.perSecond, 10);
+  assert.equal(s.last, 40);
+  assert.deepEqual(s.latencies, [0, 10, 30, 40]);
+  stats.reset();
+  assert.equal(stats.summary().median, null);
+});

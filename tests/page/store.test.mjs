@@ -1,0 +1,90 @@
+// The state: what can be undone, what counts as one step, and what is sent.
+import assert from "node:assert/strict";
+import { beforeEach, test } from "node:test";
+
+import { designOf, requestOf, Store } from "../../static/store.js";
+
+const PRESET = {
+  name: "rig", title: "Rig", source: "a manual", rig: "helicopter", parameters: { m: 1 }, limits: { V_p: 24, V_y: 15 },
+  poles: [{ re: -12, im: 0 }, { re: -10, im: 0 }, { re: -9, im: 0 }, { re: -8, im: 0 }],
+  loops: { pitch: { kp: 30, ti: 0.1 }, yaw: { kp: 20, ti: 0.2 } },
+  scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 4 },
+};
+/** @type {Store} */
+let store;
+const kp = () => store.state.design.loops.pitch.kp;
+const setKp = (value, how) => store.edit((d) => ({ ...d, loops: { ...d.loops, pitch: { ...d.loops.pitch, kp: value } } }), how);
+
+beforeEach(() => {
+  store = new Store();
+  store.set({ presets: [PRESET] });
+  store.load(designOf(PRESET));
+});
+
+test("a preset's design is its own copy", () => {
+  store.state.design.loops.pitch.kp = 1;
+  assert.equal(PRESET.loops.pitch.kp, 30);
+  assert.equal(store.preset, PRESET);
+});
+
+test("edits are undone and redone one by one", () => {
+  setKp(1);
+  setKp(2);
+  store.undo();
+  assert.equal(kp(), 1);
+  store.undo();
+  assert.equal(kp(), 30);
+  assert.equal(store.state.canUndo, false);
+  store.redo();
+  store.redo();
+  assert.equal(kp(), 2);
+  assert.equal(store.state.canRedo, false);
+});
+
+test("a gesture is one step, however many edits it has", () => {
+  for (const value of [1, 2, 3, 4]) setKp(value, { gesture: "drag" });
+  store.undo();
+  assert.equal(kp(), 30);
+});
+
+test("two gestures of the same name are two steps once the first is over", () => {
+  setKp(1, { gesture: "drag" });
+  store.commit();
+  setKp(2, { gesture: "drag" });
+  store.undo();
+  assert.equal(kp(), 1);
+});
+
+test("an edit after undo forgets what was undone", () => {
+  setKp(1);
+  store.undo();
+  setKp(5);
+  assert.equal(store.state.canRedo, false);
+  store.redo();
+  assert.equal(kp(), 5);
+});
+
+test("undo beyond the beginning and an edit that changes nothing are silent", () => {
+  let events = 0;
+  store.addEventListener("design", () => events++);
+  store.undo();
+  store.edit((d) => d);
+  assert.equal(events, 0);
+});
+
+test("each change of the design is announced with the time of its input", () => {
+  const stamps = [];
+  store.addEventListener("design", (e) => stamps.push(e.detail.stamp));
+  setKp(1, { stamp: 12.5 });
+  store.set({ motion: "psi" });
+  assert.deepEqual(stamps, [12.5]);
+});
+
+test("the request holds the whole design and asks for each axis", () => {
+  const request = requestOf(store.state.design, 7);
+  assert.equal(request.seq, 7);
+  assert.equal(request.each_axis, true);
+  assert.deepEqual(request.loops, PRESET.loops);
+  assert.deepEqual(request.scenario.reference, { theta: 0.1, psi: 0.2 });
+  assert.equal(request.scenario.duration, 4);
+});
