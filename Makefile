@@ -49,18 +49,17 @@ browser:
 	Elsewhere: install Chromium or Chrome and call: make test CHROMIUM=/path/to/it" >&2; exit 1; }
 
 $(BIN)/pip:
-	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "heli2dof needs Python 3.11 or newer; PYTHON= names one")'
-	$(PYTHON) -m venv $(VENV)
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "heli2dof needs Python 3.11 or newer; PYTHON= names one")'
+	@$(PYTHON) -m venv $(VENV)
 
-$(VENV)/.requirements: $(PACKAGING) | $(BIN)/pip
+# The real wheel, so that what is tried is what ships; all packages anew only where the packaging changed.
+$(VENV)/.installed: $(SOURCES) $(PACKAGING) | $(BIN)/pip
 	@echo "Installing heli2dof into $(VENV); the first time takes a minute."
-	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt .
+	@$(BIN)/pip install --quiet --disable-pip-version-check \
+	  $(if $(filter $(PACKAGING),$?),-c constraints.txt,--no-deps --force-reinstall) .
 	@touch $@
 
-$(VENV)/.installed: $(SOURCES) $(VENV)/.requirements
-	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --force-reinstall .
-	@touch $@
-
-$(VENV)/.tools: $(PACKAGING) $(VENV)/.requirements
-	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt '.[test]'
+$(VENV)/.tools: $(PACKAGING) | $(BIN)/pip
+	@echo "Installing what the tests need into $(VENV)"
+	@$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt '.[test]'
 	@touch $@

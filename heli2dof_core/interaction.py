@@ -63,8 +63,8 @@ def _advice(diagonal: float) -> list[Finding]:
         Finding(
             "pairing_cross",
             "warning",
-            f"The RGA advises against the diagonal pairing: λ₁₁ = {diagonal:.3f}, below 0.5, so at steady "
-            "state the cross paths outweigh the direct ones. That alone makes nothing unstable; try the cross "
+            f"The RGA advises against the diagonal pairing: λ₁₁ = {diagonal:.3f}, below 0.5: at steady state "
+            "the cross paths outweigh the direct ones. That alone makes nothing unstable; try the cross "
             "pairing.",
         )
     ]

@@ -41,11 +41,17 @@ export class NumberField {
   }
 
   /** @type {number} */ value = NaN;
+  #typing = false;
 
   /** @param {number} v */
   set(v) {
+    const changed = v !== this.value;
     this.value = v;
-    if (document.activeElement !== this.input && this.input.getAttribute('aria-invalid') !== 'true') {
+    // Who types must not be corrected meanwhile; what comes from elsewhere (undo, another preset) replaces the text.
+    const own = document.activeElement === this.input && (this.#typing || !changed);
+    if (changed) this.#typing = false;
+    if (!own && (changed || this.input.getAttribute('aria-invalid') !== 'true')) {
+      this.complain('');
       const text = forField(v);
       if (this.input.value !== text) this.input.value = text;
     }
@@ -81,11 +87,13 @@ export class NumberField {
     if (positive && v <= 0) return this.complain('must be positive');
     if (v < min || v > max) return this.complain(`${significant(min, 3)} to ${significant(max, 3)}`);
     this.complain('');
+    this.#typing = true;
     return this.options.onInput(v, stamp);
   }
 
   /** Leaving a field that holds nonsense puts the last good value back. */
   #done() {
+    this.#typing = false;
     this.complain('');
     this.input.value = forField(this.value);
     this.options.onCommit();

@@ -45,6 +45,7 @@ export class SceneView {
   /** @type {any} */ #design = null;
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
   #pending = false;
+  #last = { playing: false, time: 0, duration: 0, ready: false, reason: '' };
   #calm = matchMedia('(prefers-reduced-motion: reduce)');
 
   /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onTime: (t: number) => void}} handlers */
@@ -65,12 +66,14 @@ export class SceneView {
     this.time = h('input', { type: 'range', min: 0, max: 5, step: 0.01, value: 0, 'aria-label': 'Time in the motion', 'data-testid': 'time', oninput: () => this.#seek(Number(this.time.value)) });
     this.clock = h('output', { class: 'clock', 'data-testid': 'clock' });
     this.loop = h('input', { type: 'checkbox', 'data-testid': 'loop' });
+    this.seen = h('input', { type: 'checkbox', checked: true, 'data-testid': 'show-scene', onchange: () => this.#state(this.#last) });
     root.append(h('div', { class: 'stage' }, this.webgl ? this.frame : null, this.notice, hud, h('div', { class: 'motion' }, this.motion.node)),
-      h('div', { class: 'transport' }, this.play, this.replay, this.time, this.clock, h('label', { class: 'check', title: 'Play again and again' }, this.loop, 'loop')));
+      h('div', { class: 'transport' }, this.play, this.replay, this.time, this.clock, h('label', { class: 'check', title: 'Play again and again' }, this.loop, 'loop'),
+        this.webgl ? h('label', { class: 'check', title: 'Draw the rig: switch it off where the graphics are slow' }, this.seen, '3D') : null));
     const target = this.webgl ? this.frame : /** @type {HTMLIFrameElement} */ (/** @type {unknown} */ ({ contentWindow: null }));
     this.player = new ScenePlayer(target, { onFrame: (s) => this.#show(s), onState: (s) => this.#state(s) });
     if (this.webgl) this.#followTheme();
-    this.#state({ playing: false, time: 0, duration: 0, ready: false, reason: '' });
+    this.#state(this.#last);
   }
 
   #followTheme() {
@@ -151,14 +154,18 @@ export class SceneView {
     this.onTime(s.t);
   }
 
-  /** @param {{playing: boolean, time: number, duration: number, ready: boolean, reason: string}} s */
-  #state({ playing, time, duration, ready, reason }) {
+  /** @param {{playing: boolean, time: number, duration: number, ready: boolean, reason: string}} last */
+  #state(last) {
+    this.#last = last;
+    const { playing, time, duration, ready, reason } = last;
     setText(this.play, playing ? 'Pause' : 'Play');
     setAttr(this.play, 'aria-pressed', String(playing));
     if (duration > 0) setAttr(this.time, 'max', duration);
     if (this.webgl) {
-      this.notice.hidden = ready;
-      if (reason) setText(this.notice, reason);
+      const seen = this.seen.checked;
+      this.frame.hidden = !seen;
+      this.notice.hidden = ready && seen;
+      setText(this.notice, !seen ? 'The rig is switched off. All else works.' : reason || 'Building the rig…');
     }
     if (!playing && duration > 0 && time >= duration && this.loop.checked) this.#timer = setTimeout(() => this.loop.checked && this.player.replay(), REST_MS);
   }

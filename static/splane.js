@@ -279,10 +279,11 @@ export class SPlane {
     while (this.readout.childElementCount < lines.length) this.readout.append(h('div'));
     lines.forEach((line, k) => setText(this.readout.children[k], line));
     const [x, y] = toPixel(this.#view, p);
-    const right = x < this.#view.width * 0.55;
+    this.readout.className = `readout ${NAMES[pair]}`;
+    const right = x + 24 + this.readout.offsetWidth < this.#view.width;
     const b = bounds(this.#view);
     const low = p.im > (b.top + b.bottom) / 2 + (b.top - b.bottom) / 4;
-    this.readout.className = `readout ${NAMES[pair]}`;
-    this.readout.style.transform = `translate(${right ? x + 24 : x - 24}px, ${low ? y + 22 : y - 22}px) translate(${right ? '0' : '-100%'}, ${low ? '0' : '-100%'})`;
+    const column = right ? x + 24 : Math.max(x - 24, this.readout.offsetWidth + 4);
+    this.readout.style.transform = `translate(${column}px, ${low ? y + 22 : y - 22}px) translate(${right ? '0' : '-100%'}, ${low ? '0' : '-100%'})`;
   }
 }

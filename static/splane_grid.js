@@ -41,16 +41,16 @@ export function drawGrid(layer, view) {
 
   nodes.push(svg('line', { class: 'axis', x1: 0, x2: view.width, y1: y0, y2: y0 }));
   nodes.push(svg('line', { class: 'axis imaginary', x1: x0, x2: x0, y1: 0, y2: view.height }));
-  const baseline = Math.max(14, Math.min(view.height - 6, y0 + 15));
+  const baseline = view.height - 7; // along the edge: at the axis the poles would cover them
   for (const re of ticks(b.left, b.right, step)) {
     const [x] = toPixel(view, { re, im: 0 });
-    if (x < 14 || x > view.width - 24 || re === 0) continue;
+    if (x < 14 || x > view.width - 14) continue;
     nodes.push(svg('text', { class: 'tick', x, y: baseline, 'text-anchor': 'middle' }, fixed(re, decimals)));
   }
   const column = Math.max(4, Math.min(view.width - 4, x0 - 5));
   for (const im of ticks(b.bottom, b.top, step)) {
     const [, y] = toPixel(view, { re: 0, im });
-    if (y < 22 || y > view.height - 10 || im === 0) continue;
+    if (y < 22 || y > view.height - 24 || im === 0) continue;
     nodes.push(svg('text', { class: 'tick', x: column, y: y + 4, 'text-anchor': 'end' }, `${fixed(im, decimals)}j`));
   }
   layer.replaceChildren(...nodes);

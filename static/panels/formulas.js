@@ -3,6 +3,15 @@ import { h, setText } from '../dom.js';
 import { significant } from '../format.js';
 import { getSymbolic } from '../api.js';
 
+/** Draws a matrix's brackets as borders: without a mathematical font a browser does not stretch them. @param {Element} table */
+function bracket(table) {
+  const [before, after] = [table.previousElementSibling, table.nextElementSibling];
+  if (before?.textContent?.trim() !== '[' || after?.textContent?.trim() !== ']') return;
+  before.remove();
+  after.remove();
+  table.classList.add('bracketed');
+}
+
 /** The server's own MathML, parsed as XML and adopted: it is never taken for HTML. @param {string|undefined} text @returns {Node} */
 function formula(text) {
   if (!text) return document.createTextNode('–');
@@ -14,6 +23,7 @@ function formula(text) {
     for (const { name } of [...element.attributes]) if (name.startsWith('on') || name === 'href' || name === 'style') element.removeAttribute(name);
   }
   node.setAttribute('display', 'block');
+  for (const table of node.querySelectorAll('mtable')) bracket(table);
   return node;
 }
 
@@ -27,6 +37,7 @@ export class FormulasPanel {
 
   /** @param {HTMLElement} root @param {import('../store.js').Store} store */
   constructor(root, store) {
+    this.store = store;
     this.body = h('div', { class: 'formulas-body', 'data-testid': 'formulas' });
     root.append(this.body);
     new IntersectionObserver((entries) => {
@@ -54,7 +65,7 @@ export class FormulasPanel {
       if (structure === this.#structure) this.#show(symbolic);
     } catch (error) {
       this.#structure = '';
-      this.body.replaceChildren(h('p', { class: 'note' }, `The formulas could not be fetched: ${error instanceof Error ? error.message : error}`));
+      this.body.replaceChildren(h('p', { class: 'failure' }, `The formulas could not be fetched: ${error instanceof Error ? error.message : error}`));
     }
     this.body.removeAttribute('aria-busy');
   }
@@ -74,6 +85,7 @@ export class FormulasPanel {
     const symbols = h('section', { class: 'card' }, h('h3', {}, 'Symbols'), h('table', { class: 'symbols' }, h('tbody', {},
       (symbolic.symbols ?? []).map((/** @type {any} */ s) => h('tr', {}, h('th', { scope: 'row' }, s.mathml ? formula(s.mathml) : s.name), h('td', {}, s.meaning), h('td', {}, s.unit))))));
     this.body.replaceChildren(h('section', { class: 'card gains' }, h('h3', {}, 'State feedback K, u = −Kx + v'), gains, h('div', { class: 'definitions' }, 'with', definitions)), ...cards, symbols);
+    this.render(this.store.state);
   }
 
   /** @param {string} name like k_12 @param {{mathml: string}} entry */

@@ -30,6 +30,7 @@ export class LoopsPanel {
     });
     this.pairing = this.#select('Pairing', 'pairing', [['diagonal', 'diagonal', 'pitch error to the pitch motor'], ['cross', 'crosswise', 'pitch error to the yaw motor']], (value) => ({ pairing: /** @type {any} */ (value) }));
     this.axes = AXES.map((axis) => this.#axis(axis));
+    for (const event of ['pointerdown', 'keydown']) document.addEventListener(event, () => setText(this.note, ''));
     root.append(
       h('div', { class: 'row spread' }, this.outer.node, this.suggest),
       h('div', { class: 'pis' }, this.axes.map((a) => a.node)),

@@ -15,7 +15,7 @@ class PairEditor {
       onChange: (v) => store.edit((d) => ({ ...d, poles: setMode(d.poles, pair, v === 'complex') })) });
     this.fields = [0, 1].map((k) => this.#field(k, store));
     this.node = h('fieldset', { class: `pair ${name}`, 'data-testid': `pair-${name}` },
-      h('legend', {}, h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }), `${name} pair`), this.mode.node, this.fields.map((f) => f.node));
+      h('legend', {}, h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }), name), this.mode.node, this.fields.map((f) => f.node));
     this.marks = this.fields.map((f) => /** @type {HTMLElement} */ (f.node.querySelector('.mark')));
   }
 

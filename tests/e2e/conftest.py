@@ -3,32 +3,33 @@
 from __future__ import annotations
 
 import os
-import socket
-import threading
+import re
+import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 
 import httpx2
 import pytest
-import uvicorn
 from playwright.sync_api import Browser, Page, sync_playwright
 
-from app.cli import server_config
-from app.settings import Settings
 from tests.scene_server import until
+
+ROOT = Path(__file__).parents[2]
 
 FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-networking"]
 PATIENCE = 90_000
 """Milliseconds; software rendering on two cores is slow."""
 
 
-@dataclass
+@dataclass(frozen=True)
 class App:
     """The running app."""
 
     port: int
-    server: uvicorn.Server
 
     @property
     def url(self) -> str:
@@ -37,28 +38,22 @@ class App:
 
 @contextmanager
 def running_app(port: int = 0) -> Iterator[App]:
-    """The app as the command line serves it, in a thread, ready."""
-    listener = socket.socket()
-    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    listener.bind(("127.0.0.1", port))
-    server = uvicorn.Server(server_config(Settings()))
-    thread = threading.Thread(target=server.run, args=([listener],))
-    thread.start()
-    app = App(listener.getsockname()[1], server)
-
-    def ready() -> bool:
-        try:
-            return httpx2.get(app.url + "healthz").status_code == 200
-        except httpx2.TransportError:
-            return False
-
+    """The app as `heli2dof serve` starts it, in a process of its own, ready to compute."""
+    command = [sys.executable, "-m", "app", "serve", "--port", str(port)]
+    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
     try:
-        until(ready, "the app is ready", 60)
+        assert process.stdout is not None
+        announcement = process.stdout.readline()
+        found = re.search(r"ready: http://127.0.0.1:(\d+)$", announcement)
+        assert found, announcement
+        app = App(int(found[1]))
+        until(lambda: httpx2.get(app.url + "healthz").status_code == 200, "the app is ready", 60)
         yield app
     finally:
-        server.should_exit = True
-        thread.join(30)
-        assert not thread.is_alive()
+        process.terminate()
+        status = process.wait(30)
+        process.stdout.close()
+    assert status in (0, -signal.SIGTERM)
 
 
 @pytest.fixture(scope="session")

@@ -28,7 +28,7 @@ let sockets, replies, problems, statuses, live;
 const last = () => sockets[sockets.length - 1];
 const seqs = () => last().sent.map((r) => r.seq);
 
-beforeEach((t) => {
+beforeEach(() => {
   mock.timers.reset();
   mock.timers.enable({ apis: ["setTimeout"] });
   [sockets, replies, problems, statuses] = [[], [], [], []];
