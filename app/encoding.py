@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import orjson
+from starlette.responses import Response
 
 BINARY_SUBPROTOCOL = "heli2dof.v1+binary"
 ARRAY_KEY = "$f32"
@@ -16,6 +17,11 @@ ARRAY_KEY = "$f32"
 def json_bytes(value: Any) -> bytes:
     """JSON, NumPy arrays included."""
     return orjson.dumps(value, option=orjson.OPT_SERIALIZE_NUMPY)
+
+
+def json_response(value: Any, status: int = 200) -> Response:
+    """JSON as a response, past FastAPI's own encoder, which takes longer than the mathematics."""
+    return Response(json_bytes(value), status, media_type="application/json")
 
 
 def binary_frame(reply: Mapping[str, Any]) -> bytes:

@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
+import numpy as np
+
 from .checks import require_one_of, require_within
+from .signals import Floats
 
 Outer = Literal["pi", "none"]
 Pairing = Literal["diagonal", "cross"]
@@ -104,3 +107,10 @@ class Scenario:
         require_within(self.samples, "scenario.samples", "", 2, MOST_SAMPLES)
         require_one_of(self.anti_windup, AntiWindup, "scenario.anti_windup")
         require_within(self.rtol, "scenario.rtol", "", 1e-12, 1e-2)
+
+    def resolved(self, theta_0: float) -> tuple[Floats, Floats]:
+        """References [θ, ψ] and start [θ, ψ, θ̇, ψ̇] with the operating point (θ₀, 0) filled in, rad."""
+        rest = (theta_0, 0.0)
+        reference = [r if v is None else v for v, r in zip((self.theta, self.psi), rest, strict=True)]
+        angles = [r if v is None else v for v, r in zip(self.initial[:2], rest, strict=True)]
+        return np.array(reference), np.array([*angles, *self.initial[2:]], dtype=float)

@@ -23,6 +23,7 @@ const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDow
 export class SPlane {
   #view = { cx: -5, cy: 0, scale: 20, width: 0, height: 0 };
   #manual = false;
+  #readoutWidth = 190;
   /** @type {string|null} */ #preset = null;
   /** @type {number|null} */ #active = null;
   /** @type {{index: number, together: boolean, dx: number, dy: number}|null} */ #drag = null;
@@ -31,15 +32,18 @@ export class SPlane {
   /** @param {HTMLElement} root @param {import('./store.js').Store} store */
   constructor(root, store) {
     this.store = store;
-    this.grid = svg('g', { 'aria-hidden': 'true' });
+    this.grid = svg('g');
     this.open = svg('g', { class: 'open-poles', 'data-testid': 'open-poles' });
     this.loop = svg('g', { class: 'loop-poles', 'data-testid': 'loop-poles' });
     this.links = NAMES.map((name) => svg('line', { class: `link ${name}` }));
     this.handles = [0, 1, 2, 3].map((i) => this.#handle(i));
-    this.svg = svg('svg', { class: 'splane-svg', 'data-testid': 'splane', role: 'group', 'aria-label': 'Poles in the s-plane' },
+    // The grid has a drawing of its own, which is not painted again while a pole moves.
+    const backdrop = svg('svg', { class: 'splane-svg backdrop', 'aria-hidden': 'true' },
       svg('defs', {}, svg('pattern', { id: 'hatch', width: 8, height: 8, patternUnits: 'userSpaceOnUse', patternTransform: 'rotate(45)' },
         svg('line', { class: 'hatch-line', x1: 0, y1: 0, x2: 0, y2: 8 }))),
-      this.grid, this.open, ...this.links, this.loop, ...this.handles);
+      this.grid);
+    this.svg = svg('svg', { class: 'splane-svg', 'data-testid': 'splane', role: 'group', 'aria-label': 'Poles in the s-plane' },
+      this.open, ...this.links, this.loop, ...this.handles);
     this.readout = h('div', { class: 'readout', hidden: true, 'data-testid': 'readout' });
     const tools = h('div', { class: 'splane-tools' },
       h('button', { type: 'button', title: 'Zoom in', 'aria-label': 'Zoom in', onclick: () => this.#zoomBy(1.4) }, '+'),
@@ -48,8 +52,11 @@ export class SPlane {
     this.key = h('div', { class: 'splane-key', 'data-testid': 'splane-key' },
       h('span', { title: 'poles of the whole loop: PI moves the poles that you placed' }, svg('svg', { class: 'loop-poles', 'aria-hidden': 'true', viewBox: '-7 -7 14 14' }, svg('path', { d: LOOP_MARK })), 'with PI'),
       h('span', { title: 'poles of the rig without feedback' }, svg('svg', { class: 'open-poles', 'aria-hidden': 'true', viewBox: '-7 -7 14 14' }, svg('path', { d: OPEN_MARK })), 'open loop'));
-    root.append(this.svg, this.readout, tools, this.key);
+    root.append(backdrop, this.svg, this.readout, tools, this.key);
     this.#listen();
+    new ResizeObserver(([entry]) => {
+      if (entry.contentRect.width) this.#readoutWidth = entry.borderBoxSize[0].inlineSize;
+    }).observe(this.readout);
     new ResizeObserver(([entry]) => this.#resize(entry.contentRect.width, entry.contentRect.height)).observe(this.svg);
   }
 
@@ -280,10 +287,10 @@ export class SPlane {
     lines.forEach((line, k) => setText(this.readout.children[k], line));
     const [x, y] = toPixel(this.#view, p);
     this.readout.className = `readout ${NAMES[pair]}`;
-    const right = x + 24 + this.readout.offsetWidth < this.#view.width;
+    const right = x + 24 + this.#readoutWidth < this.#view.width;
     const b = bounds(this.#view);
     const low = p.im > (b.top + b.bottom) / 2 + (b.top - b.bottom) / 4;
-    const column = right ? x + 24 : Math.max(x - 24, this.readout.offsetWidth + 4);
+    const column = right ? x + 24 : Math.max(x - 24, this.#readoutWidth + 4);
     this.readout.style.transform = `translate(${column}px, ${low ? y + 22 : y - 22}px) translate(${right ? '0' : '-100%'}, ${low ? '0' : '-100%'})`;
   }
 }

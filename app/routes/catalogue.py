@@ -9,7 +9,7 @@ from heli2dof_core.couplings import Coupling, Lead
 
 from .. import models, replies
 from ..compute import Compute
-from ..encoding import json_bytes
+from ..encoding import json_response
 from ..problems import problem, problem_response
 
 
@@ -20,7 +20,7 @@ def build_router(compute: Compute) -> APIRouter:
     @router.get("/healthz", summary="200 once ready to serve")
     async def healthz() -> Response:
         if compute.ready:
-            return _json({"status": "ok"})
+            return json_response({"status": "ok"})
         return problem_response(
             problem(503, "The derivation is not ready yet.", "starting", hint="Ask again in a second."),
             {"Retry-After": "1"},
@@ -28,11 +28,11 @@ def build_router(compute: Compute) -> APIRouter:
 
     @router.get("/api/v1/presets", **models.described(list[models.Preset], "The rigs, the default one first"))
     async def presets() -> Response:
-        return _json([replies.preset_reply(preset) for preset in PRESETS.values()])
+        return json_response([replies.preset_reply(preset) for preset in PRESETS.values()])
 
     @router.get("/api/v1/methods", **models.described(list[models.Method], "Placement methods"))
     async def methods() -> Response:
-        return _json([models.FULL_RANK.model_dump()])
+        return json_response([models.FULL_RANK.model_dump()])
 
     @router.get("/api/v1/symbolic", **models.described(models.Symbolic, "The formulas, derived"))
     async def symbolic(coupling: Coupling = "triangular", lead: Lead = "pitch") -> Response:
@@ -41,10 +41,6 @@ def build_router(compute: Compute) -> APIRouter:
 
             return replies.symbolic_reply(symbolic_report(Structure(coupling, lead)))
 
-        return _json(await compute.run(work))
+        return json_response(await compute.run(work))
 
     return router
-
-
-def _json(reply: object) -> Response:
-    return Response(json_bytes(reply), media_type="application/json")

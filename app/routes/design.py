@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from fastapi import APIRouter, Response
 
 from heli2dof_core import close_loop, evaluate, interaction, place, simulate, suggest_pi
 
 from .. import models, replies
 from ..compute import Compute
-from ..encoding import json_bytes
+from ..encoding import json_response
 from ..requests import DesignRequest, EvaluateRequest, RgaRequest, StepRequest
 
 
@@ -20,7 +18,7 @@ def build_router(compute: Compute) -> APIRouter:
 
     @router.post("/gains", **models.described(models.Gains, "K of u = −Kx + v and the poles that it gives"))
     async def gains(request: DesignRequest) -> Response:
-        return _json(await compute.run(lambda: replies.gains_reply(place(request.to_spec()))))
+        return json_response(await compute.run(lambda: replies.gains_reply(place(request.to_spec()))))
 
     @router.post(
         "/rga", **models.described(models.Rga, "Relative gain array, pairing and Niederlinski index")
@@ -30,7 +28,7 @@ def build_router(compute: Compute) -> APIRouter:
             design = place(request.to_spec())
             return replies.rga_reply(design, interaction(design), request.frequencies)
 
-        return _json(await compute.run(work))
+        return json_response(await compute.run(work))
 
     @router.post("/step", **models.described(models.Step, "Step response of the whole loop"))
     async def step(request: StepRequest) -> Response:
@@ -39,7 +37,7 @@ def build_router(compute: Compute) -> APIRouter:
             loop = close_loop(place(spec), spec.outer)
             return replies.step_reply(simulate(loop, spec, request.scenario.model), loop)
 
-        return _json(await compute.run(work))
+        return json_response(await compute.run(work))
 
     @router.post(
         "/evaluate", **models.described(models.Evaluation, "Everything that a design changes, at once")
@@ -49,7 +47,7 @@ def build_router(compute: Compute) -> APIRouter:
             spec = request.to_spec()
             return replies.report_reply(evaluate(spec, each_axis=request.each_axis), spec)
 
-        return _json(await compute.run(work))
+        return json_response(await compute.run(work))
 
     @router.post("/suggest", **models.described(models.Suggestion, "PI values that suit the placed poles"))
     async def suggest(request: DesignRequest) -> Response:
@@ -57,11 +55,6 @@ def build_router(compute: Compute) -> APIRouter:
             spec = request.to_spec()
             return replies.suggestion_reply(suggest_pi(place(spec), spec.outer))
 
-        return _json(await compute.run(work))
+        return json_response(await compute.run(work))
 
     return router
-
-
-def _json(reply: Any) -> Response:
-    """Encodes past FastAPI's own encoder, which takes longer than the mathematics."""
-    return Response(json_bytes(reply), media_type="application/json")

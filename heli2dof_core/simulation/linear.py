@@ -19,13 +19,11 @@ def simulate_linear(loop: Loop, scenario: Scenario) -> Response:
     """
     plant = loop.design.plant
     rest = np.array([plant.theta_0, 0.0])
-    given = np.array([np.nan if v is None else v for v in (scenario.theta, scenario.psi)])
-    reference = np.where(np.isnan(given), rest, given)
-    start = np.array([r if v is None else v for v, r in zip(scenario.initial[:2], rest, strict=True)])
+    reference, start = scenario.resolved(plant.theta_0)
 
     n = len(loop.A)
     state = np.zeros(n + 1)
-    state[:2], state[2:4], state[n] = start - rest, scenario.initial[2:], 1.0
+    state[:2], state[2:4], state[n] = start[:2] - rest, start[2:], 1.0
     augmented = np.zeros((n + 1, n + 1))
     augmented[:n, :n] = loop.A
     augmented[:n, n] = loop.B @ (reference - rest)

@@ -40,12 +40,8 @@ class NonlinearLoop:
         self.size = 6 if loop.has_integrators else 4
         self.rest = np.zeros(self.size)
         self.rest[0] = plant.theta_0
-        given = (scenario.theta, scenario.psi)
-        self.reference = np.array([r if v is None else v for v, r in zip(given, self.rest, strict=False)])
-        self.start = self.rest.copy()
-        for i, value in enumerate(scenario.initial):
-            if value is not None:
-                self.start[i] = value
+        self.reference, start = scenario.resolved(plant.theta_0)
+        self.start = np.concatenate([start, np.zeros(self.size - 4)])
         self._gain = loop.voltage_from_state
         trim = plant.trim if scenario.trim_feedforward else np.zeros(2)
         self._offset = trim + loop.voltage_from_reference @ (self.reference - self.rest[:2])
