@@ -16,6 +16,7 @@ const ABOUT = {
   V_p: { base: 'V', sub: 'p', title: 'pitch motor', unit: ' V' },
   V_y: { base: 'V', sub: 'y', title: 'yaw motor', unit: ' V' },
 };
+const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const FONT = '11px system-ui, sans-serif';
 const AXIS_WIDTH = 42;
 
@@ -60,24 +61,24 @@ export class Plots {
     const color = (/** @type {string} */ name) => () => this.#colors[name];
     const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({ stroke: color(name), width, dash, points: { show: false } });
     const last = () => signal === 'V_y' || (signal === 'V_p' && this.root.classList.contains('two-columns'));
-    const chart = new uPlot({
+    const chart = new Chart({
       width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [6, 10, 2, 0],
       series: [{}, { stroke: color('halo'), width: 7, points: { show: false } }, line('pitch', 1.25, [7, 4]), line('yaw', 1.25, [2, 3]), line('yaw', 1.5), line('pitch', 2.4)],
       scales: { x: { time: false, range: () => this.#zoom ?? this.#time }, y: { range: () => this.#ranges[signal] ?? [0, 1] } },
       axes: [
         { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 4, size: () => (last() ? 22 : 4),
-          values: (_u, splits) => splits.map((v) => (last() ? `${Number(v.toFixed(3))}${v === splits[splits.length - 1] ? ' s' : ''}` : '')) },
+          values: (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => (last() ? `${Number(v.toFixed(3))}${v === splits[splits.length - 1] ? ' s' : ''}` : '')) },
         { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, size: AXIS_WIDTH, space: 26,
-          values: (_u, splits) => splits.map((v) => `${String(Number(v.toPrecision(6))).replace('-', '\u2212')}`) },
+          values: (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => `${String(Number(v.toPrecision(6))).replace('-', '\u2212')}`) },
       ],
       cursor: { y: false, points: { show: false }, drag: { x: true, y: false, setScale: false },
-        sync: { key: 'heli2dof', filters: { pub: (type) => type === 'mousemove' || type === 'mouseleave' } },
+        sync: { key: 'heli2dof', filters: { pub: (/** @type {string} */ type) => type === 'mousemove' || type === 'mouseleave' } },
         bind: { dblclick: () => () => this.#zoomTo(null) } },
       hooks: {
-        drawClear: [(u) => this.#drawLimits(u, signal)],
-        draw: [(u) => this.#drawReference(u, signal)],
-        setCursor: [(u) => this.#hovered(u)],
-        setSelect: [(u) => this.#selected(u)],
+        drawClear: [(/** @type {any} */ u) => this.#drawLimits(u, signal)],
+        draw: [(/** @type {any} */ u) => this.#drawReference(u, signal)],
+        setCursor: [(/** @type {any} */ u) => this.#hovered(u)],
+        setSelect: [(/** @type {any} */ u) => this.#selected(u)],
       },
     }, [[0, 1], ...Array(5).fill([null, null])], body);
     const head = h('div', { class: 'playhead' });

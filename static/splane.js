@@ -147,7 +147,8 @@ export class SPlane {
 
   /** @param {number} x @param {number} y @param {number} stamp */
   #dragTo(x, y, stamp) {
-    const gesture = /** @type {NonNullable<typeof this.#drag>} */ (this.#drag);
+    const gesture = this.#drag;
+    if (!gesture) return;
     const v = this.#view;
     const inside = (/** @type {number} */ value, /** @type {number} */ size) => Math.max(6, Math.min(size - 6, value));
     const raw = toPlane(v, inside(x, v.width), inside(y, v.height));
@@ -287,10 +288,9 @@ export class SPlane {
     lines.forEach((line, k) => setText(this.readout.children[k], line));
     const [x, y] = toPixel(this.#view, p);
     this.readout.className = `readout ${NAMES[pair]}`;
-    const right = x + 24 + this.#readoutWidth < this.#view.width;
     const b = bounds(this.#view);
     const low = p.im > (b.top + b.bottom) / 2 + (b.top - b.bottom) / 4;
-    const column = right ? x + 24 : Math.max(x - 24, this.#readoutWidth + 4);
-    this.readout.style.transform = `translate(${column}px, ${low ? y + 22 : y - 22}px) translate(${right ? '0' : '-100%'}, ${low ? '0' : '-100%'})`;
+    const column = Math.max(4, Math.min(x + 24, this.#view.width - this.#readoutWidth - 4));
+    this.readout.style.transform = `translate(${column}px, ${low ? y + 26 : y - 26}px) translateY(${low ? '0' : '-100%'})`;
   }
 }

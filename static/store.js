@@ -48,7 +48,7 @@ export function requestOf(design, seq) {
     outer: design.outer,
     pairing: design.pairing,
     loops: design.loops,
-    scenario: { reference: design.scenario.reference, duration: design.scenario.duration, samples: 501, rtol: 1e-6 },
+    scenario: { reference: design.scenario.reference, duration: design.scenario.duration, samples: 501, rtol: 1e-5 },
     each_axis: true,
   };
 }

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import copysign
+from operator import mul
 
 import numpy as np
 
@@ -11,7 +13,7 @@ from ..findings import Finding
 from ..loop import Loop
 from ..signals import INPUTS, Floats
 from ..spec import Limits, Scenario
-from .dormand_prince import EventFunction, StepBudgetError, integrate
+from .dormand_prince import EventFunction, State, StepBudgetError, integrate
 from .response import Response, hold_when_diverged
 from .stiff import integrate_stiff
 
@@ -31,8 +33,7 @@ ABSOLUTE_TOLERANCE = 0.1
 class NonlinearLoop:
     """Right-hand side of the loop around the nonlinear rig (Eqs. 9–12), state [θ, ψ, θ̇, ψ̇, z_p, z_y].
 
-    Angles are absolute; z is the integral of the errors. All hot data are plain floats: a scalar
-    NumPy operation costs ten times a Python one.
+    Angles are absolute; z is the integral of the errors. `rate` and the events work on plain floats.
     """
 
     def __init__(self, loop: Loop, limits: Limits, scenario: Scenario) -> None:
@@ -46,6 +47,8 @@ class NonlinearLoop:
         trim = plant.trim if scenario.trim_feedforward else np.zeros(2)
         self._offset = trim + loop.voltage_from_reference @ (self.reference - self.rest[:2])
         self._offset = self._offset - self._gain @ self.rest
+        self._rows = list(zip(self._gain.tolist(), self._offset.tolist(), strict=True))
+        self._wanted = self.reference.tolist()
         self._limits = (limits.V_p, limits.V_y) if scenario.saturation else (np.inf, np.inf)
         self.travel = limits.theta if scenario.travel_stops and limits.theta is not None else np.inf
         self.resting = False
@@ -59,11 +62,11 @@ class NonlinearLoop:
         effect = loop.mixing * loop.ki  # V/s of each motor per rad of each error
         self._motor = [int(np.argmax(np.abs(effect[:, i]))) for i in range(2)]
         self._direction = [float(np.sign(effect[self._motor[i], i])) for i in range(2)]
-        self._tracking = np.zeros((2, 2))
+        self._tracking = [[0.0, 0.0], [0.0, 0.0]]
         if self._windup == "back-calculation" and np.all(loop.ki != 0):
             # tracking time = T_i: z follows so that its voltage makes up for what the limit cuts off
             times = np.array([loop.outer.pitch.ti, loop.outer.yaw.ti])
-            self._tracking = np.linalg.pinv(effect) / times[:, None]
+            self._tracking = (np.linalg.pinv(effect) / times[:, None]).tolist()
 
     def command(self, states: Floats) -> Floats:
         """Voltages asked for, before the limits; `states` of shape (n,) or (n, m), V."""
@@ -75,21 +78,25 @@ class NonlinearLoop:
         limits = np.array(self._limits).reshape((2,) + (1,) * (states.ndim - 1))
         return np.clip(self.command(states), -limits, limits)
 
-    def rate(self, state: Floats) -> Floats:
+    def rate(self, state: State) -> State:
         """Time derivative of the state."""
-        values = state.tolist()
-        asked = self.command(state).tolist()
-        given = [min(max(v, -limit), limit) for v, limit in zip(asked, self._limits, strict=True)]
-        theta, theta_dot, psi_dot = values[0], values[2], values[3]
-        pitch, yaw = self._accelerations(theta, theta_dot, psi_dot, *given, *self._parameters)
+        asked, given = self._motor_voltages(state)
+        theta_dot, psi_dot = state[2], state[3]
+        pitch, yaw = self._accelerations(state[0], theta_dot, psi_dot, *given, *self._parameters)
         if self.resting:
             theta_dot = pitch = 0.0
         if self.size == 4:
-            return np.array((theta_dot, psi_dot, pitch, yaw))
-        return np.array((theta_dot, psi_dot, pitch, yaw, *self._integrate_errors(values, asked, given)))
+            return theta_dot, psi_dot, pitch, yaw
+        return theta_dot, psi_dot, pitch, yaw, *self._integrate_errors(state, asked, given)
 
-    def _integrate_errors(self, values: list[float], asked: list[float], given: list[float]) -> list[float]:
-        errors = [self.reference[0] - values[0], self.reference[1] - values[1]]
+    def _motor_voltages(self, state: State) -> tuple[list[float], list[float]]:
+        """Voltages asked for, and what the limits leave of them, V."""
+        asked = [offset + sum(map(mul, row, state)) for row, offset in self._rows]
+        given = [min(max(v, -limit), limit) for v, limit in zip(asked, self._limits, strict=True)]
+        return asked, given
+
+    def _integrate_errors(self, state: State, asked: State, given: State) -> State:
+        errors = [self._wanted[0] - state[0], self._wanted[1] - state[1]]
         if self._windup == "back-calculation":
             cut = (given[0] - asked[0], given[1] - asked[1])
             return [e + t[0] * cut[0] + t[1] * cut[1] for e, t in zip(errors, self._tracking, strict=True)]
@@ -101,16 +108,15 @@ class NonlinearLoop:
                     errors[i] *= max(1.0 - beyond, 0.0)
         return errors
 
-    def past_stop(self, state: Floats) -> float:
+    def past_stop(self, state: State) -> float:
         """Negative while pitch is within its travel, rad."""
-        return abs(float(state[0])) - self.travel
+        return abs(state[0]) - self.travel
 
-    def torque_turned(self, state: Floats) -> float:
+    def torque_turned(self, state: State) -> float:
         """Negative while the acceleration presses pitch onto its stop, rad/s²."""
-        pitch, _ = self._accelerations(
-            float(state[0]), 0.0, float(state[3]), *self.voltages(state).tolist(), *self._parameters
-        )
-        return -pitch * float(np.sign(state[0]))
+        _, given = self._motor_voltages(state)
+        pitch, _ = self._accelerations(state[0], 0.0, state[3], *given, *self._parameters)
+        return -copysign(pitch, pitch * state[0])
 
     @property
     def event(self) -> EventFunction | None:
@@ -123,7 +129,7 @@ class NonlinearLoop:
         """The state after an impact (pitch rate 0) or a release; changes the mode."""
         state = state.copy()
         state[0], state[2] = np.copysign(self.travel, state[0]), 0.0
-        self.resting = not self.resting and self.torque_turned(state) < 0.0
+        self.resting = not self.resting and self.torque_turned(state.tolist()) < 0.0
         if not self.resting:  # just inside, so that the next impact is seen
             state[0] *= 1.0 - 1e-12
         return state

@@ -26,11 +26,11 @@ def integrate_stiff(
     from scipy.integrate import solve_ivp  # 0.8 s to import, for rare designs only
 
     def crossing(_t: float, y: Floats) -> float:
-        return event(y) if event else -1.0
+        return event(y.tolist()) if event else -1.0
 
     crossing.terminal, crossing.direction = True, 1.0  # pyright: ignore[reportFunctionMemberAccess]
     solution = solve_ivp(
-        lambda _t, y: rate(y),
+        lambda _t, y: rate(y.tolist()),
         (t, float(samples[-1])),
         state,
         method="LSODA",

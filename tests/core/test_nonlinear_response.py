@@ -169,9 +169,7 @@ def test_order_of_the_method_and_its_continuous_output():
     t = np.linspace(0, 10, 101)
     errors = []
     for rtol in (1e-5, 1e-7, 1e-9):
-        segment = integrate(
-            lambda y: np.array([y[1], -y[0]]), 0.0, np.array([1.0, 0.0]), t, rtol=rtol, atol=rtol
-        )
+        segment = integrate(lambda y: (y[1], -y[0]), 0.0, np.array([1.0, 0.0]), t, rtol=rtol, atol=rtol)
         errors.append(np.max(np.abs(segment.states[0] - np.cos(t))))
     assert errors[0] < 1e-3
     assert errors[1] < errors[0] / 30
@@ -181,13 +179,13 @@ def test_order_of_the_method_and_its_continuous_output():
 def test_event_is_located():
     """A falling ball reaches the ground at √(2h/g)."""
     segment = integrate(
-        lambda y: np.array([y[1], -9.81]),
+        lambda y: (y[1], -9.81),
         0.0,
         np.array([1.0, 0.0]),
         np.linspace(0, 1, 11),
         rtol=1e-9,
         atol=1e-12,
-        event=lambda y: -float(y[0]),
+        event=lambda y: -y[0],
     )
     assert segment.event
     assert segment.t == pytest.approx(np.sqrt(2 / 9.81), abs=1e-10)
@@ -197,7 +195,7 @@ def test_event_is_located():
 def test_budget_of_steps_ends_what_is_stiff():
     with pytest.raises(StepBudgetError):
         integrate(
-            lambda y: -1e6 * y,
+            lambda y: (-1e6 * y[0],),
             0.0,
             np.array([1.0]),
             np.array([0.0, 10.0]),
