@@ -12,6 +12,7 @@ import { motionOf } from './traces.js';
 
 const KEY = 'heli2dof-scene';
 const QUIET_MS = 450; // after the last change, before the motion plays afresh
+const LATE_MS = 100; // between two frames: three such in a row, and drawing the rig is slow here
 const REST_MS = 900; // between two rounds of a loop
 
 /** A name that nobody guesses: whoever knows it sees this tab's rig. */
@@ -45,6 +46,9 @@ export class SceneView {
   /** @type {any} */ #design = null;
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
   #pending = false;
+  #dragging = false;
+  #rests = false;
+  #slow = false;
   #last = { playing: false, time: 0, duration: 0, ready: false, reason: '' };
   #calm = matchMedia('(prefers-reduced-motion: reduce)');
 
@@ -102,6 +106,7 @@ export class SceneView {
   /** @param {State} state */
   render(state) {
     this.motion.set(state.motion);
+    if (state.dragging !== this.#dragging) this.#follow(state.dragging);
     const rig = this.store.preset?.rig;
     if (state.connection === 'lost') this.#rig = null; // a server that returns knows nothing of this tab
     else if (rig && rig !== this.#rig) this.#setRig(rig);
@@ -124,6 +129,28 @@ export class SceneView {
       this.#pending = false;
       this.#timer = setTimeout(() => this.player.replay(), QUIET_MS);
     }
+  }
+
+  /**
+   * Without a graphics card, drawing the rig holds up the whole page. Where that is seen to happen, the rig rests during drags: a drag never
+   * waits. @param {boolean} dragging
+   */
+  #follow(dragging) {
+    this.#dragging = dragging;
+    this.#rests = dragging && this.#slow;
+    this.#state(this.#last);
+    let [late, last] = [0, performance.now()];
+    const tick = (/** @type {number} */ now) => {
+      if (!this.#dragging || this.#rests) return;
+      late = now - last > LATE_MS ? late + 1 : 0;
+      last = now;
+      if (late >= 3) {
+        this.#slow = this.#rests = true;
+        this.#state(this.#last);
+      }
+      requestAnimationFrame(tick);
+    };
+    if (dragging) requestAnimationFrame(tick);
   }
 
   /** @param {string} rig */
@@ -162,10 +189,11 @@ export class SceneView {
     setAttr(this.play, 'aria-pressed', String(playing));
     if (duration > 0) setAttr(this.time, 'max', duration);
     if (this.webgl) {
-      const seen = this.seen.checked;
+      const seen = this.seen.checked && !this.#rests;
       this.frame.hidden = !seen;
       this.notice.hidden = ready && seen;
-      setText(this.notice, !seen ? 'The rig is switched off. All else works.' : reason || 'Building the rig…');
+      const off = this.#rests ? 'The rig rests while you drag: drawing it is slow here.' : 'The rig is switched off. All else works.';
+      setText(this.notice, seen ? reason || 'Building the rig…' : off);
     }
     if (!playing && duration > 0 && time >= duration && this.loop.checked) this.#timer = setTimeout(() => this.loop.checked && this.player.replay(), REST_MS);
   }
