@@ -119,16 +119,19 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
             yield Finding(
                 "pi_unstable",
                 "error",
-                f"The PI loops make the helicopter unstable: a pole of the whole loop lies at {slowest:.3g} "
-                "rad/s, although the placed poles are stable. Lower kp, raise T_i, or place faster poles.",
+                "The PI loops make the helicopter unstable: a pole of the whole loop lies at "
+                f"{_words(slowest)} rad/s, although the placed poles are stable. Lower the gains, raise the "
+                "integral times, or place faster poles.",
             )
         elif not loop.stable:
             yield Finding(
-                "loop_unstable", "error", f"The whole loop is unstable: it has a pole at {slowest:.3g} rad/s."
+                "loop_unstable",
+                "error",
+                f"The whole loop is unstable: it has a pole at {_words(slowest)} rad/s.",
             )
         for name, kp in zip(AXES, loop.kp, strict=True):
             if kp == 0:
-                yield Finding(f"{name}_loop_open", "warning", f"The {name} loop is open: its kp is 0.")
+                yield Finding(f"{name}_loop_open", "warning", f"The {name} loop is open: its gain is 0.")
     damping = min((-p.real / abs(p) for p in loop.poles if abs(p) > 0), default=1.0)
     if loop.stable and damping < 0.2:
         yield Finding(
@@ -136,3 +139,8 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
             "warning",
             f"The whole loop rings: its least damped pole has a damping ratio of {damping:.2f}.",
         )
+
+
+def _words(pole: complex) -> str:
+    text = f"{pole.real:.3g}" + (f" ± {abs(pole.imag):.3g}j" if pole.imag else "")
+    return text.replace("-", "−")

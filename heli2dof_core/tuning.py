@@ -22,8 +22,8 @@ FACTORS = np.geomspace(0.01, 4.0, 22)
 """Factors on each axis' own kp that are tried, for both axes independently."""
 
 RULE = (
-    "T_i cancels the slower pole of each pair (2ζ/ωₙ for a complex pair); the two kp are those of a grid "
-    "with which the whole loop decays fastest while every pole keeps a damping ratio of "
+    "Each integral time cancels the slower pole of its pair (2ζ/ωₙ of a complex pair); the two gains are "
+    "those of a grid with which the whole loop decays fastest while every pole keeps a damping ratio of "
     f"{DAMPING:g}, or {100 * EASED:.0f} % of the placed poles' own where they have less."
 )
 

@@ -229,7 +229,8 @@ export class SPlane {
     if (!state.design || !this.#view.width) return;
     const fresh = state.design.preset !== this.#preset;
     this.#preset = state.design.preset;
-    if (!state.dragging && (fresh || (!this.#manual && outgrown(this.#view, state.design.poles)))) this.fit();
+    const watched = [...state.design.poles, ...(state.reply?.loop_poles ?? []).filter((p) => p.re >= 0)];
+    if (!state.dragging && (fresh || (!this.#manual && outgrown(this.#view, watched)))) this.fit();
     else this.#draw(state);
   }
 

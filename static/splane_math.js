@@ -27,13 +27,13 @@ export function zoom(v, factor, x, y) {
 
 /**
  * The view that shows the poles with room to drag, the imaginary axis, and a little of the right half plane. Of the loop's poles only those
- * count that are not far beyond the placed ones: one fast pole must not make the rest tiny.
+ * count that are not far beyond the placed ones, as one fast pole must not make the rest tiny; an unstable one must be seen.
  * @param {readonly Complex[]} placed @param {readonly Complex[]} others @param {{width: number, height: number}} size
  * @returns {View}
  */
 export function fit(placed, others, { width, height }) {
   const reach = 1.6 * Math.max(1, ...placed.map((p) => Math.hypot(p.re, p.im)));
-  const seen = [...placed, ...others.filter((p) => Math.hypot(p.re, p.im) <= reach)];
+  const seen = [...placed, ...others.filter((p) => Math.hypot(p.re, p.im) <= (p.re >= 0 ? 8 : 1) * reach)];
   let left = Math.min(0, ...seen.map((p) => p.re));
   let right = Math.max(0, ...seen.map((p) => p.re));
   const up = Math.max(...seen.map((p) => Math.abs(p.im)));

@@ -37,10 +37,10 @@ d_10, d_11, d_20, d_21 = sp.symbols("d_10 d_11 d_20 d_21")
 s = sp.Symbol("s")
 
 PARAMETER_LATEX = {
-    "K_pp": "K_{pp}",
-    "K_py": "K_{py}",
-    "K_yp": "K_{yp}",
-    "K_yy": "K_{yy}",
+    "K_pp": r"K_{\text{pp}}",
+    "K_py": r"K_{\text{py}}",
+    "K_yp": r"K_{\text{yp}}",
+    "K_yy": r"K_{\text{yy}}",
     "J_p": "J_p",
     "J_y": "J_y",
     "m": "m",
@@ -61,7 +61,7 @@ NAMES: tuple[Name, ...] = (
     Name("V_y", "V_y", "voltage of the yaw motor", "V"),
     Name("theta_0", r"\theta_0", "pitch angle of the operating point", "rad"),
     Name("sin_0", r"\sin\theta_0", "sine of the operating point's pitch", "1"),
-    Name("cos_0", r"\cos\theta_0", "cosine of the operating point's pitch", "1"),
+    Name("cos_0", r"\left(\cos\theta_0\right)", "cosine of the operating point's pitch", "1"),
     Name("alpha", r"\alpha", "effective inertia about pitch, J_p + m l²", "kg·m²"),
     Name("beta_0", r"\beta_0", "effective inertia about yaw, J_y + m l² cos²θ₀", "kg·m²"),
     Name("gamma_", r"\gamma", "K_py K_yp − K_pp K_yy, minus the thrust matrix's determinant", "(N·m/V)²"),

@@ -51,7 +51,7 @@ export class FindingsPanel {
     this.verdict.className = `verdict ${kind}`;
     setText(this.icon, { refused: '!', waiting: '…', stable: '✓', unstable: '✕' }[kind]);
     setText(this.word, { refused: 'Not computed', waiting: 'Waiting', stable: 'Stable', unstable: 'Unstable' }[kind]);
-    setText(this.detail, reply && !problem ? `slowest of ${reply.loop_poles.length} poles at Re ${fixed(worst)}` : '');
+    setText(this.detail, !reply || problem ? '' : `${reply.stable ? 'slowest' : 'worst'} of ${reply.loop_poles.length} poles at Re ${fixed(worst)}`);
 
     const findings = findingsOf(state);
     const key = JSON.stringify([kind, findings]);

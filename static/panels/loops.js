@@ -16,6 +16,7 @@ const STRUCTURES = [
 
 export class LoopsPanel {
   /** @type {import('../types.js').Preset|undefined} */ #preset;
+  /** @type {import('../types.js').Design|null} */ #told = null;
 
   /** @param {HTMLElement} root @param {import('../store.js').Store} store */
   constructor(root, store) {
@@ -72,16 +73,23 @@ export class LoopsPanel {
       const { seq: _seq, each_axis: _each, scenario: _scenario, ...body } = requestOf(design, 0);
       const answer = await suggestLoops(body);
       this.#set({ loops: answer.loops, outer: 'pi' });
-      setText(this.note, answer.rule ?? '');
+      this.#tell(answer.rule ?? '');
     } catch (error) {
-      setText(this.note, error instanceof Error ? error.message : String(error));
+      this.#tell(error instanceof Error ? error.message : String(error));
     }
     this.suggest.disabled = false;
+  }
+
+  /** Says something of the present design; the next change takes it away. @param {string} text */
+  #tell(text) {
+    this.#told = this.store.state.design;
+    setText(this.note, text);
   }
 
   /** @param {import('../types.js').State} state */
   render({ design }) {
     if (!design) return;
+    if (design !== this.#told) this.#tell('');
     const preset = this.store.preset;
     if (preset && preset !== this.#preset) {
       this.#preset = preset;
@@ -89,7 +97,6 @@ export class LoopsPanel {
         kp.setRange({ min: preset.loops[axis].kp / 60, max: preset.loops[axis].kp * 6 });
         ti.setRange({ min: Math.min(0.01, preset.loops[axis].ti / 10), max: Math.max(5, preset.loops[axis].ti * 5) });
       }
-      setText(this.note, '');
     }
     const off = design.outer === 'none';
     this.outer.set(design.outer);

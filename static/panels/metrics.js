@@ -14,7 +14,7 @@ const motor = (m, motor) => (typeof m?.[motor] === 'object' ? m[motor] : { peak:
 /** @param {any} m @param {'V_p'|'V_y'} name */
 function motorText(m, name) {
   const { peak, saturated } = motor(m, name);
-  return saturated > 0 ? `${volts(peak)}, at limit ${percent(saturated, saturated < 0.1 ? 1 : 0)}` : volts(peak);
+  return saturated > 0 ? `at limit ${percent(saturated, saturated < 0.1 ? 1 : 0)}` : volts(peak);
 }
 
 /**
@@ -27,8 +27,8 @@ const ROWS = [
   { id: 'overshoot', name: () => ['Overshoot'], title: 'beyond the reference', of: (m, a) => (m?.[a]?.overshoot === undefined ? '–' : `${fixed(m[a].overshoot, 1)} %`) },
   { id: 'error', name: () => ['Error at the end'], title: 'reference minus the last value', of: (m, a) => degrees(m?.[a]?.steady_state_error, 2) },
   { id: 'coupling', name: () => ['Other axis moves'], title: 'largest deviation of the axis that is not stepped', of: (m) => degrees(m?.coupling_peak, 2) },
-  { id: 'V_p', name: () => [symbol('V', 'p'), ' peak'], title: 'pitch motor, trim included', of: (m) => motorText(m, 'V_p'), warn: (m) => motor(m, 'V_p').saturated > 0 },
-  { id: 'V_y', name: () => [symbol('V', 'y'), ' peak'], title: 'yaw motor, trim included', of: (m) => motorText(m, 'V_y'), warn: (m) => motor(m, 'V_y').saturated > 0 },
+  { id: 'V_p', name: () => [symbol('V', 'p'), ' peak'], title: 'pitch motor, trim included; or the share of time at its limit', of: (m) => motorText(m, 'V_p'), warn: (m) => motor(m, 'V_p').saturated > 0 },
+  { id: 'V_y', name: () => [symbol('V', 'y'), ' peak'], title: 'yaw motor, trim included; or the share of time at its limit', of: (m) => motorText(m, 'V_y'), warn: (m) => motor(m, 'V_y').saturated > 0 },
   { id: 'margin', name: () => ['Gain · phase margin'], title: 'at this axis’ own motor, everything else closed',
     of: (_m, _a, g) => (g?.gain_margin === undefined && g?.phase_margin === undefined ? '–' : `${g.gain_margin === undefined ? '∞' : decibel(g.gain_margin)} · ${degrees(g.phase_margin, 0)}`) },
   { id: 'delay', name: () => ['Delay margin'], title: 'the dead time that this motor would still bear', of: (_m, _a, g) => seconds(g?.delay_margin) },

@@ -62,3 +62,10 @@ test("a ray of constant damping ends on the border, at its angle", () => {
   assert.ok(Math.abs(-p.re / Math.hypot(p.re, p.im) - 0.6) < 1e-9);
   assert.ok(Math.abs(end[0]) < 1e-9 || Math.abs(end[1]) < 1e-9);
 });
+
+test('an unstable pole of the loop is brought into view, a fast stable one is not', () => {
+  const placed = [{ re: -3, im: 0 }, { re: -2, im: 0 }, { re: -3, im: 0 }, { re: -2, im: 0 }];
+  const seen = (view, p) => p.re > bounds(view).left && p.re < bounds(view).right && Math.abs(p.im) < bounds(view).top;
+  assert.ok(seen(fit(placed, [{ re: 1.2, im: 9.7 }, { re: 1.2, im: -9.7 }], { width: 380, height: 440 }), { re: 1.2, im: 9.7 }));
+  assert.ok(!seen(fit(placed, [{ re: -90, im: 0 }], { width: 380, height: 440 }), { re: -90, im: 0 }));
+});
