@@ -36,23 +36,15 @@ p_1, p_2, p_3, p_4 = sp.symbols("p_1 p_2 p_3 p_4")
 d_10, d_11, d_20, d_21 = sp.symbols("d_10 d_11 d_20 d_21")
 s = sp.Symbol("s")
 
-PARAMETER_LATEX = {
-    "K_pp": r"K_{\text{pp}}",
-    "K_py": r"K_{\text{py}}",
-    "K_yp": r"K_{\text{yp}}",
-    "K_yy": r"K_{\text{yy}}",
-    "J_p": "J_p",
-    "J_y": "J_y",
-    "m": "m",
-    "l": "l",
-    "B_p": "B_p",
-    "B_y": "B_y",
-    "K_s": "K_s",
-    "g": "g",
-}
+
+def _latex(name: str) -> str:
+    """LaTeX of a parameter's name; subscripts of several letters stand upright."""
+    base, _, index = name.partition("_")
+    return rf"{base}_{{\text{{{index}}}}}" if len(index) > 1 else name
+
 
 NAMES: tuple[Name, ...] = (
-    *(Name(n, PARAMETER_LATEX[n], i["meaning"], i["unit"]) for n, i in PARAMETER_INFO.items()),
+    *(Name(n, _latex(n), i["meaning"], i["unit"]) for n, i in PARAMETER_INFO.items()),
     Name("theta", r"\theta", "pitch angle", "rad"),
     Name("psi", r"\psi", "yaw angle", "rad"),
     Name("theta_dot", r"\dot\theta", "pitch rate", "rad/s"),
