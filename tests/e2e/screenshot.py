@@ -22,8 +22,8 @@ def main() -> None:
         frame = scene(page)
         seek(page, 0.12)
         settled(page)
-        frames = "window.__viserTestpoints.rendererInfo.render.frame"
-        frame.wait_for_function(f"(start) => {frames} > start + 20", arg=frame.evaluate(frames))
+        drawn = "window.__viserTestpoints.rendererInfo.render.frame"
+        frame.wait_for_function(f"(start) => {drawn} > start + 5", arg=frame.evaluate(drawn))
         page.screenshot(path=target)
         browser.close()
 
