@@ -191,16 +191,20 @@ def test_bad_number_is_told_at_its_field_and_nothing_else_changes(page: Page):
 def test_playing_ends_at_the_end_in_real_time(page_with_scene: Page):
     page = page_with_scene
     scene(page)
-    seconds = page.evaluate(
+    played, longest = page.evaluate(
         """async () => {
           const of = (id) => document.querySelector(`[data-testid=${id}]`);
+          let [before, played, longest] = [await new Promise(requestAnimationFrame), 0, 0];
           of("replay").click();
-          const began = performance.now();
-          while (Number(of("time").value) < 2.99) await new Promise(requestAnimationFrame);
-          return (performance.now() - began) / 1000;
+          while (Number(of("time").value) < 2.999) {
+            const now = await new Promise(requestAnimationFrame);
+            const step = Math.min((now - before) / 1000, 1); // after a longer stall it goes on where it was
+            [before, played, longest] = [now, played + step, Math.max(longest, step)];
+          }
+          return [played, longest];
         }"""
     )
-    assert 2.9 < seconds < 6.0
+    assert played + longest > 2.99 and played < 3.0 + 3 * longest
     assert page.get_by_test_id("hud-theta").inner_text().startswith("10.0")
 
 
