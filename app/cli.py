@@ -39,9 +39,8 @@ def serve(host: str, port: int, settings: Settings) -> int:
     except OSError as error:
         listener.close()
         why = "it is in use" if error.errno == errno.EADDRINUSE else error.strerror
-        print(
-            f"heli2dof: cannot listen on {host} port {port}: {why}. Try --port {port + 1}.", file=sys.stderr
-        )
+        other = f"Try another one, as with --port {port + 1} (make serve: PORT={port + 1})."
+        print(f"heli2dof: cannot listen on {host} port {port}: {why}. {other}", file=sys.stderr)
         return 1
     AnnouncingServer(server_config(settings)).run([listener])
     return 0
