@@ -74,15 +74,19 @@ async def _answer(socket: WebSocket, newest: Newest, compute: Compute, *, binary
             answer = await compute.run(_evaluate, text, binary)
         except Exception:
             _log.exception("live request failed")
-            answer = json_bytes(problem(500, "The server failed to answer; this is a bug.", "internal_error"))
-        if answer[:1] == b"{":
-            await socket.send_text(answer.decode())
+            answer = _text(problem(500, "The server failed to answer; this is a bug.", "internal_error"))
+        if isinstance(answer, str):
+            await socket.send_text(answer)
         else:
             await socket.send_bytes(answer)
 
 
-def _evaluate(text: str | bytes, binary: bool) -> bytes:
-    """One request's answer: JSON text (it starts with a brace), or a binary frame."""
+def _text(value: Any) -> str:
+    return json_bytes(value).decode()
+
+
+def _evaluate(text: str | bytes, binary: bool) -> str | bytes:
+    """One request's answer: JSON as text, or a binary frame as bytes."""
     seq: dict[str, Any] = {}
     try:
         data = orjson.loads(text)
@@ -92,7 +96,7 @@ def _evaluate(text: str | bytes, binary: bool) -> bytes:
         spec = request.to_spec()
         reply = {**seq, **report_reply(evaluate(spec, each_axis=request.each_axis), spec)}
     except orjson.JSONDecodeError as error:
-        return json_bytes(problem(422, f"Not JSON: {error}.", "invalid_json", hint="Send one JSON object."))
+        return _text(problem(422, f"Not JSON: {error}.", "invalid_json", hint="Send one JSON object."))
     except (ValidationError, Heli2DofError) as error:
-        return json_bytes({**problem_of(error), **seq})
-    return binary_frame(reply) if binary else json_bytes(reply)
+        return _text({**problem_of(error), **seq})
+    return binary_frame(reply) if binary else _text(reply)

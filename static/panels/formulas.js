@@ -43,7 +43,7 @@ export class FormulasPanel {
     new IntersectionObserver((entries) => {
       this.#visible = entries.some((e) => e.isIntersecting);
       this.render(store.state);
-    }, { rootMargin: '400px' }).observe(root);
+    }).observe(root);
   }
 
   /** @param {import('../types.js').State} state */
@@ -60,6 +60,7 @@ export class FormulasPanel {
   /** @param {string} coupling @param {string} lead @param {string} structure */
   async #load(coupling, lead, structure) {
     this.body.setAttribute('aria-busy', 'true');
+    if (!this.body.childElementCount) this.body.append(h('p', {}, 'Deriving…'));
     try {
       const symbolic = await getSymbolic(coupling, lead);
       if (structure === this.#structure) this.#show(symbolic);

@@ -25,36 +25,39 @@ OUTERS = (
 
 
 def whole_loop(placed, outer):
-    """Reference → (θ, ψ, V_p, V_y) by python-control's own interconnection of named blocks."""
+    """Reference → (θ, ψ, V_p, V_y), its blocks connected by python-control by the names of their signals."""
     K, A, B = placed.K, placed.plant.A, placed.plant.B
-    rig = control.ss(A, B, np.eye(4), 0, name="rig", inputs=["u[0]", "u[1]"], outputs=4)
+    states, motors = ["theta", "psi", "theta_dot", "psi_dot"], ["V_p", "V_y"]
+    G_0 = np.eye(2, 4) @ np.linalg.solve(-(A - B @ K), B)
+    paired = [G_0[0, 0], G_0[1, 1]] if outer.pairing == "diagonal" else [G_0[0, 1], G_0[1, 0]]
     if outer.outer == "none":
-        static = np.linalg.inv(np.eye(2, 4) @ np.linalg.solve(-(A - B @ K), B))
+        static = np.linalg.inv(G_0)
+    elif outer.decoupler:
+        static = np.linalg.inv(G_0) @ np.diag(np.abs(paired))
+    elif outer.pairing == "diagonal":
+        static = np.eye(2)
     else:
-        G_0 = np.eye(2, 4) @ np.linalg.solve(-(A - B @ K), B)
-        paired = [G_0[0, 0], G_0[1, 1]] if outer.pairing == "diagonal" else [G_0[0, 1], G_0[1, 0]]
-        if outer.decoupler:
-            static = np.linalg.inv(G_0) @ np.diag(np.abs(paired))
-        elif outer.pairing == "diagonal":
-            static = np.eye(2)
-        else:
-            static = np.array([[0, np.sign(paired[1])], [np.sign(paired[0]), 0]])
-    s = control.tf("s")
-    pi = [
-        g.kp * (1 + 1 / (g.ti * s)) if outer.outer == "pi" else control.tf(1, 1)
-        for g in (outer.pitch, outer.yaw)
+        static = np.array([[0, np.sign(paired[1])], [np.sign(paired[0]), 0]])
+    s, closed = control.tf("s"), outer.outer == "pi"
+    pi = [g.kp * (1 + 1 / (g.ti * s)) if closed else control.tf(1, 1) for g in (outer.pitch, outer.yaw)]
+    controllers = control.ss([], [], [], static) * control.append(*[control.ss(c) for c in pi])
+    fed_back = ["-theta", "-psi"] if closed else [None, None]
+    errors = [
+        control.summing_junction([r, *([y] if y else [])], e)
+        for r, y, e in zip(["r_theta", "r_psi"], fed_back, ["e_theta", "e_psi"], strict=True)
     ]
-    controllers = control.ss(control.append(*[control.ss(x) for x in pi]))
-    feedback = np.eye(2) if outer.outer == "pi" else np.zeros((2, 2))
-    # u = static · PI (r − y) − K x, closed by hand: x' = Ax + Bu, z' = A_c z + B_c (r − y)
-    A_c, B_c, C_c, D_c = controllers.A, controllers.B, controllers.C, controllers.D
-    y = np.eye(2, 4)
-    u_x, u_z, u_r = -K - static @ D_c @ feedback @ y, static @ C_c, static @ D_c
-    A_all = np.block([[A + B @ u_x, B @ u_z], [-B_c @ feedback @ y, A_c]])
-    B_all = np.vstack([B @ u_r, B_c])
-    C_all = np.block([[y, np.zeros((2, len(A_c)))], [u_x, u_z]])
-    assert rig.ninputs == 2
-    return control.ss(A_all, B_all, C_all, np.vstack([np.zeros((2, 2)), u_r]))
+    sums = [
+        control.summing_junction([v, f], motor)
+        for v, f, motor in zip(["v_p", "v_y"], ["-f_p", "-f_y"], motors, strict=True)
+    ]
+    blocks = [
+        control.ss(A, B, np.eye(4), 0, inputs=motors, outputs=states, name="rig"),
+        control.ss([], [], [], K, inputs=states, outputs=["f_p", "f_y"], name="feedback"),
+        control.ss(controllers, inputs=["e_theta", "e_psi"], outputs=["v_p", "v_y"], name="controllers"),
+    ]
+    return control.interconnect(
+        [*blocks, *errors, *sums], inputs=["r_theta", "r_psi"], outputs=["theta", "psi", *motors]
+    )
 
 
 @pytest.mark.parametrize("outer", OUTERS, ids=str)
