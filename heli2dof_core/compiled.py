@@ -31,13 +31,16 @@ def linear_matrices() -> Callable[..., tuple[Matrix, Matrix, Sequence[float]]]:
 
 
 @cache
-def gain(structure: Structure) -> Callable[..., Matrix]:
-    """f(d_10, d_11, d_20, d_21, *parameters, theta_0) → K, 2×4 (see `poles.PoleSet.coefficients`)."""
-    from .symbolic.full_rank import full_rank
-    from .symbolic.names import PARAMETERS, d_10, d_11, d_20, d_21, theta_0
+def gain(structure: Structure, *, shifted: bool = False) -> Callable[..., Matrix]:
+    """f(d_10, d_11, d_20, d_21, *parameters, theta_0) → K, 2×4 (see `poles.PoleSet.coefficients`).
 
-    arguments = [d_10, d_11, d_20, d_21, *PARAMETERS.values(), theta_0]
-    return _compile(arguments, _physical(full_rank(structure).K.to_Matrix()))
+    With `shifted` the function takes the basis' shift c as one more argument, the last.
+    """
+    from .symbolic.full_rank import full_rank
+    from .symbolic.names import PARAMETERS, c, d_10, d_11, d_20, d_21, theta_0
+
+    arguments = [d_10, d_11, d_20, d_21, *PARAMETERS.values(), theta_0, *([c] if shifted else [])]
+    return _compile(arguments, _physical(full_rank(structure, shifted=shifted).K.to_Matrix()))
 
 
 @cache

@@ -1,6 +1,8 @@
-"""Controllability indices of a numeric pair (A, B)."""
+"""Controllability indices of a numeric pair (A, B), with an honest rank decision."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -8,14 +10,30 @@ from .errors import UncontrollableError
 from .signals import Floats
 
 RANK_TOLERANCE = 1e-10
-"""A unit column counts as dependent when the smallest singular value falls below this."""
+"""A column counts as dependent when it adds no more than this to the smallest singular value."""
 
 
-def controllability_indices(A: Floats, B: Floats) -> tuple[int, ...]:
+@dataclass(frozen=True)
+class Scan:
+    """Result of the scan for independent columns.
+
+    Attributes:
+        indices: controllability indices σ₁ … σ_p, one per input.
+        weakest: smallest singular value that a kept column left, between 0 (dependent) and 1.
+    """
+
+    indices: tuple[int, ...]
+    weakest: float
+
+
+def scan(A: Floats, B: Floats) -> Scan:
     """Scans b₁ … b_p, Ab₁ … left to right; σ_i is the number of columns kept of input i.
 
-    Every column is scaled to length 1 before it is judged, so that units and fast poles do not
-    decide; `RANK_TOLERANCE` applies to the smallest singular value of the columns kept with it.
+    States and columns are scaled first, so that units do not decide (`_scaled`). In place of A^k b_i
+    stands A times what A^(k−1) b_i added to the columns before it: both span the same space, but
+    powers of A all turn towards its fastest mode, and rank could not be told from rounding. A column
+    is kept if it leaves the smallest singular value above `RANK_TOLERANCE`, and above what rounding
+    could have made of nothing.
     Source: Luenberger, IEEE TAC 12:290–293, 1967.
 
     Args:
@@ -26,23 +44,65 @@ def controllability_indices(A: Floats, B: Floats) -> tuple[int, ...]:
         UncontrollableError: fewer than n independent columns exist.
     """
     n, p = B.shape
-    kept: list[Floats] = []
-    indices, alive, power = [0] * p, [True] * p, B.astype(float)
-    while len(kept) < n and any(alive):
-        for i in range(p):
-            length = float(np.linalg.norm(power[:, i]))
-            if not alive[i] or len(kept) == n:
+    A, B = _scaled(A, B)
+    rounding = 100 * n * np.finfo(float).eps
+    kept = np.empty((n, 0))
+    chains: list[tuple[Floats, float] | None] = [(column, 0.0) for column in B.T]
+    indices, weakest = [0] * p, 1.0
+    while kept.shape[1] < n and any(chain is not None for chain in chains):
+        for i, chain in enumerate(chains):
+            if chain is None or kept.shape[1] == n:
                 continue
-            column = power[:, i] / length if length else power[:, i]
-            trial = np.column_stack([*kept, column])
-            if np.linalg.svd(trial, compute_uv=False)[-1] > RANK_TOLERANCE:
-                kept.append(column)
-                indices[i] += 1
-            else:
-                alive[i] = False  # all later powers of this input depend too
-        power = A @ power
-    if len(kept) < n:
+            column, error = chain
+            length = float(np.linalg.norm(column))
+            smallest = 0.0
+            if length > error:
+                unit = column / length
+                smallest = float(np.linalg.svd(np.column_stack([kept, unit]), compute_uv=False)[-1])
+            if smallest <= RANK_TOLERANCE or smallest * length <= error:
+                chains[i] = None  # all later powers of this input depend too
+                continue
+            added = _orthogonal(column / length, kept)
+            kept = np.column_stack([kept, added])
+            chains[i] = A @ added, rounding * float(np.linalg.norm(np.abs(A) @ np.abs(added)))
+            indices[i] += 1
+            weakest = min(weakest, smallest)
+    if kept.shape[1] < n:
         raise UncontrollableError(
-            f"only {len(kept)} of {n} states can be reached from the inputs", field="parameters"
+            f"the inputs reach only {kept.shape[1]} of the {n} states",
+            field="B",
+            hint="Add an input, or take the states that no input reaches out of the model.",
         )
-    return tuple(indices)
+    return Scan(tuple(indices), weakest)
+
+
+def controllability_indices(A: Floats, B: Floats) -> tuple[int, ...]:
+    """σ₁ … σ_p of (A, B), see `scan`."""
+    return scan(A, B).indices
+
+
+def _scaled(A: Floats, B: Floats) -> tuple[Floats, Floats]:
+    """The pair with time in units of A's size, each state in units of what the inputs make of it, and
+    the columns of B of length 1. Rank, in exact arithmetic, stays as it is.
+
+    With |A| / ρ(|A|) in place of A the result is the same in all units of states, inputs and time.
+    Balancing is not: it takes an entry of 1e-200 as seriously as one of 1.
+    """
+    size = np.abs(A)
+    speed = float(np.max(np.abs(np.linalg.eigvals(size)))) or 1.0
+    reached = np.abs(B) / np.maximum(np.max(np.abs(B), axis=0), np.finfo(float).tiny)
+    largest = power = np.max(reached, axis=1)
+    for _ in range(len(A) - 1):
+        power = size @ power / speed
+        largest = np.maximum(largest, power)
+    units = np.where(largest > 0, largest, 1.0)
+    inputs = B / units[:, None]
+    lengths = np.linalg.norm(inputs, axis=0)
+    return A / speed * units / units[:, None], inputs / np.where(lengths > 0, lengths, 1.0)
+
+
+def _orthogonal(column: Floats, basis: Floats) -> Floats:
+    """The unit vector that `column` adds to the orthonormal columns of `basis`."""
+    for _ in range(2):  # the second time takes away what rounding left of the first
+        column = column - basis @ (basis.T @ column)
+    return column / np.linalg.norm(column)

@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from .checks import require_one_of
-from .errors import StructureUnavailableError, UncontrollableError
+from .checks import require_one_of, require_within
+from .errors import InvalidInputError, StructureUnavailableError, UncontrollableError
 from .parameters import Parameters
 
 Coupling = Literal["triangular", "input-diagonal", "axis-decoupled"]
@@ -27,16 +27,31 @@ class Structure:
     ``triangular``: the leading axis has exactly its own pair and drives the other (the paper's,
     with pitch leading). ``input-diagonal``: diagonal in z = B₂⁻¹[θ, ψ] (standard Luenberger).
     ``axis-decoupled``: θ and ψ do not feel each other.
+
+    Attributes:
+        coupling, lead: which structure.
+        shift: c of the basis' shift q₁ → q₁ + c q₂ (yaw leading: q₂ → q₂ + c q₁); None takes the one
+            that gives the structure its name: K_py/K_pp, K_yp/K_yy, or 0 where it is input-diagonal.
     """
 
     coupling: Coupling = "triangular"
     lead: Lead = "pitch"
+    shift: float | None = None
 
     def __post_init__(self) -> None:
         require_one_of(self.coupling, Coupling, "coupling")
         require_one_of(self.lead, Lead, "lead")
         if self.coupling != "triangular":  # the lead says nothing there; one value keeps caches small
             object.__setattr__(self, "lead", "pitch")
+        if self.shift is not None:
+            require_within(self.shift, "shift", "", -1e6, 1e6)
+            if self.coupling == "axis-decoupled":
+                raise InvalidInputError(
+                    "the axis-decoupled structure is not in Luenberger's basis, so it has no shift",
+                    field="shift",
+                    value=self.shift,
+                    hint="Leave the shift out, or choose triangular or input-diagonal.",
+                )
 
 
 def require_controllable(parameters: Parameters) -> None:
@@ -55,7 +70,7 @@ def require_controllable(parameters: Parameters) -> None:
 def require_structure(parameters: Parameters, structure: Structure) -> None:
     """Raises StructureUnavailableError if the leading axis' own motor has no thrust on it."""
     p = parameters
-    if structure.coupling != "triangular":
+    if structure.coupling != "triangular" or structure.shift is not None:
         return
     own, name = (p.K_pp, "K_pp") if structure.lead == "pitch" else (p.K_yy, "K_yy")
     if abs(own) <= NEGLIGIBLE * max(abs(p.K_pp), abs(p.K_py), abs(p.K_yp), abs(p.K_yy)):
@@ -63,5 +78,5 @@ def require_structure(parameters: Parameters, structure: Structure) -> None:
             f"triangular with {structure.lead} leading needs {name} ≠ 0: the basis' shift divides by it",
             field="lead",
             value=structure.lead,
-            hint="Let the other axis lead, or choose another coupling.",
+            hint="Let the other axis lead, choose another coupling, or give the shift.",
         )

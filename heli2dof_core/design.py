@@ -1,48 +1,71 @@
-"""Parameters + poles + structure → Design: K and what it does to the poles."""
+"""Parameters + poles + method → Design: K and what it does to the poles."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from .compiled import gain
 from .couplings import Structure, require_structure
 from .findings import Finding
+from .placement.lqr_integral import IntegralPlacement
+from .placement.method import Placement, Task, Weights
+from .placement.registry import method as method_named
 from .plant import Plant
 from .poles import PoleSet, match_poles
-from .signals import Complexes, Floats
+from .remarks import design_remarks
+from .signals import C, Complexes, Floats
+
+FULL_RANK = "full-rank"
 
 
 @dataclass(frozen=True)
 class Design:
-    """Full-rank state feedback u = −Kx + v for one rig and one set of poles.
+    """State feedback u = −Kx + v for one rig, by one method.
 
     Attributes:
         plant: the rig at its operating point.
         poles: the poles asked for, rad/s.
-        structure: structure of the closed loop.
+        method: name of the placement method (`placement.registry`).
+        structure: structure of the closed loop; None where the method is not full-rank's.
         K: gain, 2×4, V/rad in columns θ, ψ and V·s/rad in columns θ̇, ψ̇ (Eqs. 21, 22).
+        integral: 2×2, V/(rad·s): the method's own integral action; None where it has none.
         A_closed: A − BK, 4×4.
         closed_loop_poles: eigenvalues of A − BK as computed, in the order of `poles`, rad/s.
-        pole_error: largest distance between the two, rad/s.
-        findings: remarks on the poles.
+        pole_error: largest distance between the two, rad/s; None where the method chose its own.
+        findings: remarks on the poles and the gain.
     """
 
     plant: Plant
     poles: PoleSet
-    structure: Structure
+    method: str
+    structure: Structure | None
     K: Floats
+    integral: Floats | None
     A_closed: Floats
     closed_loop_poles: Complexes
-    pole_error: float
+    pole_error: float | None
     findings: tuple[Finding, ...]
 
     @property
     def norm(self) -> float:
         """Frobenius norm of K (mixed units, as the literature compares it)."""
         return float(np.linalg.norm(self.K))
+
+    @property
+    def spectral_norm(self) -> float:
+        """Largest singular value of K (mixed units)."""
+        return float(np.linalg.norm(self.K, 2))
+
+    @cached_property
+    def eigenvector_condition(self) -> float | None:
+        """κ₂ of the closed loop's eigenvectors of length 1: by how much a perturbation of A − BK can
+        be amplified in its poles (Bauer–Fike). None where there are too few of them (double poles).
+        """
+        condition = float(np.linalg.cond(np.linalg.eig(self.A_closed)[1]))
+        return condition if condition < 1 / np.finfo(float).eps else None
 
     @property
     def steady_state_inverse(self) -> Floats:
@@ -54,48 +77,59 @@ class Design:
         return self.K[:, :2] - np.linalg.solve(self.plant.B[2:], self.plant.A[2:, :2])
 
 
-def design(plant: Plant, poles: PoleSet, structure: Structure = Structure()) -> Design:
-    """Places the four poles by full-rank state feedback, by the derived closed form.
+def design(
+    plant: Plant,
+    poles: PoleSet,
+    structure: Structure = Structure(),
+    method: str = FULL_RANK,
+    weights: Weights | None = None,
+) -> Design:
+    """State feedback for the rig: by the derived closed form, or by another method.
+
+    Args:
+        plant: the rig at its operating point.
+        poles: the poles asked for; LQR does not look at them.
+        structure: of the closed loop; full-rank placement alone looks at it.
+        method: name in `placement.registry`.
+        weights: of the quadratic methods.
 
     Raises:
+        InvalidInputError: there is no such method.
         StructureUnavailableError: the rig has no such structure.
+        MethodUnavailableError: the method cannot place these poles on this rig.
     """
-    parameters = plant.parameters
-    require_structure(parameters, structure)
-    K = np.array(gain(structure)(*poles.coefficients, *parameters.as_dict().values(), plant.theta_0))
-    A_closed = plant.A - plant.B @ K
+    chosen = method_named(method)
+    if method == FULL_RANK:
+        placed = Placement(full_rank_gain(plant, poles, structure))
+        return assess(plant, poles, placed, method, structure)
+    placed = chosen.place(Task(plant.A, plant.B, poles.array, C, weights))
+    return assess(plant, poles, placed, method, None, misses=not chosen.places_poles)
+
+
+def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats:
+    """K by the closed form that the derivation gives, 2×4."""
+    require_structure(plant.parameters, structure)
+    arguments = (*poles.coefficients, *plant.parameters.as_dict().values(), plant.theta_0)
+    if structure.shift is None:
+        return np.array(gain(structure)(*arguments))
+    family = Structure(structure.coupling, structure.lead)
+    return np.array(gain(family, shifted=True)(*arguments, structure.shift))
+
+
+def assess(
+    plant: Plant,
+    poles: PoleSet,
+    placed: Placement,
+    method: str,
+    structure: Structure | None,
+    *,
+    misses: bool = False,
+) -> Design:
+    """The design that a given K makes of the rig; `misses`: it does not aim at the poles."""
+    A_closed = plant.A - plant.B @ placed.K
     found = np.linalg.eigvals(A_closed).astype(complex)
     found = found[match_poles(poles.array, found)]
-    error = float(np.max(np.abs(found - poles.array)))
-    return Design(plant, poles, structure, K, A_closed, found, error, tuple(_remarks(poles, error)))
-
-
-def _remarks(poles: PoleSet, error: float) -> Iterator[Finding]:
-    """Placed poles that are legal but unwise."""
-    largest = float(np.max(np.abs(poles.array)))
-    if any(p.real > 0 for p in poles.values):
-        yield Finding(
-            "right_half_plane",
-            "error",
-            "A pole lies in the right half plane: without an outer loop the helicopter runs away. "
-            "Drag it left of the imaginary axis.",
-        )
-    elif any(p.real == 0 for p in poles.values):
-        yield Finding(
-            "imaginary_axis",
-            "warning",
-            "A pole lies on the imaginary axis: its motion neither grows nor dies out.",
-        )
-    if any(p == 0 for p in poles.values):
-        yield Finding(
-            "no_steady_state",
-            "warning",
-            "A pole lies at 0, so the inner loop has no steady state, and Ĝ(0) and the RGA do not exist.",
-        )
-    if error > 1e-6 * max(largest, 1.0):
-        yield Finding(
-            "pole_error",
-            "warning",
-            f"The computed poles miss the wanted ones by up to {error:.2g} rad/s: poles that coincide, "
-            "or lie far out, are sensitive to rounding.",
-        )
+    error = None if misses else float(np.max(np.abs(found - poles.array)))
+    integral = placed.integral if isinstance(placed, IntegralPlacement) else None
+    remarks = design_remarks(plant, poles, placed.K, found, error)
+    return Design(plant, poles, method, structure, placed.K, integral, A_closed, found, error, remarks)

@@ -4,7 +4,8 @@
     ├── InvalidInputError          a value is not a number, out of its range, or unknown
     ├── UnpairedPolesError         a pair is neither two real poles nor two conjugates
     ├── UncontrollableError        the two motors cannot move the two axes independently
-    └── StructureUnavailableError  the coupling asked for does not exist on this rig
+    ├── StructureUnavailableError  the coupling asked for does not exist on this rig
+    └── MethodUnavailableError     a placement method cannot solve this task, or is not installed
 
 A design that is legal but unwise raises nothing; it carries findings (see `findings`).
 """
@@ -53,3 +54,9 @@ class StructureUnavailableError(Heli2DofError):
     """The wanted closed-loop structure does not exist for these parameters."""
 
     code = "structure_unavailable"
+
+
+class MethodUnavailableError(Heli2DofError):
+    """A placement method cannot solve the task, or needs a package that is not installed."""
+
+    code = "method_unavailable"

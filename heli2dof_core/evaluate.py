@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from .couplings import Structure
-from .design import Design, design
+from .design import FULL_RANK, Design, design
 from .findings import Finding, merged
 from .interaction import Interaction, interaction
 from .loop import Loop, close_loop
 from .margins import Margins, loop_margins
 from .metrics import StepMetrics, step_metrics
 from .parameters import Parameters
+from .placement.method import Weights
 from .plant import plant
 from .poles import PoleSet
 from .presets import Preset
@@ -19,6 +20,7 @@ from .simulation.linear import simulate_linear
 from .simulation.nonlinear import simulate_nonlinear
 from .simulation.response import Response
 from .spec import Limits, Model, OuterLoop, Scenario
+from .weights import bryson_weights
 
 
 @dataclass(frozen=True)
@@ -28,6 +30,7 @@ class Spec:
     Attributes:
         parameters, limits, theta_0: the rig and its operating point (rad).
         poles, structure: what full-rank placement shall do.
+        method, weights: another placement method, and the weights of a quadratic one.
         outer: the loop around it.
         scenario: the experiment.
     """
@@ -39,6 +42,8 @@ class Spec:
     structure: Structure
     outer: OuterLoop
     scenario: Scenario
+    method: str = FULL_RANK
+    weights: Weights | None = None
 
     @classmethod
     def from_preset(cls, preset: Preset) -> Spec:
@@ -87,7 +92,8 @@ class Report:
 
 def place(spec: Spec) -> Design:
     """The design alone."""
-    return design(plant(spec.parameters, spec.theta_0), spec.poles, spec.structure)
+    weights = spec.weights or bryson_weights(spec.limits)
+    return design(plant(spec.parameters, spec.theta_0), spec.poles, spec.structure, spec.method, weights)
 
 
 def simulate(loop: Loop, spec: Spec, model: Model) -> Step:

@@ -1,4 +1,4 @@
-"""Relative gain array, pairing and Niederlinski index of a design, as numbers."""
+"""Interaction between the two loops of a design: RGA, pairing with its reason, dominance."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from .design import Design
 from .findings import Finding
+from .relative_gains import diagonal_dominance, relative_gain_array
 from .signals import INPUTS, OUTPUTS, C, Complexes, Floats
 
 SINGULAR = 1e-12
@@ -20,51 +21,83 @@ class Interaction:
 
     Attributes:
         rga: 2×2, rows are outputs θ, ψ, columns inputs V_p, V_y; None without steady state.
-        pairing: (output, input) names that the RGA advises.
+        pairing: (output, input) names that RGA and Niederlinski index advise.
+        reason: why, in words.
         niederlinski: det Ĝ(0)/Π ĝᵢᵢ(0) for diagonal pairing; None where a ĝᵢᵢ(0) is 0.
-        findings: what the RGA says, in words.
+        niederlinski_cross: the same for the cross pairing.
+        findings: what the RGA says against the diagonal pairing.
     """
 
     rga: Floats | None
     pairing: tuple[tuple[str, str], ...]
+    reason: str
     niederlinski: float | None
+    niederlinski_cross: float | None
     findings: tuple[Finding, ...]
 
 
 def interaction(design: Design) -> Interaction:
     """RGA = Ĝ(0) ∘ Ĝ(0)⁻ᵀ (Eq. 23; Bristol 1966), from Ĝ(0)⁻¹, which always exists.
 
-    Two inputs and outputs pair on the side whose relative gains are nearer to 1 and positive.
+    Of two by two gains the pairing with a relative gain above ½ is the one nearer to 1, and the only
+    one with a positive Niederlinski index unless both have: the index is 1/λ₁₁, and 1/λ₁₂ crosswise.
     """
-    inverse = design.steady_state_inverse
-    (a, b), (c, d) = inverse
+    (a, b), (c, d) = design.steady_state_inverse
     determinant = a * d - b * c
     if abs(determinant) <= SINGULAR * (abs(a * d) + abs(b * c)):
-        return Interaction(None, (), None, ())
+        return Interaction(None, (), "A pole lies at 0: without steady state there is no RGA.", None, None, ())
     diagonal = float(a * d / determinant)  # Ĝ(0) = adj(Ĝ(0)⁻¹)/det, so λ₁₁ = ĝ₁₁ · (Ĝ⁻¹)₁₁
     rga = np.array([[diagonal, 1 - diagonal], [1 - diagonal, diagonal]])
     cross = diagonal < 0.5
     pairing = tuple((y.name, u.name) for y, u in zip(OUTPUTS, INPUTS[::-1] if cross else INPUTS, strict=True))
-    niederlinski = 1 / diagonal if diagonal else None
-    return Interaction(rga, pairing, niederlinski, tuple(_advice(diagonal)))
+    indices = [1 / gain if gain else None for gain in (diagonal, 1 - diagonal)]
+    reason = _reason(diagonal)
+    return Interaction(rga, pairing, reason, *indices, (_against(diagonal, reason),) if cross else ())
+
+
+def closed_loop_response(design: Design, frequencies: Floats) -> Complexes:
+    """Ĝ(jω) at `frequencies` (rad/s), shape (n, 2, 2), rad/V (Eq. 17)."""
+    pencil = 1j * frequencies[:, None, None] * np.eye(4) - design.A_closed
+    return C @ np.linalg.solve(pencil, design.plant.B)
 
 
 def rga_over_frequency(design: Design, frequencies: Floats) -> Complexes:
     """RGA(jω) at `frequencies` (rad/s), shape (n, 2, 2)."""
-    B, identity = design.plant.B, np.eye(4)
-    G = C @ np.linalg.solve(1j * frequencies[:, None, None] * identity - design.A_closed, B)
-    return G * np.linalg.inv(G).transpose(0, 2, 1)
+    return np.asarray(relative_gain_array(closed_loop_response(design, frequencies)), dtype=complex)
 
 
-def _advice(diagonal: float) -> list[Finding]:
+def dominance_over_frequency(design: Design, frequencies: Floats) -> tuple[Floats, Floats]:
+    """Ratios of off-diagonal to diagonal size of Ĝ(jω), by rows and by columns, each (n, 2).
+
+    The paper's claim that the system is diagonally dominant: all below 1 (Section IV).
+    """
+    return diagonal_dominance(closed_loop_response(design, frequencies))
+
+
+def _reason(diagonal: float) -> str:
+    """What λ₁₁ means for the pairing."""
+    cross = 1 - diagonal
+    if abs(diagonal - 1) < 0.05:
+        return f"λ₁₁ = {diagonal:.3f}, near 1: closing one loop hardly changes the other's gain."
     if diagonal >= 0.5:
-        return []
-    return [
-        Finding(
-            "pairing_cross",
-            "warning",
-            f"The RGA advises against the diagonal pairing: λ₁₁ = {diagonal:.3f}, below 0.5: at steady state "
-            "the cross paths outweigh the direct ones. That alone makes nothing unstable; try the cross "
-            "pairing.",
+        strength = "moderate" if diagonal < 1.5 else "strong"
+        return (
+            f"λ₁₁ = {diagonal:.3f}: closing the other loop divides a loop's gain by that, a {strength} "
+            f"interaction; crosswise λ₁₂ = {cross:.3f} is farther from 1"
+            + (", and negative, so integral action would be unstable." if cross < 0 else ".")
         )
-    ]
+    if diagonal < 0:
+        return (
+            f"λ₁₁ = {diagonal:.3f} is negative: closing the other loop turns the sign of a loop's gain, the "
+            f"Niederlinski index is {1 / diagonal:.2f}, and integral action in both loops is unstable."
+        )
+    index = "" if diagonal == 0 else f" (Niederlinski index {1 / diagonal:.2f}, positive)"
+    return (
+        f"λ₁₁ = {diagonal:.3f}, below 0.5: at steady state the cross paths outweigh the direct ones; "
+        f"crosswise λ₁₂ = {cross:.3f} is nearer to 1. Diagonal pairing is not unstable for that{index}."
+    )
+
+
+def _against(diagonal: float, reason: str) -> Finding:
+    advice = f"The RGA advises against the diagonal pairing: {reason} Try the cross pairing."
+    return Finding("pairing_cross", "warning" if diagonal >= 0 else "error", advice)

@@ -19,40 +19,48 @@ class Loop:
     """Design and outer loop together, linear, in deviations from the trim.
 
     States are x = [θ, ψ, θ̇, ψ̇] and, with PI, z = ∫ error of pitch and yaw in rad·s. The voltage is
-    u = −Kx + v with v = `mixing` (kp ∘ (e + z / ti)), or v = `mixing` r without an outer loop.
+    u = −Kx + `proportional` e + `integral` z + `feedforward` r, e = r − [θ, ψ].
 
     Attributes:
         design: the state feedback.
         outer: the outer loop's settings.
-        mixing: 2×2; how controller outputs (or references) reach the motors: pairing with signs,
-            decoupler, or Ĝ(0)⁻¹.
-        kp, ki: proportional gains, V/rad, and kp / ti, V/(rad·s), of pitch and yaw; 0 without PI.
+        proportional: 2×2, volts of each motor per error of pitch and yaw, V/rad.
+        integral: 2×2, per integral of these errors, V/(rad·s); None where nothing integrates.
+        feedforward: 2×2, per reference, V/rad.
     """
 
     design: Design
     outer: OuterLoop
-    mixing: Floats
-    kp: Floats
-    ki: Floats
+    proportional: Floats
+    integral: Floats | None
+    feedforward: Floats
 
     @property
     def has_integrators(self) -> bool:
-        """Whether there are PI controllers."""
-        return self.outer.outer == "pi"
+        """Whether the errors are integrated: by PI controllers or by the method's own action."""
+        return self.integral is not None
+
+    @property
+    def integral_times(self) -> Floats:
+        """Time in which each axis' integral makes up for its proportional action, shape (2,), s."""
+        if self.integral is None:
+            return np.full(2, np.inf)
+        if self.design.integral is None:
+            return np.array([self.outer.pitch.ti, self.outer.yaw.ti])
+        proportional = np.linalg.norm(self.design.K[:, :2], axis=0)
+        return proportional / np.linalg.norm(self.integral, axis=0)
 
     @cached_property
     def voltage_from_state(self) -> Floats:
         """∂u/∂[x, z], 2×6 (2×4 without PI), V per state."""
-        if not self.has_integrators:
-            return -self.design.K
-        proportional = -self.design.K.copy()
-        proportional[:, :2] -= self.mixing * self.kp
-        return np.hstack([proportional, self.mixing * self.ki])
+        from_x = -self.design.K.copy()
+        from_x[:, :2] -= self.proportional
+        return from_x if self.integral is None else np.hstack([from_x, self.integral])
 
     @cached_property
     def voltage_from_reference(self) -> Floats:
         """∂u/∂r, 2×2, V/rad."""
-        return self.mixing * self.kp if self.has_integrators else self.mixing
+        return self.proportional + self.feedforward
 
     @cached_property
     def A(self) -> Floats:
@@ -88,11 +96,16 @@ class Loop:
 
 
 def close_loop(design: Design, outer: OuterLoop = OuterLoop()) -> Loop:
-    """Puts the outer loop around a design (Fig. 3, or Fig. 2 with ``outer="none"``)."""
+    """Puts the outer loop around a design (Fig. 3, or Fig. 2 with ``outer="none"``).
+
+    A method's own integral action takes the place of the PI loops.
+    """
     inverse = design.steady_state_inverse
-    nothing = np.zeros(2)
+    nothing = np.zeros((2, 2))
+    if design.integral is not None:
+        return Loop(design, outer, nothing, design.integral, nothing)
     if outer.outer == "none":
-        return Loop(design, outer, inverse, nothing, nothing)
+        return Loop(design, outer, nothing, None, inverse)
     (a, b), (c, d) = inverse
     # Ĝ(0) up to the positive or negative factor det Ĝ(0); signs below use the determinant's sign
     determinant = a * d - b * c
@@ -109,12 +122,18 @@ def close_loop(design: Design, outer: OuterLoop = OuterLoop()) -> Loop:
         mixing = np.array([[0.0, signs[1]], [signs[0], 0.0]])
     kp = np.array([outer.pitch.kp, outer.yaw.kp])
     ki = kp / np.array([outer.pitch.ti, outer.yaw.ti])
-    return Loop(design, outer, mixing, kp, ki)
+    return Loop(design, outer, mixing * kp, mixing * ki, nothing)
 
 
 def _remarks(loop: Loop) -> Iterator[Finding]:
     slowest = loop.poles[0]
-    if loop.has_integrators:
+    if loop.design.integral is not None:
+        yield Finding(
+            "own_integral_action",
+            "info",
+            "The method brings its own integral action, which takes the place of the PI loops.",
+        )
+    elif loop.has_integrators:
         if not loop.stable and np.max(loop.design.closed_loop_poles.real) < 0:
             yield Finding(
                 "pi_unstable",
@@ -129,8 +148,8 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
                 "error",
                 f"The whole loop is unstable: it has a pole at {_words(slowest)} rad/s.",
             )
-        for name, kp in zip(AXES, loop.kp, strict=True):
-            if kp == 0:
+        for name, gains in zip(AXES, (loop.outer.pitch, loop.outer.yaw), strict=True):
+            if gains.kp == 0:
                 yield Finding(f"{name}_loop_open", "warning", f"The {name} loop is open: its gain is 0.")
     damping = min((-p.real / abs(p) for p in loop.poles if abs(p) > 0), default=1.0)
     if loop.stable and damping < 0.2:

@@ -55,17 +55,16 @@ class NonlinearLoop:
         self._parameters = tuple(plant.parameters.as_dict().values())
         self._accelerations = accelerations()
         self._windup = scenario.anti_windup if scenario.saturation else "none"
-        if loop.has_integrators:
-            self._prepare_anti_windup(loop)
+        if loop.integral is not None:
+            self._prepare_anti_windup(loop.integral, loop.integral_times)
 
-    def _prepare_anti_windup(self, loop: Loop) -> None:
-        effect = loop.mixing * loop.ki  # V/s of each motor per rad of each error
+    def _prepare_anti_windup(self, effect: Floats, times: Floats) -> None:
+        """`effect`: V/s of each motor per rad of each error; `times`: the integral times, s."""
         self._motor = [int(np.argmax(np.abs(effect[:, i]))) for i in range(2)]
         self._direction = [float(np.sign(effect[self._motor[i], i])) for i in range(2)]
         self._tracking = [[0.0, 0.0], [0.0, 0.0]]
-        if self._windup == "back-calculation" and np.all(loop.ki != 0):
+        if self._windup == "back-calculation" and np.all(np.any(effect, axis=0)):
             # tracking time = T_i: z follows so that its voltage makes up for what the limit cuts off
-            times = np.array([loop.outer.pitch.ti, loop.outer.yaw.ti])
             self._tracking = (np.linalg.pinv(effect) / times[:, None]).tolist()
 
     def command(self, states: Floats) -> Floats:

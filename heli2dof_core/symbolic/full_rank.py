@@ -7,18 +7,26 @@ basis the rows that carry the inputs can be replaced at will. K = Q⁻¹ K̄ T, 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 
 import sympy as sp
 from sympy.polys.matrices import DomainMatrix
 
 from ..couplings import Structure
 from .linearization import linear_model
-from .luenberger import CanonicalForm, canonical_form, controllability_indices, leading_rows
+from .luenberger import (
+    CanonicalForm,
+    Triangle,
+    canonical_form,
+    controllability_indices,
+    desired_rows,
+    feedback,
+    leading_rows,
+)
 from .names import PARAMETERS as P
-from .names import a, alpha, beta_0, d_10, d_11, d_20, d_21, s
+from .names import a, alpha, beta_0, c, d_10, d_11, d_20, d_21, s
 
-_GENERATORS = [s, d_10, d_11, d_20, d_21, a, alpha, beta_0]
+_GENERATORS = [s, d_10, d_11, d_20, d_21, c, a, alpha, beta_0]
 _GENERATORS += [P[n] for n in ("B_p", "B_y", "K_pp", "K_py", "K_yp", "K_yy")]
 FIELD = sp.QQ.frac_field(*_GENERATORS)
 """Field of rational functions in which the whole derivation takes place."""
@@ -31,14 +39,21 @@ class FullRank:
     Attributes:
         form: the canonical form used, with T and Q.
         K: 2×4 gain of u = −Kx + v, V/rad and V·s/rad, in the coefficients of d₁ and d₂.
-        closed_loop: A − BK.
-        canonical_closed_loop: T (A − BK) T⁻¹, block triangular or block diagonal.
     """
 
     form: CanonicalForm
     K: DomainMatrix
-    closed_loop: DomainMatrix
-    canonical_closed_loop: DomainMatrix
+
+    @cached_property
+    def closed_loop(self) -> DomainMatrix:
+        """A − BK."""
+        A, B = plant()
+        return A - B.matmul(self.K)
+
+    @cached_property
+    def canonical_closed_loop(self) -> DomainMatrix:
+        """T (A − BK) T⁻¹, block triangular or block diagonal."""
+        return self.form.T.matmul(self.closed_loop).matmul(self.form.T_inverse)
 
 
 @cache
@@ -55,20 +70,20 @@ def indices() -> tuple[int, ...]:
 
 
 @cache
-def full_rank(structure: Structure) -> FullRank:
+def full_rank(structure: Structure, *, shifted: bool = False) -> FullRank:
     """Derives K so that det(sI − A + BK) = d₁(s) d₂(s).
+
+    Args:
+        structure: which member of the family; its own `shift` is not looked at.
+        shifted: leave the basis' shift c a symbol, instead of the value that the structure gives it.
 
     Errata: Eqs. 21–22 print B_p/β for B_y/β four times, and α for β in k₁₂, k₁₄, k₂₂, k₂₄.
     """
     A, B = plant()
-    form = canonical_form(A, B, indices(), _rows(structure))
-    wanted = to_field(sp.Matrix([[-d_10, -d_11, 0, 0], [0, 0, -d_20, -d_21]]))
-    K_bar = form.A_bar.extract(list(form.ends), list(range(4))) - wanted
-    if structure.coupling == "triangular":  # the block that couples the axes stays as it is
-        K_bar = to_field(sp.Matrix([[1, 1, 0, 0], [0, 0, 1, 1]])).mul_elementwise(K_bar)
-    K = form.Q.inv().matmul(K_bar).matmul(form.T)
-    closed_loop = A - B.matmul(K)
-    return FullRank(form, K, closed_loop, form.T.matmul(closed_loop).matmul(form.T.inv()))
+    form = canonical_form(A, B, indices(), _rows(structure, shifted=shifted))
+    blocks = [((i,), [FIELD.from_sympy(d) for d in pair]) for i, pair in enumerate(_POLYNOMIALS)]
+    D = desired_rows(form, blocks, _kept_triangle(structure))
+    return FullRank(form, feedback(form, D))
 
 
 def to_field(matrix: sp.Matrix) -> DomainMatrix:
@@ -76,16 +91,27 @@ def to_field(matrix: sp.Matrix) -> DomainMatrix:
     return DomainMatrix.from_Matrix(matrix).convert_to(FIELD).to_dense()
 
 
-def _rows(structure: Structure) -> list[DomainMatrix]:
+_POLYNOMIALS = ((d_10, d_11), (d_20, d_21))
+
+
+def _kept_triangle(structure: Structure) -> Triangle:
+    """The axis that leads is not driven; the block that drives the other stays as the plant has it."""
+    if structure.coupling != "triangular":
+        return "none"
+    return "lower" if structure.lead == "pitch" else "upper"
+
+
+def _rows(structure: Structure, *, shifted: bool) -> list[DomainMatrix]:
     """The leading rows q₁, q₂ that give the structure its name."""
     if structure.coupling == "axis-decoupled":
         outputs = to_field(sp.eye(2, 4))
         return [outputs.extract([i], list(range(4))) for i in range(2)]
     q_1, q_2 = leading_rows(*plant(), indices())
-    if structure.coupling == "input-diagonal":
+    if structure.coupling == "input-diagonal" and not shifted:
         return [q_1, q_2]
-    if structure.lead == "pitch":  # q₁ → q₁ + c q₂ leaves θ alone in the first block
-        shift = FIELD.from_sympy(P["K_py"] / P["K_pp"])
-        return [q_1 + q_2 * shift, q_2]
-    shift = FIELD.from_sympy(P["K_yp"] / P["K_yy"])
-    return [q_1, q_2 + q_1 * shift]
+    yaw_leads = structure.coupling == "triangular" and structure.lead == "yaw"
+    own = P["K_yp"] / P["K_yy"] if yaw_leads else P["K_py"] / P["K_pp"]
+    shift = FIELD.from_sympy(c if shifted else own)
+    if yaw_leads:
+        return [q_1, q_2 + q_1 * shift]
+    return [q_1 + q_2 * shift, q_2]  # with c = K_py/K_pp this leaves θ alone in the first block

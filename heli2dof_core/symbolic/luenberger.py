@@ -1,17 +1,26 @@
-"""Controllability indices and Luenberger's controllable canonical form, symbolically.
+"""Full-rank state feedback through Luenberger's controllable canonical form, over any field.
+
+All matrices are SymPy `DomainMatrix` over one field: the rational functions for symbols (see
+`full_rank`), the rational numbers for numbers (see `heli2dof_core.placement.full_rank`). Their entries
+are always in lowest terms, so that zero is recognised and no `simplify` is needed.
 
 Source: D. G. Luenberger, "Canonical forms for linear multivariable systems", IEEE Trans. Autom.
-Control 12 (1967) 290–293. All matrices are SymPy `DomainMatrix` over one field of fractions: their
-entries are always in lowest terms, so that zero is recognised and no `simplify` is needed.
+Control 12 (1967) 290–293; R. V. Patel and N. Munro, Multivariable System Theory and Design, 1982.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal
 
 from sympy.polys.matrices import DomainMatrix
 
 from ..errors import UncontrollableError
+
+Triangle = Literal["none", "lower", "upper"]
+"""Which off-diagonal blocks of the canonical closed loop keep the plant's own entries."""
 
 
 @dataclass(frozen=True)
@@ -21,17 +30,29 @@ class CanonicalForm:
     Attributes:
         indices: controllability indices σ₁ … σ_p, one per input.
         T: n×n transformation, its rows q_i, q_i A, …, q_i A^(σ_i − 1).
-        A_bar, B_bar: T A T⁻¹ and T B.
+        last: p×n, the rows q_i A^σ_i; times T⁻¹ they are the rows of Ā that carry the inputs.
+        A, B_bar: the plant's A, and T B.
         Q: p×p, the nonzero rows of B̄.
         ends: the row of each block that carries the input, so Q = B̄[ends].
     """
 
     indices: tuple[int, ...]
     T: DomainMatrix
-    A_bar: DomainMatrix
+    last: DomainMatrix
+    A: DomainMatrix
     B_bar: DomainMatrix
     Q: DomainMatrix
     ends: tuple[int, ...]
+
+    @cached_property
+    def T_inverse(self) -> DomainMatrix:
+        """T⁻¹."""
+        return self.T.inv()
+
+    @cached_property
+    def A_bar(self) -> DomainMatrix:
+        """Ā = T A T⁻¹."""
+        return self.T.matmul(self.A).matmul(self.T_inverse)
 
 
 def controllability_matrix(A: DomainMatrix, B: DomainMatrix) -> DomainMatrix:
@@ -64,26 +85,73 @@ def leading_rows(A: DomainMatrix, B: DomainMatrix, indices: tuple[int, ...]) -> 
         for _ in range(index):
             columns.append(column)
             column = A.matmul(column)
-    inverse = columns[0].hstack(*columns[1:]).inv()
-    last = [sum(indices[: i + 1]) - 1 for i in range(len(indices))]
-    return [_row(inverse, row) for row in last]
+    n = A.shape[0]
+    units = DomainMatrix.eye(n, A.domain).to_dense().extract(list(range(n)), list(_ends(indices)))
+    rows = columns[0].hstack(*columns[1:]).transpose().lu_solve(units).transpose()
+    return [_row(rows, i) for i in range(len(indices))]
 
 
 def canonical_form(
     A: DomainMatrix, B: DomainMatrix, indices: tuple[int, ...], rows: list[DomainMatrix]
 ) -> CanonicalForm:
     """The form that the leading rows q_i span (Luenberger's, shifted, or the outputs' own)."""
-    basis = []
+    basis, last = [], []
     for row, index in zip(rows, indices, strict=True):
         current = row
         for _ in range(index):
             basis.append(current)
             current = current.matmul(A)
-    T = basis[0].vstack(*basis[1:])
-    ends = tuple(sum(indices[: i + 1]) - 1 for i in range(len(indices)))
-    B_bar = T.matmul(B)
-    Q = _row(B_bar, ends[0]).vstack(*[_row(B_bar, end) for end in ends[1:]])
-    return CanonicalForm(indices, T, T.matmul(A).matmul(T.inv()), B_bar, Q, ends)
+        last.append(current)
+    T = _stacked(basis)
+    B_bar, ends = T.matmul(B), _ends(indices)
+    Q = _stacked([_row(B_bar, end) for end in ends])
+    return CanonicalForm(indices, T, _stacked(last), A, B_bar, Q, ends)
+
+
+def desired_rows(
+    form: CanonicalForm, groups: Iterable[tuple[Sequence[int], Sequence[Any]]], triangle: Triangle = "none"
+) -> DomainMatrix:
+    """D, p×n: the rows that the closed loop shall have in place of Ā's rows that carry the inputs.
+
+    Args:
+        form: the canonical form.
+        groups: per block of the closed loop its inputs, and the coefficients d₀ … of its monic
+            polynomial, the leading 1 left out. A block of several inputs joins their chains: each
+            but the last gets a 1 at the first column of the next.
+        triangle: the off-diagonal blocks that stay as the plant has them.
+    """
+    field, (p, n) = form.T.domain, form.last.shape
+    starts = [end - index + 1 for end, index in zip(form.ends, form.indices, strict=True)]
+    block = [i for i, index in enumerate(form.indices) for _ in range(index)]
+    D = [[field.zero] * n for _ in range(p)]
+    if triangle != "none":
+        own = form.last.matmul(form.T_inverse).to_list()
+        for i in range(p):
+            for column in range(n):
+                if (block[column] < i) if triangle == "lower" else (block[column] > i):
+                    D[i][column] = own[i][column]
+    for inputs, coefficients in groups:
+        columns = [starts[i] + k for i in inputs for k in range(form.indices[i])]
+        for i, following in zip(inputs, inputs[1:], strict=False):
+            for column in columns:
+                D[i][column] = field.zero
+            D[i][starts[following]] = field.one
+        for column, coefficient in zip(columns, coefficients, strict=True):
+            D[inputs[-1]][column] = -coefficient
+    return DomainMatrix(D, (p, n), field)
+
+
+def feedback(form: CanonicalForm, D: DomainMatrix) -> DomainMatrix:
+    """K = Q⁻¹ K̄ T with K̄ = (rows of Ā that carry the inputs) − D, p×n (Eq. 19)."""
+    return form.Q.inv().matmul(form.last - D.matmul(form.T))
+
+
+def _ends(indices: tuple[int, ...]) -> tuple[int, ...]:
+    return tuple(sum(indices[: i + 1]) - 1 for i in range(len(indices)))
+
+
+def _stacked(rows: list[DomainMatrix]) -> DomainMatrix:
+    return rows[0].vstack(*rows[1:])
 
 
 def _row(matrix: DomainMatrix, index: int) -> DomainMatrix:

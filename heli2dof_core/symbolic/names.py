@@ -34,6 +34,7 @@ sin_0, cos_0 = sp.symbols("sin_0 cos_0")  # plain symbols keep θ₀ ≠ 0 harml
 alpha, beta_0, gamma_, a = sp.symbols("alpha beta_0 gamma_ a")
 p_1, p_2, p_3, p_4 = sp.symbols("p_1 p_2 p_3 p_4")
 d_10, d_11, d_20, d_21 = sp.symbols("d_10 d_11 d_20 d_21")
+c = sp.Symbol("c")
 s = sp.Symbol("s")
 
 
@@ -63,6 +64,7 @@ NAMES: tuple[Name, ...] = (
     Name("d_11", "d_{11}", "linear coefficient of d₁(s), −p₁ − p₂", "1/s"),
     Name("d_20", "d_{20}", "constant coefficient of d₂(s), p₃p₄", "1/s²"),
     Name("d_21", "d_{21}", "linear coefficient of d₂(s), −p₃ − p₄", "1/s"),
+    Name("c", "c", "shift of the basis, q₁ → q₁ + c q₂ (yaw leading: q₂ → q₂ + c q₁)", "1"),
     Name("s", "s", "Laplace variable", "1/s"),
 )
 

@@ -23,7 +23,7 @@ def transfer_matrix(structure: Structure) -> DomainMatrix:
     form = result.form
     pencil = to_field(sp.eye(4) * s) - result.canonical_closed_loop
     states = pencil.lu_solve(form.B_bar)
-    return to_field(sp.eye(2, 4)).matmul(form.T.inv()).matmul(states)
+    return to_field(sp.eye(2, 4)).matmul(form.T_inverse).matmul(states)
 
 
 @cache

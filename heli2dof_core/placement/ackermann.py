@@ -1,0 +1,37 @@
+"""Ackermann's formula through a dyadic input."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..signals import Floats
+from .dyadic import krylov, place_dyadic
+from .method import Placement, Task
+
+
+class Ackermann:
+    """k = [0 … 0 1] 𝒞⁻¹ d(A), applied to the input direction with the smallest gain."""
+
+    name = "ackermann"
+    title = "Ackermann's formula, dyadic input"
+    source = "J. Ackermann, Regelungstechnik 20 (1972) 297–300; dyadic: Gopinath, IEEE TAC 16 (1971) 230"
+    needs = None
+    places_poles = True
+
+    def place(self, task: Task) -> Placement:
+        """K = f k of rank one.
+
+        Raises:
+            MethodUnavailableError: A is not cyclic.
+        """
+        return Placement(place_dyadic(ackermann, task.A, task.B, task.poles))
+
+
+def ackermann(A: Floats, b: Floats, wanted: Floats) -> Floats:
+    """k, shape (n,), so that det(sI − A + bk) has the coefficients `wanted`, highest first."""
+    polynomial = np.zeros_like(A)
+    for coefficient in wanted:  # Horner
+        polynomial = polynomial @ A + coefficient * np.eye(len(A))
+    last = np.zeros(len(A))
+    last[-1] = 1.0
+    return np.linalg.solve(krylov(A, b).T, last) @ polynomial

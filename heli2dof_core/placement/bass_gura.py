@@ -1,0 +1,35 @@
+"""Bass and Gura's formula through a dyadic input."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import toeplitz
+
+from ..signals import Floats
+from .dyadic import krylov, place_dyadic
+from .method import Placement, Task
+
+
+class BassGura:
+    """k = (d − a)(𝒞 W)⁻¹ from the open-loop polynomial, along the direction with the smallest gain."""
+
+    name = "bass-gura"
+    title = "Bass–Gura formula, dyadic input"
+    source = "R. W. Bass and I. Gura, Proc. Joint Automatic Control Conf. (1965) 233–240"
+    needs = None
+    places_poles = True
+
+    def place(self, task: Task) -> Placement:
+        """K = f k of rank one.
+
+        Raises:
+            MethodUnavailableError: A is not cyclic.
+        """
+        return Placement(place_dyadic(bass_gura, task.A, task.B, task.poles))
+
+
+def bass_gura(A: Floats, b: Floats, wanted: Floats) -> Floats:
+    """k, shape (n,), so that det(sI − A + bk) has the coefficients `wanted`, highest first."""
+    own = np.poly(A).real
+    W = toeplitz(np.eye(len(A))[0], own[:-1])  # upper triangular: 1, a₁, a₂ … along the rows
+    return np.linalg.solve((krylov(A, b) @ W).T, wanted[1:] - own[1:])

@@ -1,0 +1,190 @@
+"""Full-rank state feedback for any controllable (A, B), in exact rational arithmetic.
+
+The code that derives the rig's formulas (`symbolic.luenberger`) runs here over the rational numbers:
+a float is a fraction, so nothing is rounded between A, B and K but K itself. In floats the method
+loses as many digits as the controllability matrix is ill conditioned, which for eight states is
+most of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, get_args
+
+import numpy as np
+
+from ..controllability import scan
+from ..errors import InvalidInputError
+from ..signals import Complexes, Floats
+from .groups import Group, assign, require_groups
+from .method import Placement, Task, require_system
+
+if TYPE_CHECKING:  # SymPy is imported on the first placement
+    from sympy.polys.matrices import DomainMatrix
+
+    from ..symbolic.luenberger import CanonicalForm, Triangle
+
+
+@dataclass(frozen=True)
+class FullRankPlacement(Placement):
+    """A full-rank placement with its construction.
+
+    Attributes:
+        T: n×n, x̄ = Tx.
+        Q: p×p, the nonzero rows of TB; its columns are the inputs as given.
+        controllability_indices: σ, one per input as given.
+        weakest: smallest singular value that a column of the scan left (see `controllability.scan`).
+        groups: the blocks of the closed loop, in the order of T.
+    """
+
+    T: Floats
+    Q: Floats
+    controllability_indices: tuple[int, ...]
+    weakest: float
+    groups: tuple[Group, ...]
+
+
+class FullRank:
+    """Full-rank placement as one of the methods: poles dealt in their order, block-diagonal."""
+
+    name = "full-rank"
+    title = "Full-rank state feedback through Luenberger's canonical form"
+    source = "Patel & Munro, Multivariable System Theory and Design, 1982; Luenberger, IEEE TAC 12 (1967) 290"
+    needs = None
+    places_poles = True
+
+    def place(self, task: Task) -> FullRankPlacement:
+        """K = Q⁻¹ K̄ T with block-diagonal D."""
+        return full_rank(task.A, task.B, task.poles)
+
+
+def full_rank(
+    A: Floats,
+    B: Floats,
+    poles: Complexes | Sequence[complex],
+    *,
+    groups: Sequence[Group] | None = None,
+    input_order: Sequence[int] | None = None,
+    triangle: Triangle = "none",
+    shift: Floats | None = None,
+) -> FullRankPlacement:
+    """Places the poles of any controllable (A, B) (theory: steps 1–5).
+
+    Args:
+        A, B: n×n and n×p, B of full column rank.
+        poles: n, closed under conjugation, rad/s.
+        groups: which poles go into the block of which input; by default in the order given.
+        input_order: the order in which the scan takes the inputs, from 0; another order can give
+            other indices and another K.
+        triangle: which off-diagonal blocks of the closed loop in x̄ stay as the plant has them;
+            ``none`` makes it block-diagonal.
+        shift: p×p, unit diagonal; the leading rows become shift · q. Entry (i, j) may differ from 0
+            only where σ_j ≥ σ_i. Rows and columns in the order of the scan.
+
+    Returns:
+        The placement; T, Q and groups in the order of the scan.
+
+    Raises:
+        InvalidInputError: shapes, groups, order or shift do not fit.
+        UnpairedPolesError: the poles, or a group of them, are not closed under conjugation.
+        UncontrollableError: (A, B) is not controllable.
+    """
+    from sympy import QQ
+
+    from ..symbolic.luenberger import Triangle, canonical_form, desired_rows, feedback, leading_rows
+
+    A, B, wanted = require_system(A, B, poles)
+    if triangle not in get_args(Triangle):
+        raise InvalidInputError(f"triangle is {triangle!r}", field="triangle", value=triangle)
+    p = B.shape[1]
+    order = _require_order(input_order, p)
+    scanned = scan(A, B[:, order])
+    indices = scanned.indices
+    chosen = assign(wanted, indices) if groups is None else _reordered(groups, order)
+    chosen = require_groups(chosen, wanted, indices)
+    matrix, inputs = _exact(A), _exact(B[:, order])
+    rows = leading_rows(matrix, inputs, indices)
+    if shift is not None:
+        rows = _shifted(rows, _require_shift(shift, indices))
+    form = canonical_form(matrix, inputs, indices, rows)
+    polynomials = [(g.inputs, _coefficients(wanted[list(g.poles)], QQ)) for g in chosen]
+    gain = _floats(feedback(form, desired_rows(form, polynomials, triangle)))
+    back = np.argsort(order)
+    return FullRankPlacement(
+        K=gain[back],
+        T=_floats(form.T),
+        Q=_floats(form.Q)[:, back],
+        controllability_indices=tuple(indices[i] for i in back),
+        weakest=scanned.weakest,
+        groups=tuple(Group(tuple(order[i] for i in g.inputs), g.poles) for g in chosen),
+    )
+
+
+def _require_order(order: Sequence[int] | None, p: int) -> list[int]:
+    chosen = list(range(p)) if order is None else list(order)
+    if sorted(chosen) != list(range(p)):
+        raise InvalidInputError(
+            f"the input order {chosen} does not name each of 0 … {p - 1} once",
+            field="input_order",
+            value=str(chosen),
+            hint="Name each input once, by position from 0.",
+        )
+    return chosen
+
+
+def _reordered(groups: Sequence[Group], order: list[int]) -> tuple[Group, ...]:
+    """Groups by input as given → by position in the scan; unknown inputs are left for the check."""
+    place = {given: position for position, given in enumerate(order)}
+    return tuple(Group(tuple(place.get(i, i) for i in g.inputs), g.poles) for g in groups)
+
+
+def _require_shift(shift: Floats, indices: tuple[int, ...]) -> Floats:
+    p = len(indices)
+    S = np.asarray(shift, dtype=float)
+    fits = S.shape == (p, p) and bool(np.all(np.isfinite(S)))
+    allowed = np.array([[i == j or indices[j] >= indices[i] for j in range(p)] for i in range(p)])
+    if not fits or np.any(np.diag(S) != 1) or np.any(S[~allowed] != 0) or not np.linalg.det(S):
+        raise InvalidInputError(
+            "the shift is no invertible p×p matrix with unit diagonal and zeros where σ_j < σ_i",
+            field="shift",
+            value=str(shift),
+            hint="For two inputs with equal indices: [[1, c], [0, 1]].",
+        )
+    return S
+
+
+def _shifted(rows: list[DomainMatrix], S: Floats) -> list[DomainMatrix]:
+    stacked = _exact(S).matmul(rows[0].vstack(*rows[1:]))
+    n = stacked.shape[1]
+    return [stacked.extract([i], list(range(n))) for i in range(len(rows))]
+
+
+def _coefficients(poles: Complexes, field: Any) -> list[Any]:
+    """d₀ … of Π (s − p), exactly, the leading 1 left out; complex poles count once per pair."""
+    polynomial = [field.one]
+    for p in poles:
+        if p.imag < 0:
+            continue
+        re, im = (field(*Fraction(part).as_integer_ratio()) for part in (p.real, p.imag))
+        factor = [re * re + im * im, -2 * re, field.one] if p.imag else [-re, field.one]
+        product = [field.zero] * (len(polynomial) + len(factor) - 1)
+        for i, a in enumerate(polynomial):
+            for j, b in enumerate(factor):
+                product[i + j] += a * b
+        polynomial = product
+    return polynomial[:-1]
+
+
+def _exact(matrix: Floats) -> DomainMatrix:
+    from sympy import QQ
+    from sympy.polys.matrices import DomainMatrix
+
+    entries = [[QQ(*float(x).as_integer_ratio()) for x in row] for row in matrix]
+    return DomainMatrix(entries, matrix.shape, QQ)
+
+
+def _floats(matrix: DomainMatrix) -> Floats:
+    rows: Iterable[Iterable[Any]] = matrix.to_list()
+    return np.array([[float(Fraction(int(x.numerator), int(x.denominator))) for x in row] for row in rows])

@@ -1,0 +1,44 @@
+"""Linear quadratic regulator with integral action, by python-control."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..signals import Floats
+from .lqr import regulate, require_weights
+from .method import Placement, Task
+
+
+@dataclass(frozen=True)
+class IntegralPlacement(Placement):
+    """u = −Kx + K_z z, z = ∫ (r − y) dt.
+
+    Attributes:
+        integral: K_z, p×q.
+    """
+
+    integral: Floats
+
+
+class LQRIntegral:
+    """Minimizes ∫ (xᵀQx + zᵀQ_z z + uᵀRu) dt; brings its own integrators in place of PI loops."""
+
+    name = "lqr-integral"
+    title = "Linear quadratic regulator with integral action (python-control)"
+    source = "P. C. Young and J. C. Willems, Int. J. Control 15 (1972) 961–978; control.lqr(integral_action=C)"
+    needs = "control"
+    places_poles = False
+
+    def place(self, task: Task) -> IntegralPlacement:
+        """The optimal K and K_z for the task's weights.
+
+        Raises:
+            MethodUnavailableError: there are no weights, or no stabilizing solution exists.
+        """
+        weights = require_weights(task)
+        n = len(task.A)
+        Q = np.diag([*weights.states, *weights.integrals])
+        K = regulate(task.A, task.B, Q, np.diag(weights.inputs), integrate=task.C)
+        return IntegralPlacement(K[:, :n], K[:, n:])

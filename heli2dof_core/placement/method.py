@@ -1,0 +1,128 @@
+"""What every placement method is given, and what it gives back."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from ..errors import InvalidInputError
+from ..signals import Complexes, Floats
+
+MOST_STATES = 20
+"""Systems with more states are refused: exact placement takes seconds there."""
+
+
+@dataclass(frozen=True)
+class Weights:
+    """Diagonals of the quadratic cost ∫ (xᵀQx + zᵀQ_z z + uᵀRu) dt, z = ∫ (r − y) dt.
+
+    Attributes:
+        states: n, ≥ 0, diagonal of Q.
+        inputs: p, > 0, diagonal of R.
+        integrals: as many as outputs, > 0, diagonal of Q_z; integral action alone uses it.
+    """
+
+    states: tuple[float, ...]
+    inputs: tuple[float, ...]
+    integrals: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Task:
+    """A system ẋ = Ax + Bu, y = Cx and what is wanted of it.
+
+    Attributes:
+        A, B, C: n×n, n×p, q×n.
+        poles: n desired poles, closed under conjugation, rad/s; quadratic methods choose their own.
+        weights: of the quadratic methods.
+    """
+
+    A: Floats
+    B: Floats
+    poles: Complexes
+    C: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    weights: Weights | None = None
+
+
+@dataclass(frozen=True)
+class Placement:
+    """A state feedback u = −Kx + v.
+
+    Attributes:
+        K: p×n.
+    """
+
+    K: Floats
+
+
+class Method(Protocol):
+    """One placement method; `registry.METHODS` holds them all.
+
+    Attributes:
+        name, title, source: for programs, for people, and who published it.
+        needs: the distribution that must be installed for it, None if heli2dof's own suffice.
+        places_poles: whether it takes the poles given, rather than choose its own.
+    """
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def source(self) -> str: ...
+    @property
+    def needs(self) -> str | None: ...
+    @property
+    def places_poles(self) -> bool: ...
+
+    def place(self, task: Task) -> Placement:
+        """The gain.
+
+        Raises:
+            MethodUnavailableError: the method cannot solve this task, with the reason.
+        """
+        ...
+
+
+def require_system(
+    A: Floats, B: Floats, poles: Complexes | Sequence[complex]
+) -> tuple[Floats, Floats, Complexes]:
+    """A, B and the poles as arrays of fitting shapes and finite numbers.
+
+    Raises:
+        InvalidInputError: they are not; the field names which.
+    """
+    A, B = np.asarray(A, dtype=float), np.asarray(B, dtype=float)
+    wanted = np.asarray(poles, dtype=complex)
+    if A.ndim != 2 or A.shape[0] != A.shape[1] or not 1 <= len(A) <= MOST_STATES:
+        raise InvalidInputError(
+            f"A has the shape {A.shape}",
+            field="A",
+            hint=f"Give a square matrix, row by row, of at most {MOST_STATES} states.",
+        )
+    n = len(A)
+    if B.ndim != 2 or len(B) != n or not 1 <= B.shape[1] <= n:
+        raise InvalidInputError(
+            f"B has the shape {B.shape}", field="B", hint=f"Give {n} rows and 1 to {n} columns, one per input."
+        )
+    for name, values in (("A", A), ("B", B), ("poles", wanted)):
+        if not np.all(np.isfinite(values)):
+            raise InvalidInputError(f"{name} holds a number that is not finite", field=name)
+    if wanted.shape != (n,):
+        raise InvalidInputError(
+            f"{wanted.size} poles given for {n} states",
+            field="poles",
+            value=wanted.size,
+            hint=f"Give {n} poles, complex ones with their conjugates.",
+        )
+    rank = int(np.linalg.matrix_rank(B / np.maximum(np.linalg.norm(B, axis=0), 1e-300), tol=1e-10))
+    if rank < B.shape[1]:
+        raise InvalidInputError(
+            f"B's {B.shape[1]} columns span {rank} dimensions only: some inputs act alike",
+            field="B",
+            hint="Leave out inputs that others can replace.",
+        )
+    return A, B, wanted

@@ -1,0 +1,42 @@
+"""All placement methods by name, the paper's own first."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+
+from ..errors import InvalidInputError
+from .ackermann import Ackermann
+from .bass_gura import BassGura
+from .full_rank import FullRank
+from .knv0 import KNV0
+from .lqr import LQR
+from .lqr_integral import LQRIntegral
+from .method import Method
+from .tits_yang import TitsYang
+from .varga import Varga
+
+_ALL: tuple[Method, ...] = (
+    FullRank(),
+    TitsYang(),
+    KNV0(),
+    Varga(),
+    Ackermann(),
+    BassGura(),
+    LQR(),
+    LQRIntegral(),
+)
+
+METHODS = MappingProxyType({method.name: method for method in _ALL})
+"""Placement methods by name."""
+
+
+def method(name: str) -> Method:
+    """The method of that name, or InvalidInputError with the names that exist."""
+    if name not in METHODS:
+        raise InvalidInputError(
+            f"there is no method {name!r}",
+            field="method",
+            value=name,
+            hint="Known are " + ", ".join(METHODS) + ".",
+        )
+    return METHODS[name]

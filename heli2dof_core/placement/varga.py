@@ -1,0 +1,44 @@
+"""Schur placement after Varga, by SLICOT's SB01BD."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..errors import MethodUnavailableError
+from .method import Placement, Task
+
+
+class Varga:
+    """Moves the poles one or two at a time up the real Schur form of A."""
+
+    name = "varga"
+    title = "Varga's Schur method (SLICOT SB01BD)"
+    source = "A. Varga, IEEE Trans. Autom. Control 26 (1981) 517–519; slycot.sb01bd"
+    needs = "slycot"
+    places_poles = True
+
+    def place(self, task: Task) -> Placement:
+        """K from poles placed one after the other, without inverting a controllability matrix.
+
+        Raises:
+            MethodUnavailableError: slycot is not installed, or SLICOT refuses the task.
+        """
+        try:
+            from slycot import sb01bd
+            from slycot.exceptions import SlycotError
+        except ImportError as error:
+            raise MethodUnavailableError(
+                "Varga's method needs the package slycot, which is not installed",
+                field="method",
+                value=self.name,
+                hint="pip install 'heli2dof[slycot]'",
+            ) from error
+        n, p = task.B.shape
+        everything = -10.0 * float(np.max(np.abs(np.linalg.eigvals(task.A)), initial=1.0))  # leaves no pole alone
+        try:
+            *_, F, _Z = sb01bd(n, p, n, everything, task.A, task.B, task.poles, "C")
+        except SlycotError as error:
+            raise MethodUnavailableError(
+                f"SLICOT cannot place these poles: {str(error).strip()}", field="poles"
+            ) from error
+        return Placement(-np.asarray(F, dtype=float))

@@ -1,0 +1,88 @@
+"""RGA, Niederlinski index, pairing and diagonal dominance of a matrix of gains, of any size."""
+
+from __future__ import annotations
+
+from itertools import permutations
+
+import numpy as np
+
+from .errors import InvalidInputError
+from .signals import Complexes, Floats
+
+MOST_LOOPS = 7
+"""Pairings are tried one by one up to this many loops."""
+
+
+def relative_gain_array(G: Floats | Complexes) -> Floats | Complexes:
+    """Λ = G ∘ (G⁺)ᵀ (Bristol 1966), same shape as G; any leading dimensions are a batch.
+
+    G⁺ is the inverse of a square matrix and the pseudo-inverse of another (Chang and Yu, Ind. Eng.
+    Chem. Res. 29 (1990) 1316). Rows sum to 1 where there are no more outputs than inputs, columns
+    where there are no more inputs than outputs.
+
+    Raises:
+        InvalidInputError: G is square and singular.
+    """
+    G = np.asarray(G)
+    if G.shape[-1] != G.shape[-2]:
+        inverse = np.linalg.pinv(G)
+    else:
+        try:
+            inverse = np.linalg.inv(G)
+        except np.linalg.LinAlgError as error:
+            raise InvalidInputError("the gain matrix is singular, so it has no RGA", field="G") from error
+    return G * np.swapaxes(inverse, -1, -2)
+
+
+def niederlinski_index(G: Floats, pairing: tuple[int, ...] | None = None) -> float | None:
+    """det G′ / Π g′ᵢᵢ, G′ = G with its columns in the order of the pairing (AIChE J. 17 (1971) 1261).
+
+    Negative: with integral action in every loop, and each loop stable alone, the whole is unstable.
+
+    Args:
+        G: steady-state gains, n×n.
+        pairing: per output the input that controls it; diagonal by default.
+
+    Returns:
+        The index; None where a paired gain is 0.
+    """
+    ordered = np.asarray(G)[:, list(pairing) if pairing is not None else slice(None)]
+    product = float(np.prod(np.diag(ordered)))
+    return float(np.linalg.det(ordered)) / product if product else None
+
+
+def best_pairing(G: Floats) -> tuple[int, ...]:
+    """Per output the input that the RGA and the Niederlinski index advise.
+
+    Of the pairings with a positive index (all, if there are none) the one whose relative gains are
+    nearest to 1 (smallest RGA number: Skogestad and Postlethwaite, Multivariable Feedback Control,
+    2005, section 3.4.1).
+
+    Raises:
+        InvalidInputError: G is not square, singular, or has more than `MOST_LOOPS` loops.
+    """
+    n = len(G)
+    if G.shape != (n, n) or n > MOST_LOOPS:
+        raise InvalidInputError(f"no pairing for gains of shape {G.shape}", field="G")
+    rga = relative_gain_array(G)
+
+    def judge(pairing: tuple[int, ...]) -> tuple[bool, float]:
+        index = niederlinski_index(G, pairing)
+        wanted = np.eye(n)[list(pairing)]
+        return not (index is not None and index > 0), float(np.sum(np.abs(rga - wanted)))
+
+    return min(permutations(range(n)), key=judge)
+
+
+def diagonal_dominance(G: Floats | Complexes) -> tuple[Floats, Floats]:
+    """(Σ_{j≠i} |g_ij| / |g_ii| by rows, Σ_{i≠j} |g_ij| / |g_jj| by columns), each (..., n).
+
+    Below 1 in all rows, or in all columns, G is diagonally dominant (Rosenbrock, Computer-Aided
+    Control System Design, 1974). Infinite where a diagonal entry is 0.
+    """
+    size = np.abs(np.asarray(G))
+    diagonal = np.diagonal(size, axis1=-2, axis2=-1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        rows = (size.sum(axis=-1) - diagonal) / diagonal
+        columns = (size.sum(axis=-2) - diagonal) / diagonal
+    return rows, columns
