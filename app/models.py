@@ -49,16 +49,32 @@ class Angles(Model):
 
 
 class Gains(Model):
-    """K in V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y."""
+    """K in V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y.
 
+    `integral` is a method's own integral action, V/(rad·s); `pole_error` is left out where the method
+    chose its own poles, `eigenvector_condition` where there are too few eigenvectors.
+    """
+
+    method: str
     K: list[list[float]]
+    integral: list[list[float]] | None = None
     A: list[list[float]]
     B: list[list[float]]
+    poles: list[Complex]
     closed_loop_poles: list[Complex]
-    pole_error: float
+    pole_error: float | None = None
     norm: float
+    spectral_norm: float
+    eigenvector_condition: float | None = None
     controllability_indices: list[int]
     findings: list[Finding]
+
+
+class Dominance(Model):
+    """Off-diagonal over diagonal size of Ĝ(jω), by rows and by columns; below 1: dominant."""
+
+    rows: list[list[float]]
+    columns: list[list[float]]
 
 
 class Rga(Model):
@@ -66,7 +82,10 @@ class Rga(Model):
 
     rga: list[list[float]] | None = None
     pairing: list[list[str]] | None = None
+    reason: str | None = None
     niederlinski: float | None = None
+    niederlinski_cross: float | None = None
+    dominance: Dominance | None = None
     frequencies: list[float] | None = None
     rga_magnitude: list[list[list[float]]] | None = None
     findings: list[Finding]
@@ -203,6 +222,14 @@ class ParameterInfo(Model):
     minimum: float
 
 
+class ComponentInfo(Model):
+    """What a component's value means, and the paper's symbol for it."""
+
+    meaning: str
+    unit: str
+    printed: str
+
+
 class Scenario(Model):
     """A preset's own experiment."""
 
@@ -220,6 +247,8 @@ class Preset(Model):
     rig: str
     parameters: dict[str, float]
     parameter_info: dict[str, ParameterInfo]
+    components: dict[str, float]
+    component_info: dict[str, ComponentInfo]
     limits: Limits
     operating_point: dict[str, float]
     poles: list[Complex]
@@ -230,25 +259,6 @@ class Preset(Model):
     decoupler: bool
     loops: Loops
     scenario: Scenario
-
-
-class Method(Model):
-    """A placement method and the structures that it offers."""
-
-    name: str
-    title: str
-    source: str
-    couplings: list[str]
-    leads: list[str]
-
-
-FULL_RANK = Method(
-    name="full-rank",
-    title="Full-rank state feedback through Luenberger's canonical form",
-    source="Patel & Munro, Multivariable System Theory and Design, 1982; Luenberger, IEEE TAC 12 (1967) 290",
-    couplings=["triangular", "input-diagonal", "axis-decoupled"],
-    leads=["pitch", "yaw"],
-)
 
 
 class Formula(Model):

@@ -12,10 +12,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from heli2dof_core import Design, Finding, Interaction, Loop, Preset, Report, Spec, rga_over_frequency
+from heli2dof_core.components import COMPONENT_INFO
 from heli2dof_core.controllability import controllability_indices
 from heli2dof_core.evaluate import Step
 from heli2dof_core.findings import merged
+from heli2dof_core.interaction import dominance_over_frequency
 from heli2dof_core.margins import Margins
+from heli2dof_core.metrics import StepMetrics
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.signals import AXES, INPUTS, OUTPUTS, Floats
 from heli2dof_core.spec import Limits
@@ -39,16 +42,23 @@ def findings_reply(findings: Iterable[Finding]) -> list[Reply]:
 
 def gains_reply(design: Design) -> Reply:
     """K and what it does to the poles."""
-    return {
-        "K": design.K.tolist(),
-        "A": design.plant.A.tolist(),
-        "B": design.plant.B.tolist(),
-        "closed_loop_poles": poles_reply(design.closed_loop_poles),
-        "pole_error": design.pole_error,
-        "norm": design.norm,
-        "controllability_indices": list(controllability_indices(design.plant.A, design.plant.B)),
-        "findings": findings_reply(design.findings),
-    }
+    return _present(
+        {
+            "method": design.method,
+            "K": design.K.tolist(),
+            "integral": None if design.integral is None else design.integral.tolist(),
+            "A": design.plant.A.tolist(),
+            "B": design.plant.B.tolist(),
+            "poles": poles_reply(design.poles.values),
+            "closed_loop_poles": poles_reply(design.closed_loop_poles),
+            "pole_error": design.pole_error,
+            "norm": design.norm,
+            "spectral_norm": design.spectral_norm,
+            "eigenvector_condition": design.eigenvector_condition,
+            "controllability_indices": list(controllability_indices(design.plant.A, design.plant.B)),
+            "findings": findings_reply(design.findings),
+        }
+    )
 
 
 def rga_reply(design: Design, gains: Interaction, frequencies: Sequence[float] = ()) -> Reply:
@@ -58,31 +68,43 @@ def rga_reply(design: Design, gains: Interaction, frequencies: Sequence[float] =
     if gains.rga is not None:
         reply["rga"] = gains.rga.tolist()
         reply["pairing"] = [list(pair) for pair in gains.pairing]
+        reply["reason"] = gains.reason
     if gains.niederlinski is not None:
         reply["niederlinski"] = gains.niederlinski
+    if gains.niederlinski_cross is not None:
+        reply["niederlinski_cross"] = gains.niederlinski_cross
     if frequencies and gains.rga is not None:
+        at = np.array(frequencies)
+        rows, columns = dominance_over_frequency(design, at)
         reply["frequencies"] = list(frequencies)
-        reply["rga_magnitude"] = np.abs(rga_over_frequency(design, np.array(frequencies))).tolist()
+        reply["rga_magnitude"] = np.abs(rga_over_frequency(design, at)).tolist()
+        if np.all(np.isfinite(rows)) and np.all(np.isfinite(columns)):
+            reply["dominance"] = {"rows": rows.tolist(), "columns": columns.tolist()}
     return reply
 
 
 def step_reply(step: Step, loop: Loop) -> Reply:
     """Trajectories and metrics of one response; the long arrays are NumPy's."""
-    response, metrics = step.response, step.metrics
-    motors = {name: asdict(motor) for name, motor in metrics.motors.items()}
-    axes = {name: _present(asdict(axis)) for name, axis in metrics.axes.items()}
-    other = {} if metrics.coupling_peak is None else {"coupling_peak": metrics.coupling_peak}
+    response = step.response
     return {
         "t": response.t,
         **{signal.name: response.angles[i] for i, signal in enumerate(OUTPUTS)},
         **{signal.name: response.voltages[i] for i, signal in enumerate(INPUTS)},
         "reference": dict(zip(("theta", "psi"), response.reference, strict=True)),
         "trim": _voltages(loop.design.plant.trim),
-        "metrics": {**axes, **other, **motors},
+        "metrics": metrics_reply(step.metrics),
         "loop_poles": poles_reply(loop.poles),
         "stable": loop.stable,
         "findings": findings_reply(merged(loop.design.findings, loop.findings, response.findings)),
     }
+
+
+def metrics_reply(metrics: StepMetrics) -> Reply:
+    """Metrics by axis and motor."""
+    motors = {name: asdict(motor) for name, motor in metrics.motors.items()}
+    axes = {name: _present(asdict(axis)) for name, axis in metrics.axes.items()}
+    other = {} if metrics.coupling_peak is None else {"coupling_peak": metrics.coupling_peak}
+    return {**axes, **other, **motors}
 
 
 def report_reply(report: Report, spec: Spec) -> Reply:
@@ -98,7 +120,7 @@ def report_reply(report: Report, spec: Spec) -> Reply:
             axis: {model: step_reply(step, loop) for model, step in steps.items()}
             for axis, steps in report.axis_steps.items()
         },
-        "margins": _margins(report.margins),
+        "margins": margins_reply(report.margins),
         "loop_poles": poles_reply(loop.poles),
         "stable": loop.stable,
         "trim": _voltages(report.design.plant.trim),
@@ -131,6 +153,8 @@ def preset_reply(preset: Preset) -> Reply:
             name: {"meaning": info["meaning"], "unit": info["unit"], "minimum": info["low"]}
             for name, info in PARAMETER_INFO.items()
         },
+        "components": {} if preset.components is None else preset.components.as_dict(),
+        "component_info": COMPONENT_INFO,
         "limits": _limits(preset.limits),
         "operating_point": {"theta": preset.theta_0},
         "poles": poles_reply(preset.poles.values),
@@ -162,7 +186,8 @@ def symbolic_reply(report: SymbolicReport) -> Reply:
     }
 
 
-def _margins(margins: tuple[Margins, Margins] | None) -> Reply:
+def margins_reply(margins: tuple[Margins, Margins] | None) -> Reply:
+    """Margins at each motor; empty where the loop is unstable."""
     if margins is None:
         return {}
     return {axis: _present(asdict(own)) for axis, own in zip(AXES, margins, strict=True)}

@@ -5,16 +5,21 @@ Every field is optional: what is left out comes from the preset. Unknown fields 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, create_model
 
 from heli2dof_core import OuterLoop, PIGains, PoleSet, Preset, Spec, Structure, preset
 from heli2dof_core.couplings import Coupling, Lead
 from heli2dof_core.parameters import PARAMETER_INFO
+from heli2dof_core.placement.method import Weights
+from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.presets import DEFAULT
+from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
 from heli2dof_core.spec import AntiWindup, Model, Outer, Pairing, Scenario
+from heli2dof_core.weights import bryson_weights
 
 
 class Strict(BaseModel):
@@ -96,6 +101,43 @@ class LoopsChanges(Strict):
     yaw: LoopChanges = LoopChanges()
 
 
+Weight = Annotated[float, Field(ge=0, le=1e12)]
+PositiveWeight = Annotated[float, Field(gt=0, le=1e12)]
+
+
+def _weights_of(name: str, signals: Iterable[Signal], kind: Any, meaning: str) -> type[Strict]:
+    fields: dict[str, Any] = {
+        s.name: (kind | None, Field(default=None, description=meaning)) for s in signals
+    }
+    return create_model(name, __base__=Strict, **fields)
+
+
+StateWeights = _weights_of("StateWeights", STATES, Weight, "on Q's diagonal")
+InputWeights = _weights_of("InputWeights", INPUTS, PositiveWeight, "on R's diagonal")
+IntegralWeights = _weights_of("IntegralWeights", OUTPUTS, PositiveWeight, "on the integral of this error")
+
+
+class WeightChanges(Strict):
+    """Weights of the quadratic methods that differ from Bryson's rule for the preset's limits."""
+
+    states: StateWeights = StateWeights()  # pyright: ignore[reportInvalidTypeForm]
+    inputs: InputWeights = InputWeights()  # pyright: ignore[reportInvalidTypeForm]
+    integrals: IntegralWeights = IntegralWeights()  # pyright: ignore[reportInvalidTypeForm]
+
+    def to_weights(self, base: Weights) -> Weights:
+        """The core's weights; what is left out comes from `base`."""
+
+        def merge(changes: BaseModel, own: tuple[float, ...]) -> tuple[float, ...]:
+            given = changes.model_dump().values()
+            return tuple(b if g is None else g for g, b in zip(given, own, strict=True))
+
+        return Weights(
+            merge(self.states, base.states),
+            merge(self.inputs, base.inputs),
+            merge(self.integrals, base.integrals),
+        )
+
+
 class DesignRequest(Strict):
     """A design: what differs from the preset."""
 
@@ -106,9 +148,19 @@ class DesignRequest(Strict):
     poles: list[Pole] | None = Field(
         default=None, min_length=4, max_length=4, description="p₁, p₂ (pitch's pair), p₃, p₄ (yaw's), rad/s"
     )
-    method: Literal["full-rank"] = "full-rank"
+    method: str = Field(
+        default="full-rank", description="see GET /api/v1/methods", json_schema_extra={"enum": [*METHODS]}
+    )
     coupling: Coupling | None = None
     lead: Lead | None = Field(default=None, description="axis that leads where the coupling is triangular")
+    split: list[list[Annotated[int, Field(ge=0, le=3)]]] | None = Field(
+        default=None, description="which poles, by position from 0, form pitch's pair and which yaw's"
+    )
+    shift: float | None = Field(
+        default=None,
+        description="shift c of Luenberger's basis, q₁ → q₁ + c q₂ (yaw leading: q₂ → q₂ + c q₁)",
+    )
+    weights: WeightChanges = WeightChanges()
     outer: Outer | None = Field(
         default=None, description="pi: two PI loops (Fig. 3); none: inner loop alone (Fig. 2)"
     )
@@ -130,11 +182,21 @@ class DesignRequest(Strict):
             parameters=base.parameters.replaced(self.parameters.model_dump(exclude_none=True)),
             limits=replace(base.limits, **self._limits()),
             theta_0=point,
-            poles=base.poles if self.poles is None else PoleSet(self.poles),
-            structure=Structure(self.coupling or base.structure.coupling, self.lead or base.structure.lead),
+            poles=self._poles(base),
+            structure=Structure(
+                self.coupling or base.structure.coupling, self.lead or base.structure.lead, self.shift
+            ),
             outer=self._outer(base),
             scenario=base.scenario,
+            method=self.method,
+            weights=self.weights.to_weights(bryson_weights(base.limits)),
         )
+
+    def _poles(self, base: Preset) -> PoleSet:
+        values = base.poles.values if self.poles is None else self.poles
+        if self.split is None:
+            return base.poles if self.poles is None else PoleSet(values)
+        return PoleSet.dealt(values, self.split)
 
     def _limits(self) -> dict[str, float | None]:
         given = self.limits.model_dump(exclude_unset=True)
@@ -231,6 +293,14 @@ class EvaluateRequest(StepRequest):
     """As a step request; both models are computed."""
 
     each_axis: bool = Field(default=False, description="also step each axis of the reference alone")
+
+
+class CompareRequest(StepRequest):
+    """A design, an experiment, and the methods to compare."""
+
+    methods: list[Annotated[str, Field(json_schema_extra={"enum": [*METHODS]})]] | None = Field(
+        default=None, max_length=len(METHODS), description="all by default"
+    )
 
 
 class LiveRequest(EvaluateRequest):

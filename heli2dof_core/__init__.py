@@ -9,11 +9,14 @@
 Knows no web, no 3D and no plot. SymPy is imported on the first derivation only.
 """
 
+from .comparison import compare, compare_splits
+from .components import Components
 from .couplings import Structure
 from .design import Design, design
 from .errors import (
     Heli2DofError,
     InvalidInputError,
+    MethodUnavailableError,
     StructureUnavailableError,
     UncontrollableError,
     UnpairedPolesError,
@@ -23,15 +26,23 @@ from .findings import Finding
 from .interaction import Interaction, interaction, rga_over_frequency
 from .loop import Loop, close_loop
 from .parameters import Parameters
+from .placement.assess import Assessment, place_poles
+from .placement.full_rank import full_rank
+from .placement.method import Weights
+from .placement.registry import METHODS
 from .plant import Plant, plant
 from .poles import PoleSet, match_poles, pole_error
 from .presets import PRESETS, Preset, preset
+from .relative_gains import best_pairing, diagonal_dominance, niederlinski_index, relative_gain_array
 from .simulation.response import Response
 from .spec import Limits, OuterLoop, PIGains, Scenario
 from .tuning import suggest_pi
 
 __all__ = [
+    "METHODS",
     "PRESETS",
+    "Assessment",
+    "Components",
     "Design",
     "Finding",
     "Heli2DofError",
@@ -39,6 +50,7 @@ __all__ = [
     "InvalidInputError",
     "Limits",
     "Loop",
+    "MethodUnavailableError",
     "OuterLoop",
     "PIGains",
     "Parameters",
@@ -53,15 +65,24 @@ __all__ = [
     "StructureUnavailableError",
     "UncontrollableError",
     "UnpairedPolesError",
+    "Weights",
+    "best_pairing",
     "close_loop",
+    "compare",
+    "compare_splits",
     "design",
+    "diagonal_dominance",
     "evaluate",
+    "full_rank",
     "interaction",
     "match_poles",
+    "niederlinski_index",
     "place",
+    "place_poles",
     "plant",
     "pole_error",
     "preset",
+    "relative_gain_array",
     "rga_over_frequency",
     "simulate",
     "suggest_pi",

@@ -82,10 +82,10 @@ def controllability_indices(A: Floats, B: Floats) -> tuple[int, ...]:
 
 
 def _scaled(A: Floats, B: Floats) -> tuple[Floats, Floats]:
-    """The pair with time in units of A's size, each state in units of what the inputs make of it, and
-    the columns of B of length 1. Rank, in exact arithmetic, stays as it is.
+    """The pair in units of its own: rank, in exact arithmetic, stays as it is.
 
-    With |A| / ρ(|A|) in place of A the result is the same in all units of states, inputs and time.
+    Time is in units of A's size, each state in units of what the inputs make of it, and the columns of
+    B have length 1. With |A| / ρ(|A|) in place of A the result is the same in all units of states, inputs and time.
     Balancing is not: it takes an entry of 1e-200 as seriously as one of 1.
     """
     size = np.abs(A)

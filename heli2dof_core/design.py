@@ -10,6 +10,7 @@ import numpy as np
 from .compiled import gain
 from .couplings import Structure, require_structure
 from .findings import Finding
+from .placement.assess import eigenvector_condition
 from .placement.lqr_integral import IntegralPlacement
 from .placement.method import Placement, Task, Weights
 from .placement.registry import method as method_named
@@ -61,11 +62,8 @@ class Design:
 
     @cached_property
     def eigenvector_condition(self) -> float | None:
-        """κ₂ of the closed loop's eigenvectors of length 1: by how much a perturbation of A − BK can
-        be amplified in its poles (Bauer–Fike). None where there are too few of them (double poles).
-        """
-        condition = float(np.linalg.cond(np.linalg.eig(self.A_closed)[1]))
-        return condition if condition < 1 / np.finfo(float).eps else None
+        """κ₂ of the closed loop's eigenvectors; None where there are too few (see `placement.assess`)."""
+        return eigenvector_condition(self.A_closed)
 
     @property
     def steady_state_inverse(self) -> Floats:

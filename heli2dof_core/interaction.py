@@ -45,14 +45,17 @@ def interaction(design: Design) -> Interaction:
     (a, b), (c, d) = design.steady_state_inverse
     determinant = a * d - b * c
     if abs(determinant) <= SINGULAR * (abs(a * d) + abs(b * c)):
-        return Interaction(None, (), "A pole lies at 0: without steady state there is no RGA.", None, None, ())
+        return Interaction(
+            None, (), "A pole lies at 0: without steady state there is no RGA.", None, None, ()
+        )
     diagonal = float(a * d / determinant)  # Ĝ(0) = adj(Ĝ(0)⁻¹)/det, so λ₁₁ = ĝ₁₁ · (Ĝ⁻¹)₁₁
     rga = np.array([[diagonal, 1 - diagonal], [1 - diagonal, diagonal]])
     cross = diagonal < 0.5
     pairing = tuple((y.name, u.name) for y, u in zip(OUTPUTS, INPUTS[::-1] if cross else INPUTS, strict=True))
-    indices = [1 / gain if gain else None for gain in (diagonal, 1 - diagonal)]
+    straight, crosswise = (1 / gain if gain else None for gain in (diagonal, 1 - diagonal))
     reason = _reason(diagonal)
-    return Interaction(rga, pairing, reason, *indices, (_against(diagonal, reason),) if cross else ())
+    against = (_against(diagonal, reason),) if cross else ()
+    return Interaction(rga, pairing, reason, straight, crosswise, against)
 
 
 def closed_loop_response(design: Design, frequencies: Floats) -> Complexes:

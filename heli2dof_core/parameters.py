@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any
 
 from .checks import require_within
+from .components import Components
 from .errors import InvalidInputError
 
 _LARGEST = 1e6
@@ -62,6 +63,11 @@ class Parameters:
     def gamma(self) -> float:
         """γ = K_py K_yp − K_pp K_yy, minus the determinant of the thrust matrix, (N·m/V)² (Eq. 15)."""
         return self.K_py * self.K_yp - self.K_pp * self.K_yy
+
+    @classmethod
+    def from_components(cls, components: Components, **others: float) -> Parameters:
+        """Thrust constants and l from the rig's parts (Eqs. 1, 8); `others` are the remaining values."""
+        return cls(**components.thrust, l=components.centre_of_mass, **others)
 
     def replaced(self, changes: Mapping[str, float]) -> Parameters:
         """A copy with single values changed; unknown names raise InvalidInputError."""

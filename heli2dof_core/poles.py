@@ -53,6 +53,24 @@ class PoleSet:
                 )
         object.__setattr__(self, "values", poles)
 
+    @classmethod
+    def dealt(cls, values: Sequence[complex], split: Sequence[Sequence[int]]) -> PoleSet:
+        """The poles with those of `split[0]`, by position from 0, as pitch's pair, the others as yaw's.
+
+        Raises:
+            InvalidInputError: `split` is not two pairs that name each of 0 … 3 once.
+            UnpairedPolesError: it separates conjugates.
+        """
+        order = [i for pair in split for i in pair]
+        if [len(pair) for pair in split] != [2, 2] or sorted(order) != [0, 1, 2, 3] or len(values) != 4:
+            raise InvalidInputError(
+                f"the split {[list(pair) for pair in split]} does not deal four poles into two pairs",
+                field="split",
+                value=str([list(pair) for pair in split]),
+                hint="Name each of 0, 1, 2, 3 once: [[0, 2], [1, 3]] gives poles 1 and 3 to pitch.",
+            )
+        return cls(values[i] for i in order)
+
     @property
     def coefficients(self) -> tuple[float, float, float, float]:
         """(d₁₀, d₁₁, d₂₀, d₂₁) of d₁ = s² + d₁₁ s + d₁₀ with roots p₁, p₂ and d₂ with p₃, p₄."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import radians
 from types import MappingProxyType
 
+from .components import Components
 from .couplings import Structure
 from .errors import InvalidInputError
 from .parameters import Parameters
@@ -21,6 +22,7 @@ class Preset:
         name, title: for programs and for people.
         source: where the numbers come from.
         rig: which machine the scene shows, ``helicopter`` or ``aero``.
+        components: the parts that the parameters are computed from, where the source gives them.
     """
 
     name: str
@@ -34,6 +36,7 @@ class Preset:
     scenario: Scenario
     structure: Structure = Structure()
     theta_0: float = 0.0
+    components: Components | None = None
 
 
 _TRAVEL = radians(40.5)
@@ -57,7 +60,24 @@ _MANUAL = Parameters(
 )
 
 
-def _helicopter(name: str, title: str, source: str, parameters: Parameters) -> Preset:
+_COMPONENTS = Components(
+    R_p=0.83,
+    R_y=1.60,
+    K_tp=0.0182,
+    K_ty=0.0109,
+    K_fp=1.037,
+    K_fy=0.4278,
+    r_p=0.19685,
+    r_y=0.168275,
+    m_p=0.292,
+    m_y=0.128,
+    m_shield=0.167,
+)
+
+
+def _helicopter(
+    name: str, title: str, source: str, parameters: Parameters, components: Components | None = None
+) -> Preset:
     return Preset(
         name,
         title,
@@ -68,6 +88,7 @@ def _helicopter(name: str, title: str, source: str, parameters: Parameters) -> P
         _PAPER_POLES,
         _PAPER_PI,
         _GENTLE,
+        components=components,
     )
 
 
@@ -82,17 +103,10 @@ _ALL = (
         "quanser-2dof-design-file",
         "Quanser 2-DOF Helicopter (design file)",
         "Quanser 2-DOF Helicopter, design file: constants from the components (Eqs. 1, 8)",
-        _MANUAL.replaced(
-            {
-                "K_pp": 0.20413345,
-                "K_py": 0.0068125,
-                "K_yp": 0.0219277,
-                "K_yy": 0.071988045,
-                "J_p": 0.038430987,
-                "J_y": 0.043151726,
-                "l": 0.185670126,
-            }
+        Parameters.from_components(
+            _COMPONENTS, J_p=0.038430987, J_y=0.043151726, m=1.3872, B_p=0.8, B_y=0.318
         ),
+        _COMPONENTS,
     ),
     _helicopter(
         "paper-table-1",

@@ -23,19 +23,16 @@ def relative_gain_array(G: Floats | Complexes) -> Floats | Complexes:
     Raises:
         InvalidInputError: G is square and singular.
     """
-    G = np.asarray(G)
     if G.shape[-1] != G.shape[-2]:
-        inverse = np.linalg.pinv(G)
-    else:
-        try:
-            inverse = np.linalg.inv(G)
-        except np.linalg.LinAlgError as error:
-            raise InvalidInputError("the gain matrix is singular, so it has no RGA", field="G") from error
-    return G * np.swapaxes(inverse, -1, -2)
+        return G * np.swapaxes(np.linalg.pinv(G), -1, -2)
+    try:
+        return G * np.swapaxes(np.linalg.inv(G), -1, -2)
+    except np.linalg.LinAlgError as error:
+        raise InvalidInputError("the gain matrix is singular, so it has no RGA", field="G") from error
 
 
 def niederlinski_index(G: Floats, pairing: tuple[int, ...] | None = None) -> float | None:
-    """det G′ / Π g′ᵢᵢ, G′ = G with its columns in the order of the pairing (AIChE J. 17 (1971) 1261).
+    """Det G′ / Π g′ᵢᵢ, G′ = G with its columns in the order of the pairing (AIChE J. 17 (1971) 1261).
 
     Negative: with integral action in every loop, and each loop stable alone, the whole is unstable.
 

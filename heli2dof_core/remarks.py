@@ -39,7 +39,9 @@ def design_remarks(
 
 
 _OWN_POLES = Finding(
-    "own_poles", "info", "This method chooses its own poles, from weights: those that you placed are not used."
+    "own_poles",
+    "info",
+    "This method chooses its own poles, from weights: those that you placed are not used.",
 )
 
 

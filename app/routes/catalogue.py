@@ -1,4 +1,4 @@
-"""GET calls: what there is. Presets, methods, formulas, health."""
+"""GET calls: what there is. Presets, formulas, health."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..problems import problem, problem_response
 
 
 def build_router(compute: Compute) -> APIRouter:
-    """The routes healthz, presets, methods and symbolic."""
+    """The routes healthz, presets and symbolic."""
     router = APIRouter(tags=["catalogue"])
 
     @router.get("/healthz", summary="200 once ready to serve")
@@ -29,10 +29,6 @@ def build_router(compute: Compute) -> APIRouter:
     @router.get("/api/v1/presets", **models.described(list[models.Preset], "The rigs, the default one first"))
     async def presets() -> Response:
         return json_response([replies.preset_reply(preset) for preset in PRESETS.values()])
-
-    @router.get("/api/v1/methods", **models.described(list[models.Method], "Placement methods"))
-    async def methods() -> Response:
-        return json_response([models.FULL_RANK.model_dump()])
 
     @router.get("/api/v1/symbolic", **models.described(models.Symbolic, "The formulas, derived"))
     async def symbolic(coupling: Coupling = "triangular", lead: Lead = "pitch") -> Response:

@@ -30,6 +30,7 @@ class BassGura:
 
 def bass_gura(A: Floats, b: Floats, wanted: Floats) -> Floats:
     """k, shape (n,), so that det(sI − A + bk) has the coefficients `wanted`, highest first."""
-    own = np.poly(A).real
+    own = np.asarray(np.poly(A).real, dtype=np.float64)
     W = toeplitz(np.eye(len(A))[0], own[:-1])  # upper triangular: 1, a₁, a₂ … along the rows
-    return np.linalg.solve((krylov(A, b) @ W).T, wanted[1:] - own[1:])
+    basis = np.asarray(krylov(A, b) @ W, dtype=np.float64)
+    return np.linalg.solve(basis.T, wanted[1:] - own[1:])

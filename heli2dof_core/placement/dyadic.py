@@ -28,7 +28,8 @@ def place_dyadic(
 
     Args:
         formula: Ackermann's or Bass and Gura's.
-        A, B: n×n and n×p.
+        A: n×n.
+        B: n×p.
         poles: n desired poles, closed under conjugation, rad/s.
         first_feedback: K₀, p×n; the dyad is designed for A − BK₀. Zero if not given.
 
@@ -38,7 +39,7 @@ def place_dyadic(
     K_0 = np.zeros(B.T.shape) if first_feedback is None else np.asarray(first_feedback, dtype=float)
     plant = A - B @ K_0
     require_cyclic(plant)
-    wanted = np.poly(poles).real
+    wanted = np.asarray(np.poly(poles).real, dtype=np.float64)
 
     def gain(f: Floats) -> Floats:
         return np.outer(f, formula(plant, B @ f, wanted))
@@ -70,9 +71,8 @@ def require_cyclic(A: Floats) -> None:
         singular = np.linalg.svd(A - value * np.eye(len(A)), compute_uv=False)
         independent = int(np.sum(singular <= RANK_TOLERANCE * size))
         if independent > 1:
-            eigenvalue = f"{value.real:.4g}{value.imag:+.4g}j" if abs(value.imag) > RANK_TOLERANCE * size else (
-                f"{value.real + 0.0:.4g}"
-            )
+            real = abs(value.imag) <= RANK_TOLERANCE * size
+            eigenvalue = f"{value.real + 0.0:.4g}" if real else f"{value:.4g}"
             raise MethodUnavailableError(
                 f"no single input can control this plant: A has the eigenvalue {eigenvalue} with {independent} "
                 f"independent eigenvectors, and one input Bf, whatever the direction f, reaches but one of "

@@ -24,7 +24,7 @@ from .method import Placement, Task, require_system
 if TYPE_CHECKING:  # SymPy is imported on the first placement
     from sympy.polys.matrices import DomainMatrix
 
-    from ..symbolic.luenberger import CanonicalForm, Triangle
+    from ..symbolic.luenberger import Triangle
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,8 @@ def full_rank(
     """Places the poles of any controllable (A, B) (theory: steps 1–5).
 
     Args:
-        A, B: n×n and n×p, B of full column rank.
+        A: n×n.
+        B: n×p, of full column rank.
         poles: n, closed under conjugation, rad/s.
         groups: which poles go into the block of which input; by default in the order given.
         input_order: the order in which the scan takes the inputs, from 0; another order can give

@@ -91,9 +91,7 @@ def assign(poles: Complexes, indices: Sequence[int]) -> tuple[Group, ...]:
     return tuple(groups)
 
 
-def require_groups(
-    groups: Sequence[Group], poles: Complexes, indices: Sequence[int]
-) -> tuple[Group, ...]:
+def require_groups(groups: Sequence[Group], poles: Complexes, indices: Sequence[int]) -> tuple[Group, ...]:
     """The groups as given, if they fit.
 
     Raises:

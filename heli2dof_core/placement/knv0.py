@@ -14,7 +14,10 @@ class KNV0:
 
     name = "knv0"
     title = "Kautsky–Nichols–Van Dooren, method 0 (SciPy)"
-    source = "J. Kautsky, N. K. Nichols and P. Van Dooren, Int. J. Control 41 (1985) 1129–1155; scipy.signal.place_poles"
+    source = (
+        "J. Kautsky, N. K. Nichols and P. Van Dooren, Int. J. Control 41 (1985) 1129–1155; "
+        "scipy.signal.place_poles"
+    )
     needs = None
     places_poles = True
 

@@ -31,7 +31,9 @@ class LQR:
 def require_weights(task: Task) -> Weights:
     """The task's weights, or MethodUnavailableError."""
     if task.weights is None:
-        raise MethodUnavailableError("a quadratic method needs weights", field="weights", hint="Give weights.")
+        raise MethodUnavailableError(
+            "a quadratic method needs weights", field="weights", hint="Give weights."
+        )
     return task.weights
 
 

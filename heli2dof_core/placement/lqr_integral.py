@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..errors import MethodUnavailableError
 from ..signals import Floats
 from .lqr import regulate, require_weights
 from .method import Placement, Task
@@ -27,7 +28,9 @@ class LQRIntegral:
 
     name = "lqr-integral"
     title = "Linear quadratic regulator with integral action (python-control)"
-    source = "P. C. Young and J. C. Willems, Int. J. Control 15 (1972) 961–978; control.lqr(integral_action=C)"
+    source = (
+        "P. C. Young and J. C. Willems, Int. J. Control 15 (1972) 961–978; control.lqr(integral_action=C)"
+    )
     needs = "control"
     places_poles = False
 
@@ -35,9 +38,13 @@ class LQRIntegral:
         """The optimal K and K_z for the task's weights.
 
         Raises:
-            MethodUnavailableError: there are no weights, or no stabilizing solution exists.
+            MethodUnavailableError: weights or outputs are missing, or no stabilizing solution exists.
         """
         weights = require_weights(task)
+        if not task.C.size:
+            raise MethodUnavailableError(
+                "integral action needs the outputs that it shall regulate", field="C", hint="Give y = Cx."
+            )
         n = len(task.A)
         Q = np.diag([*weights.states, *weights.integrals])
         K = regulate(task.A, task.B, Q, np.diag(weights.inputs), integrate=task.C)

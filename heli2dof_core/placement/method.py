@@ -59,24 +59,32 @@ class Placement:
 
 
 class Method(Protocol):
-    """One placement method; `registry.METHODS` holds them all.
-
-    Attributes:
-        name, title, source: for programs, for people, and who published it.
-        needs: the distribution that must be installed for it, None if heli2dof's own suffice.
-        places_poles: whether it takes the poles given, rather than choose its own.
-    """
+    """One placement method; `registry.METHODS` holds them all."""
 
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """For programs."""
+        ...
+
     @property
-    def title(self) -> str: ...
+    def title(self) -> str:
+        """For people."""
+        ...
+
     @property
-    def source(self) -> str: ...
+    def source(self) -> str:
+        """Who published it, and whose code runs."""
+        ...
+
     @property
-    def needs(self) -> str | None: ...
+    def needs(self) -> str | None:
+        """The distribution whose code runs, where it is an optional one."""
+        ...
+
     @property
-    def places_poles(self) -> bool: ...
+    def places_poles(self) -> bool:
+        """Whether it takes the poles given, rather than choose its own."""
+        ...
 
     def place(self, task: Task) -> Placement:
         """The gain.
@@ -106,7 +114,9 @@ def require_system(
     n = len(A)
     if B.ndim != 2 or len(B) != n or not 1 <= B.shape[1] <= n:
         raise InvalidInputError(
-            f"B has the shape {B.shape}", field="B", hint=f"Give {n} rows and 1 to {n} columns, one per input."
+            f"B has the shape {B.shape}",
+            field="B",
+            hint=f"Give {n} rows and 1 to {n} columns, one per input.",
         )
     for name, values in (("A", A), ("B", B), ("poles", wanted)):
         if not np.all(np.isfinite(values)):

@@ -38,4 +38,4 @@ def place_with_scipy(task: Task, method: Literal["YT", "KNV0"]) -> Floats:
             found = place_poles(task.A, task.B, task.poles, method=method, rtol=1e-4, maxiter=100)
         except (ValueError, np.linalg.LinAlgError) as error:
             raise MethodUnavailableError(f"SciPy cannot place these poles: {error}", field="poles") from error
-    return np.asarray(found.gain_matrix, dtype=float)
+    return np.asarray(found.gain_matrix, dtype=float)  # pyright: ignore[reportAttributeAccessIssue]

@@ -11,7 +11,9 @@ class TitsYang:
 
     name = "tits-yang"
     title = "Tits–Yang robust eigenvector assignment (SciPy)"
-    source = "A. L. Tits and Y. Yang, IEEE Trans. Autom. Control 41 (1996) 1432–1452; scipy.signal.place_poles"
+    source = (
+        "A. L. Tits and Y. Yang, IEEE Trans. Autom. Control 41 (1996) 1432–1452; scipy.signal.place_poles"
+    )
     needs = None
     places_poles = True
 

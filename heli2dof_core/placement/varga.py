@@ -34,7 +34,9 @@ class Varga:
                 hint="pip install 'heli2dof[slycot]'",
             ) from error
         n, p = task.B.shape
-        everything = -10.0 * float(np.max(np.abs(np.linalg.eigvals(task.A)), initial=1.0))  # leaves no pole alone
+        everything = -10.0 * float(
+            np.max(np.abs(np.linalg.eigvals(task.A)), initial=1.0)
+        )  # leaves no pole alone
         try:
             *_, F, _Z = sb01bd(n, p, n, everything, task.A, task.B, task.poles, "C")
         except SlycotError as error:

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, Literal
 
 from sympy.polys.matrices import DomainMatrix
@@ -132,7 +133,7 @@ def desired_rows(
                     D[i][column] = own[i][column]
     for inputs, coefficients in groups:
         columns = [starts[i] + k for i in inputs for k in range(form.indices[i])]
-        for i, following in zip(inputs, inputs[1:], strict=False):
+        for i, following in pairwise(inputs):
             for column in columns:
                 D[i][column] = field.zero
             D[i][starts[following]] = field.one

@@ -1,0 +1,113 @@
+"""Requests that place the poles of any system, not of the rig alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from heli2dof_core.errors import InvalidInputError
+from heli2dof_core.placement.assess import Assessment, assess, place_poles
+from heli2dof_core.placement.full_rank import full_rank
+from heli2dof_core.placement.groups import Group
+from heli2dof_core.placement.method import MOST_STATES, Weights, require_system
+from heli2dof_core.placement.registry import METHODS
+from heli2dof_core.signals import Floats
+
+from .requests import Pole, PositiveWeight, Strict, Weight
+
+Row = Annotated[list[float], Field(min_length=1, max_length=MOST_STATES)]
+Matrix = Annotated[list[Row], Field(min_length=1, max_length=MOST_STATES)]
+Position = Annotated[int, Field(ge=0, lt=MOST_STATES)]
+
+
+class PoleGroup(Strict):
+    """A block of the closed loop: whose chains form it, and which poles it gets; positions from 0."""
+
+    inputs: list[Position] = Field(max_length=MOST_STATES)
+    poles: list[Position] = Field(max_length=MOST_STATES)
+
+
+class SystemWeights(Strict):
+    """Diagonals of Q, R and of the integrals' weight; ones where left out."""
+
+    states: list[Weight] | None = Field(default=None, max_length=MOST_STATES)
+    inputs: list[PositiveWeight] | None = Field(default=None, max_length=MOST_STATES)
+    integrals: list[PositiveWeight] | None = Field(default=None, max_length=MOST_STATES)
+
+
+class PlaceRequest(Strict):
+    """Any system ẋ = Ax + Bu and its desired poles, row by row, in any units."""
+
+    A: Matrix
+    B: Matrix
+    poles: list[Pole] = Field(min_length=1, max_length=MOST_STATES)
+    method: str = Field(default="full-rank", json_schema_extra={"enum": [*METHODS]})
+    groups: list[PoleGroup] | None = Field(
+        default=None, max_length=MOST_STATES, description="full-rank: by default in the order of the poles"
+    )
+    input_order: list[Position] | None = Field(
+        default=None, max_length=MOST_STATES, description="full-rank: order in which the inputs are scanned"
+    )
+    triangle: Literal["none", "lower", "upper"] = Field(
+        default="none", description="full-rank: off-diagonal blocks that stay as the plant has them"
+    )
+    shift: Matrix | None = Field(default=None, description="full-rank: p×p, leading rows q → shift · q")
+    C: Matrix | None = Field(default=None, description="lqr-integral: the outputs that it regulates")
+    weights: SystemWeights = SystemWeights()
+
+    def place(self) -> Assessment:
+        """Places the poles.
+
+        Raises:
+            Heli2DofError: a shape or number does not fit, or the method cannot solve the task.
+        """
+        A, B, poles = require_system(_array(self.A, "A"), _array(self.B, "B"), self.poles)
+        options = ("groups", "input_order", "triangle", "shift")
+        if self.method == "full-rank":
+            groups = None
+            if self.groups is not None:
+                groups = [Group(tuple(g.inputs), tuple(g.poles)) for g in self.groups]
+            shift = None if self.shift is None else _array(self.shift, "shift")
+            placed = full_rank(
+                A,
+                B,
+                poles,
+                groups=groups,
+                input_order=self.input_order,
+                triangle=self.triangle,
+                shift=shift,
+            )
+            return assess(A, B, poles, placed)
+        for option in options:
+            if option in self.model_fields_set:
+                raise InvalidInputError(
+                    f"{option} belongs to full-rank placement alone", field=option, hint="Leave it out."
+                )
+        n, p = B.shape
+        C = None if self.C is None else _array(self.C, "C", columns=n)
+        weights = Weights(
+            _sized(self.weights.states, n, "weights.states"),
+            _sized(self.weights.inputs, p, "weights.inputs"),
+            _sized(self.weights.integrals, 0 if C is None else len(C), "weights.integrals"),
+        )
+        return place_poles(A, B, poles, self.method, C=C, weights=weights)
+
+
+def _array(rows: Sequence[Sequence[float]], field: str, *, columns: int | None = None) -> Floats:
+    lengths = {len(row) for row in rows}
+    if len(lengths) > 1 or (columns is not None and lengths != {columns}):
+        raise InvalidInputError(
+            f"the rows of {field} have {sorted(lengths)} entries",
+            field=field,
+            hint="Give a matrix row by row, all rows of the same length.",
+        )
+    return np.array(rows, dtype=float)
+
+
+def _sized(values: list[float] | None, size: int, field: str) -> tuple[float, ...]:
+    if values is not None and len(values) != size:
+        raise InvalidInputError(f"{field} has {len(values)} entries, not {size}", field=field)
+    return (1.0,) * size if values is None else tuple(values)

@@ -1,0 +1,114 @@
+"""The same rig and poles through several methods, and through all splits of the poles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .couplings import Structure
+from .design import FULL_RANK, Design
+from .errors import Heli2DofError, MethodUnavailableError, StructureUnavailableError
+from .evaluate import Report, Spec, evaluate, place
+from .interaction import Interaction, interaction
+from .placement.groups import splits
+from .placement.registry import METHODS
+from .poles import PoleSet
+
+STRUCTURES = (
+    Structure("triangular", "pitch"),
+    Structure("triangular", "yaw"),
+    Structure("input-diagonal"),
+    Structure("axis-decoupled"),
+)
+"""The named members of the full-rank family."""
+DYADIC = ("ackermann", "bass-gura")
+
+
+@dataclass(frozen=True)
+class Row:
+    """One method's result.
+
+    Attributes:
+        method: its name.
+        structure: of the closed loop; None where the method is not full-rank's.
+        report: everything; None where the method is not available.
+        unavailable: why not.
+    """
+
+    method: str
+    structure: Structure | None
+    report: Report | None
+    unavailable: Heli2DofError | None
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Rows in the order of the registry, and what they say of the paper's claim of lower gains."""
+
+    rows: tuple[Row, ...]
+    claim: str
+
+
+@dataclass(frozen=True)
+class Split:
+    """One way to deal the four poles into pitch's and yaw's pair: positions from 0, and the design."""
+
+    pairs: tuple[tuple[int, ...], ...]
+    design: Design
+    interaction: Interaction
+
+
+def compare(spec: Spec, methods: Sequence[str] | None = None) -> Comparison:
+    """Evaluates the spec by each method; full-rank's by each structure.
+
+    Args:
+        spec: rig, poles, outer loop and scenario, the same for all.
+        methods: names in `placement.registry`; all by default.
+    """
+    names = list(METHODS) if methods is None else methods
+    entries: list[tuple[str, Structure | None]] = []
+    for name in names:
+        entries += [(name, s) for s in STRUCTURES] if name == FULL_RANK else [(name, None)]
+    rows = tuple(_row(spec, name, structure) for name, structure in entries)
+    return Comparison(rows, _claim(rows))
+
+
+def compare_splits(spec: Spec) -> tuple[Split, ...]:
+    """All ways to deal the poles into two conjugate-closed pairs; six for four distinct real poles."""
+    found = []
+    for pairs in splits(spec.poles.array, (2, 2)):
+        poles = PoleSet.dealt(spec.poles.values, pairs)
+        design = place(replace(spec, method=FULL_RANK, poles=poles))
+        found.append(Split(pairs, design, interaction(design)))
+    return tuple(found)
+
+
+def _row(spec: Spec, name: str, structure: Structure | None) -> Row:
+    changed = replace(spec, method=name, structure=structure or spec.structure)
+    try:
+        return Row(name, structure, evaluate(changed, each_axis=True), None)
+    except (MethodUnavailableError, StructureUnavailableError) as error:
+        return Row(name, structure, None, error)
+
+
+def _claim(rows: Sequence[Row]) -> str:
+    """Section III says that full-rank gains are lower than Ackermann's or Bass and Gura's."""
+    norms = {(row.method, row.structure): row.report.design.norm for row in rows if row.report}
+    own = [norm for (name, _), norm in norms.items() if name == FULL_RANK]
+    dyadic = [norm for (name, _), norm in norms.items() if name in DYADIC]
+    if dyadic and own:
+        ratio = min(dyadic) / np.median(own)
+        return (
+            f"The paper says that full-rank gains are lower than Ackermann's or Bass and Gura's. Here ‖K‖ is "
+            f"{min(own):.4g} to {max(own):.4g} against {min(dyadic):.4g}, even with the input direction that makes "
+            f"theirs smallest: {ratio:.3g} times the median."
+        )
+    refused = [row.unavailable for row in rows if row.method in DYADIC and row.unavailable]
+    if refused:
+        return (
+            "The paper says that full-rank gains are lower than Ackermann's or Bass and Gura's. On this rig there "
+            f"is nothing to compare: {refused[0]}."
+        )
+    return ""
