@@ -12,6 +12,7 @@ class Method(Model):
     title: str
     source: str
     places_poles: bool
+    available: bool
     couplings: list[str]
     leads: list[str]
     needs: str | None = None

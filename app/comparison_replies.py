@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from importlib.util import find_spec
 
 from heli2dof_core.comparison import STRUCTURES, Comparison, Row, Split
 from heli2dof_core.placement.assess import Assessment
@@ -72,6 +73,7 @@ def _method(method: Method) -> Reply:
         "title": method.title,
         "source": method.source,
         "places_poles": method.places_poles,
+        "available": method.needs is None or find_spec(method.needs) is not None,
         "couplings": list(dict.fromkeys(s.coupling for s in STRUCTURES)) if own else [],
         "leads": ["pitch", "yaw"] if own else [],
         **needs,

@@ -33,4 +33,5 @@ def bass_gura(A: Floats, b: Floats, wanted: Floats) -> Floats:
     own = np.asarray(np.poly(A).real, dtype=np.float64)
     W = toeplitz(np.eye(len(A))[0], own[:-1])  # upper triangular: 1, a₁, a₂ … along the rows
     basis = np.asarray(krylov(A, b) @ W, dtype=np.float64)
-    return np.linalg.solve(basis.T, wanted[1:] - own[1:])
+    change = np.asarray(wanted[1:] - own[1:], dtype=np.float64)
+    return np.asarray(np.linalg.solve(basis.T, change), dtype=np.float64)
