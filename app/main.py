@@ -14,7 +14,7 @@ from fastapi.staticfiles import StaticFiles
 
 from . import live, problems, scene
 from .compute import Compute
-from .routes import catalogue, comparison, design
+from .routes import catalogue, comparison, derivation, design
 from .settings import Settings
 
 _DESCRIPTION = (
@@ -46,6 +46,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     )
     app.include_router(catalogue.build_router(compute))
     app.include_router(design.build_router(compute))
+    app.include_router(derivation.build_router(compute))
     app.include_router(comparison.build_router(compute))
     app.include_router(live.build_router(compute))
     app.include_router(scene.build_router(sessions))

@@ -292,6 +292,7 @@ class Symbolic(Model):
     canonical_closed_loop: Formula
     G: Formula
     RGA: Formula
+    RGA_s: Formula
     entries: dict[str, dict[str, Formula]]
     definitions: dict[str, Formula]
     controllability_indices: list[int]

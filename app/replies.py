@@ -11,7 +11,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from heli2dof_core import Design, Finding, Interaction, Loop, Preset, Report, Spec, rga_over_frequency
+from heli2dof_core import (
+    Design,
+    Finding,
+    Interaction,
+    InvalidInputError,
+    Loop,
+    Preset,
+    Report,
+    Spec,
+    interaction,
+    rga_over_frequency,
+)
 from heli2dof_core.components import COMPONENT_INFO
 from heli2dof_core.controllability import controllability_indices
 from heli2dof_core.evaluate import Step
@@ -23,6 +34,7 @@ from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.signals import AXES, INPUTS, OUTPUTS, Floats
 from heli2dof_core.spec import Limits
 from heli2dof_core.tuning import Suggestion
+from heli2dof_core.walkthrough import walk_through
 
 if TYPE_CHECKING:  # it would import SymPy before the first page
     from heli2dof_core.symbolic.render import SymbolicReport
@@ -42,7 +54,7 @@ def findings_reply(findings: Iterable[Finding]) -> list[Reply]:
 
 def gains_reply(design: Design) -> Reply:
     """K and what it does to the poles."""
-    return _present(
+    return present(
         {
             "method": design.method,
             "K": design.K.tolist(),
@@ -102,9 +114,36 @@ def step_reply(step: Step, loop: Loop) -> Reply:
 def metrics_reply(metrics: StepMetrics) -> Reply:
     """Metrics by axis and motor."""
     motors = {name: asdict(motor) for name, motor in metrics.motors.items()}
-    axes = {name: _present(asdict(axis)) for name, axis in metrics.axes.items()}
+    axes = {name: present(asdict(axis)) for name, axis in metrics.axes.items()}
     other = {} if metrics.coupling_peak is None else {"coupling_peak": metrics.coupling_peak}
     return {**axes, **other, **motors}
+
+
+def walkthrough_reply(design: Design) -> Reply:
+    """The derivation's steps in numbers.
+
+    Raises:
+        InvalidInputError: another method than full-rank placement made the design.
+    """
+    steps = walk_through(design)
+    if steps is None:
+        raise InvalidInputError(
+            "full-rank placement alone has these steps",
+            field="method",
+            value=design.method,
+            hint="Leave it out.",
+        )
+    numbers = {name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in asdict(steps).items()}
+    rga = interaction(design).rga
+    return present(
+        {
+            **numbers,
+            "A": design.plant.A.tolist(),
+            "B": design.plant.B.tolist(),
+            "trim": _voltages(design.plant.trim),
+            "rga": None if rga is None else rga.tolist(),
+        }
+    )
 
 
 def report_reply(report: Report, spec: Spec) -> Reply:
@@ -165,7 +204,7 @@ def preset_reply(preset: Preset) -> Reply:
         "decoupler": preset.outer.decoupler,
         "loops": {"pitch": asdict(preset.outer.pitch), "yaw": asdict(preset.outer.yaw)},
         "scenario": {
-            "reference": _present({"theta": scenario.theta, "psi": scenario.psi}),
+            "reference": present({"theta": scenario.theta, "psi": scenario.psi}),
             "duration": scenario.duration,
             "samples": scenario.samples,
         },
@@ -190,16 +229,17 @@ def margins_reply(margins: tuple[Margins, Margins] | None) -> Reply:
     """Margins at each motor; empty where the loop is unstable."""
     if margins is None:
         return {}
-    return {axis: _present(asdict(own)) for axis, own in zip(AXES, margins, strict=True)}
+    return {axis: present(asdict(own)) for axis, own in zip(AXES, margins, strict=True)}
 
 
 def _limits(limits: Limits) -> Reply:
-    return _present(asdict(limits))
+    return present(asdict(limits))
 
 
 def _voltages(values: Floats) -> Reply:
     return {signal.name: float(value) for signal, value in zip(INPUTS, values, strict=True)}
 
 
-def _present(values: Reply) -> Reply:
+def present(values: Reply) -> Reply:
+    """What exists: None is left out."""
     return {name: value for name, value in values.items() if value is not None}

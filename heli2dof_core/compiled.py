@@ -44,6 +44,18 @@ def gain(structure: Structure, *, shifted: bool = False) -> Callable[..., Matrix
 
 
 @cache
+def construction(structure: Structure, *, shifted: bool = False) -> Callable[..., tuple[Matrix, Matrix, Any]]:
+    """f(*parameters, theta_0[, c]) → T (4×4), Q (2×2), (α, β₀, γ, a), of the structure's basis."""
+    from .symbolic.full_rank import full_rank
+    from .symbolic.linearization import linear_model
+    from .symbolic.names import PARAMETERS, c, theta_0
+
+    form, short = full_rank(structure, shifted=shifted).form, linear_model().short_names
+    matrices = (_physical(form.T.to_Matrix()), _physical(form.Q.to_Matrix()), _physical(short)[0])
+    return _compile([*PARAMETERS.values(), theta_0, *([c] if shifted else [])], matrices)
+
+
+@cache
 def accelerations() -> Callable[..., tuple[float, float]]:
     """f(theta, theta_dot, psi_dot, V_p, V_y, *parameters) → (θ̈, ψ̈) in rad/s² (Eqs. 9–12).
 

@@ -38,6 +38,11 @@ class Structure:
     lead: Lead = "pitch"
     shift: float | None = None
 
+    @property
+    def family(self) -> Structure:
+        """The structure without a shift of its own: what the derivation is made for."""
+        return Structure(self.coupling, self.lead)
+
     def __post_init__(self) -> None:
         require_one_of(self.coupling, Coupling, "coupling")
         require_one_of(self.lead, Lead, "lead")

@@ -110,8 +110,7 @@ def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats
     arguments = (*poles.coefficients, *plant.parameters.as_dict().values(), plant.theta_0)
     if structure.shift is None:
         return np.array(gain(structure)(*arguments))
-    family = Structure(structure.coupling, structure.lead)
-    return np.array(gain(family, shifted=True)(*arguments, structure.shift))
+    return np.array(gain(structure.family, shifted=True)(*arguments, structure.shift))
 
 
 def assess(

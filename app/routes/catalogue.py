@@ -1,11 +1,10 @@
-"""GET calls: what there is. Presets, formulas, health."""
+"""GET calls: what there is. Presets and health."""
 
 from __future__ import annotations
 
 from fastapi import APIRouter, Response
 
-from heli2dof_core import PRESETS, Structure
-from heli2dof_core.couplings import Coupling, Lead
+from heli2dof_core import PRESETS
 
 from .. import models, replies
 from ..compute import Compute
@@ -14,7 +13,7 @@ from ..problems import problem, problem_response
 
 
 def build_router(compute: Compute) -> APIRouter:
-    """The routes healthz, presets and symbolic."""
+    """The routes healthz and presets."""
     router = APIRouter(tags=["catalogue"])
 
     @router.get("/healthz", summary="200 once ready to serve")
@@ -29,14 +28,5 @@ def build_router(compute: Compute) -> APIRouter:
     @router.get("/api/v1/presets", **models.described(list[models.Preset], "The rigs, the default one first"))
     async def presets() -> Response:
         return json_response([replies.preset_reply(preset) for preset in PRESETS.values()])
-
-    @router.get("/api/v1/symbolic", **models.described(models.Symbolic, "The formulas, derived"))
-    async def symbolic(coupling: Coupling = "triangular", lead: Lead = "pitch") -> Response:
-        def work() -> replies.Reply:
-            from heli2dof_core.symbolic.render import symbolic_report
-
-            return replies.symbolic_reply(symbolic_report(Structure(coupling, lead)))
-
-        return json_response(await compute.run(work))
 
     return router

@@ -13,6 +13,7 @@ import sympy as sp
 from sympy.polys.matrices import DomainMatrix
 
 from ..couplings import Structure
+from ..errors import InvalidInputError
 from .linearization import linear_model
 from .luenberger import (
     CanonicalForm,
@@ -77,8 +78,13 @@ def full_rank(structure: Structure, *, shifted: bool = False) -> FullRank:
         structure: which member of the family; its own `shift` is not looked at.
         shifted: leave the basis' shift c a symbol, instead of the value that the structure gives it.
 
+    Raises:
+        InvalidInputError: a shift is asked for where there is none.
+
     Errata: Eqs. 21–22 print B_p/β for B_y/β four times, and α for β in k₁₂, k₁₄, k₂₂, k₂₄.
     """
+    if shifted and structure.coupling == "axis-decoupled":
+        raise InvalidInputError("the axis-decoupled structure has no shift", field="shifted")
     A, B = plant()
     form = canonical_form(A, B, indices(), _rows(structure, shifted=shifted))
     blocks = [((i,), [FIELD.from_sympy(d) for d in pair]) for i, pair in enumerate(_POLYNOMIALS)]

@@ -27,6 +27,11 @@ class LinearModel:
     definitions: dict[sp.Symbol, sp.Expr]
     trim: sp.Matrix
 
+    @property
+    def short_names(self) -> sp.Matrix:
+        """[α, β₀, γ, a], 1×4."""
+        return sp.Matrix([[alpha, beta_0, gamma_, a]])
+
 
 @cache
 def linear_model() -> LinearModel:

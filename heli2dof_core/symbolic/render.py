@@ -32,7 +32,7 @@ from .names import (
     p_4,
     s,
 )
-from .rga import relative_gain_array, transfer_matrix
+from .rga import relative_gain_array, relative_gains_of_s, transfer_matrix
 
 _DETERMINANT = PARAMETERS["K_pp"] * PARAMETERS["K_yy"] - PARAMETERS["K_py"] * PARAMETERS["K_yp"]
 _SUMS = {sp.Dummy(): p_1 + p_2, sp.Dummy(): p_3 + p_4}
@@ -58,7 +58,7 @@ class SymbolicReport:
 
     Attributes:
         formulas: A, B, controllability_matrix, T, Q, K, closed_loop (A − BK),
-            canonical_closed_loop (T (A − BK) T⁻¹), G, RGA.
+            canonical_closed_loop (T (A − BK) T⁻¹), G, RGA at s = 0, RGA_s.
         entries: per matrix of K, RGA and G its entries, such as ``k_11``.
         definitions: what the short names α, β₀, γ, a stand for.
         controllability_indices: σ, one per input.
@@ -75,9 +75,12 @@ class SymbolicReport:
 
 
 @cache
-def symbolic_report(structure: Structure) -> SymbolicReport:
-    """Derives and renders everything symbolic for one structure of the closed loop."""
-    model, result = linear_model(), full_rank(structure)
+def symbolic_report(structure: Structure, *, shifted: bool = False) -> SymbolicReport:
+    """Derives and renders everything symbolic for one structure of the closed loop.
+
+    With `shifted` the shift c of the basis stays a symbol.
+    """
+    model, result = linear_model(), full_rank(structure, shifted=shifted)
     A, B = plant()
     matrices = {
         "A": model.A,
@@ -88,8 +91,9 @@ def symbolic_report(structure: Structure) -> SymbolicReport:
         "K": grouped(result.K),
         "closed_loop": grouped(result.closed_loop),
         "canonical_closed_loop": grouped(result.canonical_closed_loop),
-        "G": grouped(transfer_matrix(structure)),
-        "RGA": grouped(relative_gain_array(structure)),
+        "G": grouped(transfer_matrix(structure, shifted=shifted)),
+        "RGA": grouped(relative_gain_array(structure, shifted=shifted)),
+        "RGA_s": grouped(relative_gains_of_s(structure, shifted=shifted)),
     }
     short = {str(name): value for name, value in model.definitions.items()}
     used = set().union(

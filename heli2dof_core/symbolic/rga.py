@@ -14,12 +14,12 @@ from .names import s
 
 
 @cache
-def transfer_matrix(structure: Structure) -> DomainMatrix:
+def transfer_matrix(structure: Structure, *, shifted: bool = False) -> DomainMatrix:
     """Ĝ(s) = C (sI − A + BK)⁻¹ B over `FIELD`, 2×2, rad/V, solved in the basis of T.
 
     Erratum: Eqs. 16–18 print A + BK; the printed K is stable with A − BK only.
     """
-    result = full_rank(structure)
+    result = full_rank(structure, shifted=shifted)
     form = result.form
     pencil = to_field(sp.eye(4) * s) - result.canonical_closed_loop
     states = pencil.lu_solve(form.B_bar)
@@ -27,11 +27,18 @@ def transfer_matrix(structure: Structure) -> DomainMatrix:
 
 
 @cache
-def relative_gain_array(structure: Structure) -> DomainMatrix:
+def relative_gain_array(structure: Structure, *, shifted: bool = False) -> DomainMatrix:
     """RGA = Ĝ(0) ∘ Ĝ(0)⁻ᵀ over `FIELD`, 2×2 (Bristol 1966)."""
-    at_zero = [[_at_zero(entry) for entry in row] for row in transfer_matrix(structure).to_list()]
-    G_0 = DomainMatrix(at_zero, (2, 2), FIELD)
+    entries = transfer_matrix(structure, shifted=shifted).to_list()
+    G_0 = DomainMatrix([[_at_zero(entry) for entry in row] for row in entries], (2, 2), FIELD)
     return G_0.mul_elementwise(G_0.inv().transpose())
+
+
+@cache
+def relative_gains_of_s(structure: Structure, *, shifted: bool = False) -> DomainMatrix:
+    """Ĝ(s) ∘ Ĝ(s)⁻ᵀ over `FIELD`, 2×2: RGA(jω) at s = jω."""
+    G = transfer_matrix(structure, shifted=shifted)
+    return G.mul_elementwise(G.inv().transpose())
 
 
 def _at_zero(entry: FracElement) -> FracElement:

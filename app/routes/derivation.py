@@ -1,0 +1,48 @@
+"""The derivation: its formulas, its numbers step by step, and the paper that it reproduces."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Response
+
+from heli2dof_core import Structure, place
+from heli2dof_core.couplings import Coupling, Lead
+
+from .. import replies
+from ..compute import Compute
+from ..encoding import json_response
+from ..models import Symbolic, described
+from ..paper_models import Paper, Walkthrough
+from ..requests import DesignRequest
+
+
+def build_router(compute: Compute) -> APIRouter:
+    """The routes symbolic, walkthrough and paper under /api/v1."""
+    router = APIRouter(prefix="/api/v1", tags=["derivation"])
+
+    @router.get("/symbolic", **described(Symbolic, "The formulas, derived"))
+    async def symbolic(
+        coupling: Coupling = "triangular", lead: Lead = "pitch", shifted: bool = False
+    ) -> Response:
+        def work() -> replies.Reply:
+            from heli2dof_core.symbolic.render import symbolic_report
+
+            return replies.symbolic_reply(symbolic_report(Structure(coupling, lead), shifted=shifted))
+
+        return json_response(await compute.run(work))
+
+    @router.post(
+        "/walkthrough", **described(Walkthrough, "The derivation in numbers, from constants to the RGA")
+    )
+    async def walkthrough(request: DesignRequest) -> Response:
+        return json_response(await compute.run(lambda: replies.walkthrough_reply(place(request.to_spec()))))
+
+    @router.get("/paper", **described(Paper, "The paper, reproduced, and its errata proved"))
+    async def paper() -> Response:
+        def work() -> replies.Reply:
+            from ..paper_replies import paper_reply
+
+            return paper_reply()
+
+        return json_response(await compute.run(work))
+
+    return router
