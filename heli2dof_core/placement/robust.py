@@ -24,6 +24,7 @@ def place_with_scipy(task: Task, method: Literal["YT", "KNV0"]) -> Floats:
     from scipy.signal import place_poles
 
     rank = task.B.shape[1]
+    poles = task.poles if np.any(task.poles.imag) else task.poles.real
     _, counts = np.unique(np.round(task.poles, 9), return_counts=True)
     if counts.max() > rank:
         raise MethodUnavailableError(
@@ -35,7 +36,7 @@ def place_with_scipy(task: Task, method: Literal["YT", "KNV0"]) -> Floats:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
         try:
-            found = place_poles(task.A, task.B, task.poles, method=method, rtol=1e-4, maxiter=100)
+            found = place_poles(task.A, task.B, poles, method=method)
         except (ValueError, np.linalg.LinAlgError) as error:
             raise MethodUnavailableError(f"SciPy cannot place these poles: {error}", field="poles") from error
     return np.asarray(found.gain_matrix, dtype=float)  # pyright: ignore[reportAttributeAccessIssue]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 
 from ..errors import MethodUnavailableError
@@ -25,7 +27,7 @@ class Varga:
         """
         try:
             from slycot import sb01bd
-            from slycot.exceptions import SlycotError
+            from slycot.exceptions import SlycotError, SlycotResultWarning
         except ImportError as error:
             raise MethodUnavailableError(
                 "Varga's method needs the package slycot, which is not installed",
@@ -38,7 +40,9 @@ class Varga:
             np.max(np.abs(np.linalg.eigvals(task.A)), initial=1.0)
         )  # leaves no pole alone
         try:
-            *_, F, _Z = sb01bd(n, p, n, everything, task.A, task.B, task.poles, "C")
+            with warnings.catch_warnings():  # of large gains, which the norm of K tells anyway
+                warnings.simplefilter("ignore", SlycotResultWarning)
+                *_, F, _Z = sb01bd(n, p, n, everything, task.A, task.B, task.poles, "C")
         except SlycotError as error:
             raise MethodUnavailableError(
                 f"SLICOT cannot place these poles: {str(error).strip()}", field="poles"
