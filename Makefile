@@ -10,7 +10,7 @@ PACKAGING := pyproject.toml constraints.txt package.json package-lock.json hatch
 SOURCES := $(shell find app heli2dof_core static -type f -not -path '*/vendor/*' -not -name '*.pyc' 2>/dev/null)
 CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
 
-.PHONY: help serve test check unit page-test e2e screenshot image clean
+.PHONY: help serve test check unit page-test e2e screenshot bench image clean
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
@@ -36,6 +36,9 @@ e2e: $(VENV)/.tools browser ## the browser tests alone
 
 screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.screenshot docs/screenshot.png
+
+bench: $(VENV)/.tools ## time placement against python-control, as ratios
+	$(BIN)/python -W ignore -m tests.bench.placement
 
 image: ## build the container with $(IMAGE_BUILDER)
 	$(IMAGE_BUILDER) -t $(IMAGE) .

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from itertools import permutations
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .errors import InvalidInputError
-from .signals import Complexes, Floats
+from .signals import Floats
 
 MOST_LOOPS = 7
 """Pairings are tried one by one up to this many loops."""
 
 
-def relative_gain_array(G: Floats | Complexes) -> Floats | Complexes:
+def relative_gain_array(G: ArrayLike) -> NDArray[Any]:
     """Λ = G ∘ (G⁺)ᵀ (Bristol 1966), same shape as G; any leading dimensions are a batch.
 
     G⁺ is the inverse of a square matrix and the pseudo-inverse of another (Chang and Yu, Ind. Eng.
@@ -23,15 +25,16 @@ def relative_gain_array(G: Floats | Complexes) -> Floats | Complexes:
     Raises:
         InvalidInputError: G is square and singular.
     """
-    if G.shape[-1] != G.shape[-2]:
-        return G * np.swapaxes(np.linalg.pinv(G), -1, -2)
+    gains = np.asarray(G)
+    if gains.shape[-1] != gains.shape[-2]:
+        return gains * np.swapaxes(np.linalg.pinv(gains), -1, -2)
     try:
-        return G * np.swapaxes(np.linalg.inv(G), -1, -2)
+        return gains * np.swapaxes(np.linalg.inv(gains), -1, -2)
     except np.linalg.LinAlgError as error:
         raise InvalidInputError("the gain matrix is singular, so it has no RGA", field="G") from error
 
 
-def niederlinski_index(G: Floats, pairing: tuple[int, ...] | None = None) -> float | None:
+def niederlinski_index(G: ArrayLike, pairing: tuple[int, ...] | None = None) -> float | None:
     """Det G′ / Π g′ᵢᵢ, G′ = G with its columns in the order of the pairing (AIChE J. 17 (1971) 1261).
 
     Negative: with integral action in every loop, and each loop stable alone, the whole is unstable.
@@ -48,7 +51,7 @@ def niederlinski_index(G: Floats, pairing: tuple[int, ...] | None = None) -> flo
     return float(np.linalg.det(ordered)) / product if product else None
 
 
-def best_pairing(G: Floats) -> tuple[int, ...]:
+def best_pairing(G: ArrayLike) -> tuple[int, ...]:
     """Per output the input that the RGA and the Niederlinski index advise.
 
     Of the pairings with a positive index (all, if there are none) the one whose relative gains are
@@ -58,20 +61,21 @@ def best_pairing(G: Floats) -> tuple[int, ...]:
     Raises:
         InvalidInputError: G is not square, singular, or has more than `MOST_LOOPS` loops.
     """
-    n = len(G)
-    if G.shape != (n, n) or n > MOST_LOOPS:
-        raise InvalidInputError(f"no pairing for gains of shape {G.shape}", field="G")
-    rga = relative_gain_array(G)
+    gains = np.asarray(G, dtype=float)
+    n = len(gains)
+    if gains.shape != (n, n) or n > MOST_LOOPS:
+        raise InvalidInputError(f"no pairing for gains of shape {gains.shape}", field="G")
+    rga = relative_gain_array(gains)
 
     def judge(pairing: tuple[int, ...]) -> tuple[bool, float]:
-        index = niederlinski_index(G, pairing)
+        index = niederlinski_index(gains, pairing)
         wanted = np.eye(n)[list(pairing)]
         return not (index is not None and index > 0), float(np.sum(np.abs(rga - wanted)))
 
     return min(permutations(range(n)), key=judge)
 
 
-def diagonal_dominance(G: Floats | Complexes) -> tuple[Floats, Floats]:
+def diagonal_dominance(G: ArrayLike) -> tuple[Floats, Floats]:
     """(Σ_{j≠i} |g_ij| / |g_ii| by rows, Σ_{i≠j} |g_ij| / |g_jj| by columns), each (..., n).
 
     Below 1 in all rows, or in all columns, G is diagonally dominant (Rosenbrock, Computer-Aided

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..findings import Finding
 from ..poles import match_poles
@@ -42,12 +43,12 @@ class Assessment:
 
 
 def place_poles(
-    A: Floats,
-    B: Floats,
-    poles: Complexes | Sequence[complex],
+    A: ArrayLike,
+    B: ArrayLike,
+    poles: ArrayLike,
     method: str = "full-rank",
     *,
-    C: Floats | None = None,
+    C: ArrayLike | None = None,
     weights: Weights | None = None,
 ) -> Assessment:
     """Places the poles of any controllable (A, B) by any method of the registry.
@@ -67,13 +68,13 @@ def place_poles(
         MethodUnavailableError: the method cannot solve this task.
     """
     chosen = method_named(method)
-    A, B, wanted = require_system(A, B, poles)
+    states, inputs, wanted = require_system(A, B, poles)
     conjugate_units(wanted)
-    n, p = B.shape
+    n, p = inputs.shape
     outputs = np.zeros((0, n)) if C is None else np.asarray(C, dtype=float)
     weights = weights or Weights((1.0,) * n, (1.0,) * p, (1.0,) * len(outputs))
-    placement = chosen.place(Task(A, B, wanted, outputs, weights))
-    return assess(A, B, wanted, placement, aimed=chosen.places_poles)
+    placement = chosen.place(Task(states, inputs, wanted, outputs, weights))
+    return assess(states, inputs, wanted, placement, aimed=chosen.places_poles)
 
 
 def assess(

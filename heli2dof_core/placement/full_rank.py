@@ -14,6 +14,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..controllability import scan
 from ..errors import InvalidInputError
@@ -61,14 +62,14 @@ class FullRank:
 
 
 def full_rank(
-    A: Floats,
-    B: Floats,
-    poles: Complexes | Sequence[complex],
+    A: ArrayLike,
+    B: ArrayLike,
+    poles: ArrayLike,
     *,
     groups: Sequence[Group] | None = None,
     input_order: Sequence[int] | None = None,
     triangle: Triangle = "none",
-    shift: Floats | None = None,
+    shift: ArrayLike | None = None,
 ) -> FullRankPlacement:
     """Places the poles of any controllable (A, B) (theory: steps 1–5).
 
@@ -141,7 +142,7 @@ def _reordered(groups: Sequence[Group], order: list[int]) -> tuple[Group, ...]:
     return tuple(Group(tuple(place.get(i, i) for i in g.inputs), g.poles) for g in groups)
 
 
-def _require_shift(shift: Floats, indices: tuple[int, ...]) -> Floats:
+def _require_shift(shift: ArrayLike, indices: tuple[int, ...]) -> Floats:
     p = len(indices)
     S = np.asarray(shift, dtype=float)
     fits = S.shape == (p, p) and bool(np.all(np.isfinite(S)))

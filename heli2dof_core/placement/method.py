@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InvalidInputError
 from ..signals import Complexes, Floats
@@ -95,16 +95,14 @@ class Method(Protocol):
         ...
 
 
-def require_system(
-    A: Floats, B: Floats, poles: Complexes | Sequence[complex]
-) -> tuple[Floats, Floats, Complexes]:
+def require_system(A: ArrayLike, B: ArrayLike, poles: ArrayLike) -> tuple[Floats, Floats, Complexes]:
     """A, B and the poles as arrays of fitting shapes and finite numbers.
 
     Raises:
         InvalidInputError: they are not; the field names which.
     """
-    A, B = np.asarray(A, dtype=float), np.asarray(B, dtype=float)
-    wanted = np.asarray(poles, dtype=complex)
+    A, B = _array(A, "A", float), _array(B, "B", float)
+    wanted = _array(poles, "poles", complex)
     if A.ndim != 2 or A.shape[0] != A.shape[1] or not 1 <= len(A) <= MOST_STATES:
         raise InvalidInputError(
             f"A has the shape {A.shape}",
@@ -136,3 +134,10 @@ def require_system(
             hint="Leave out inputs that others can replace.",
         )
     return A, B, wanted
+
+
+def _array(values: ArrayLike, field: str, kind: type) -> NDArray[Any]:
+    try:
+        return np.asarray(values, dtype=kind)
+    except (TypeError, ValueError) as error:
+        raise InvalidInputError(f"{field} is no array of numbers: {error}", field=field) from error

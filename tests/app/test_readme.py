@@ -16,7 +16,7 @@ def blocks(language: str) -> list[str]:
 
 def test_curl_lines_get_an_answer(client):
     commands = [c for b in blocks("sh") for c in re.findall(r"^curl (?:.*\\\n)*.*$", b, re.MULTILINE)]
-    assert len(commands) == 3
+    assert len(commands) == 5
     for command in commands:
         words = shlex.split(command.replace("\\\n", " "))
         url = next(word for word in words if word.startswith("http://127.0.0.1:8000/"))
