@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from ..errors import InvalidInputError
 from ..signals import Complexes, Floats
 
-MOST_STATES = 20
-"""Systems with more states are refused: exact placement takes seconds there."""
+MOST_STATES = 12
+"""Systems with more states are refused: exact placement takes 0.1 s with 12, and 10 s with 20."""
 
 
 @dataclass(frozen=True)
