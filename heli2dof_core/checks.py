@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import get_args
+from collections.abc import Mapping
+from typing import TypeVar, get_args
 
 from .errors import InvalidInputError
+
+T = TypeVar("T")
 
 
 def checked_number(value: object, path: str) -> float:
@@ -29,6 +32,15 @@ def require_within(value: object, path: str, unit: str, low: float, high: float)
             hint=f"Give a value between {span}.",
         )
     return number
+
+
+def require_known(name: str, known: Mapping[str, T], what: str) -> T:
+    """`known[name]`, or InvalidInputError that lists the names; `what` is the field and the noun."""
+    if name not in known:
+        raise InvalidInputError(
+            f"there is no {what} {name!r}", field=what, value=name, hint="Known are " + ", ".join(known) + "."
+        )
+    return known[name]
 
 
 def require_one_of(value: str, choices: object, path: str) -> None:

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from math import radians
 from types import MappingProxyType
 
+from .checks import require_known
 from .components import Components
 from .couplings import Structure
-from .errors import InvalidInputError
 from .parameters import Parameters
 from .poles import PoleSet
 from .spec import Limits, OuterLoop, PIGains, Scenario
@@ -176,11 +176,4 @@ DEFAULT = _ALL[0].name
 
 def preset(name: str = DEFAULT) -> Preset:
     """The preset of that name, or InvalidInputError with the names that exist."""
-    if name not in PRESETS:
-        raise InvalidInputError(
-            f"there is no preset {name!r}",
-            field="preset",
-            value=name,
-            hint="Known are " + ", ".join(PRESETS) + ".",
-        )
-    return PRESETS[name]
+    return require_known(name, PRESETS, "preset")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
-from ..errors import InvalidInputError
+from ..checks import require_known
 from .ackermann import Ackermann
 from .bass_gura import BassGura
 from .full_rank import FullRank
@@ -32,11 +32,4 @@ METHODS = MappingProxyType({method.name: method for method in _ALL})
 
 def method(name: str) -> Method:
     """The method of that name, or InvalidInputError with the names that exist."""
-    if name not in METHODS:
-        raise InvalidInputError(
-            f"there is no method {name!r}",
-            field="method",
-            value=name,
-            hint="Known are " + ", ".join(METHODS) + ".",
-        )
-    return METHODS[name]
+    return require_known(name, METHODS, "method")
