@@ -52,12 +52,13 @@ class Evidence(Model):
 
 
 class Proof(Model):
-    """What is computed, what the right and the printed form give, and whether it holds."""
+    """What is computed, what the right and the printed form give, what the two are called, whether it holds."""
 
     statement: str
     correct: Evidence
     printed: Evidence
     holds: bool
+    labels: list[str]
 
 
 class Erratum(Model):

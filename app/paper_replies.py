@@ -101,6 +101,7 @@ def _erratum(erratum: Erratum) -> Reply:
             "correct": _evidence(proof.correct),
             "printed": _evidence(proof.printed),
             "holds": proof.holds,
+            "labels": list(proof.labels),
         },
     }
 

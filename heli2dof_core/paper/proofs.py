@@ -40,12 +40,14 @@ class Proof:
         correct: the corrected form's residual or figure: a zero, where it is an identity.
         printed: the printed form's, which differs.
         holds: whether the computation says what the statement says.
+        labels: what the two are called.
     """
 
     statement: str
     correct: sp.Basic | sp.MatrixBase | str
     printed: sp.Basic | sp.MatrixBase | str
     holds: bool
+    labels: tuple[str, str] = ("right form", "printed form")
 
 
 def kinetic_energy() -> Proof:
@@ -128,6 +130,7 @@ def sign_of_the_feedback() -> Proof:
         f"{minus:.3f}",
         f"+{plus:.3f}",
         minus < 0 < plus,
+        ("A − BK", "A + BK"),
     )
 
 
@@ -170,6 +173,7 @@ def table_values() -> Proof:
         f"{hits[0]} of 8",
         f"{hits[1]} of 8",
         hits[0] == 8 and hits[1] < 8,
+        ("as computed", "Table I"),
     )
 
 
@@ -183,6 +187,7 @@ def units() -> Proof:
         str(tuple(int(n) for n in needed)),
         str(tuple(int(n) for n in printed)),
         not np.array_equal(needed, printed),
+        ("torque / rate", "N/V"),
     )
 
 
@@ -196,6 +201,7 @@ def unit_step() -> Proof:
         f"±{rig.limits.V_p:g} V, ±{rig.limits.V_y:g} V, ±{travel:.1f}°",
         f"{volts:g} V, {angle:.1f}°",
         volts > max(rig.limits.V_p, rig.limits.V_y) and angle > travel,
+        ("the rig has", "the step asks"),
     )
 
 
@@ -222,6 +228,7 @@ def no_dyadic_design() -> Proof:
         determinant,
         at_zero,
         at_zero == 0 and determinant != 0 and 1 < ratios[0] < ratios[1],
+        ("at any θ₀", "at θ₀ = 0"),
     )
 
 
@@ -242,6 +249,7 @@ def interaction_at_rest() -> Proof:
         f"{gain:.6f}",
         "1",
         bool(abs(gain - 1) > 1e-3 and worst < 1),
+        ("λ₁₁(0)", "as claimed"),
     )
 
 
