@@ -117,7 +117,7 @@ def evaluate(spec: Spec, *, each_axis: bool = False) -> Report:
     """
     placed = place(spec)
     loop = close_loop(placed, spec.outer)
-    gains = interaction(placed)
+    gains = interaction(placed, spec.outer.pairing)
     step = _both_models(loop, spec)
     axis_steps = {}
     if each_axis:

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .design import Design
-from .findings import Finding
+from .findings import Finding, Severity
 from .relative_gains import diagonal_dominance, relative_gain_array
 from .signals import INPUTS, OUTPUTS, C, Complexes, Floats
+from .spec import Pairing
 
 SINGULAR = 1e-12
 """Ĝ(0)⁻¹ counts as singular when its determinant is below this share of its entries' products."""
@@ -25,7 +26,7 @@ class Interaction:
         reason: why, in words.
         niederlinski: det Ĝ(0)/Π ĝᵢᵢ(0) for diagonal pairing; None where a ĝᵢᵢ(0) is 0.
         niederlinski_cross: the same for the cross pairing.
-        findings: what the RGA says against the diagonal pairing.
+        findings: what the RGA says against the pairing in use.
     """
 
     rga: Floats | None
@@ -36,8 +37,8 @@ class Interaction:
     findings: tuple[Finding, ...]
 
 
-def interaction(design: Design) -> Interaction:
-    """RGA = Ĝ(0) ∘ Ĝ(0)⁻ᵀ (Eq. 23; Bristol 1966), from Ĝ(0)⁻¹, which always exists.
+def interaction(design: Design, pairing: Pairing = "diagonal") -> Interaction:
+    """RGA = Ĝ(0) ∘ Ĝ(0)⁻ᵀ (Eq. 23; Bristol 1966), from Ĝ(0)⁻¹, which always exists; `pairing` is in use.
 
     Of two by two gains the pairing with a relative gain above ½ is the one nearer to 1, and the only
     one with a positive Niederlinski index unless both have: the index is 1/λ₁₁, and 1/λ₁₂ crosswise.
@@ -50,12 +51,13 @@ def interaction(design: Design) -> Interaction:
         )
     diagonal = float(a * d / determinant)  # Ĝ(0) = adj(Ĝ(0)⁻¹)/det, so λ₁₁ = ĝ₁₁ · (Ĝ⁻¹)₁₁
     rga = np.array([[diagonal, 1 - diagonal], [1 - diagonal, diagonal]])
-    cross = diagonal < 0.5
-    pairing = tuple((y.name, u.name) for y, u in zip(OUTPUTS, INPUTS[::-1] if cross else INPUTS, strict=True))
+    advised: Pairing = "cross" if diagonal < 0.5 else "diagonal"
+    inputs = INPUTS[::-1] if advised == "cross" else INPUTS
+    pairs = tuple((y.name, u.name) for y, u in zip(OUTPUTS, inputs, strict=True))
     straight, crosswise = (1 / gain if gain else None for gain in (diagonal, 1 - diagonal))
     reason = _reason(diagonal)
-    against = (_against(diagonal, reason),) if cross else ()
-    return Interaction(rga, pairing, reason, straight, crosswise, against)
+    against = () if advised == pairing else (_against(diagonal, advised, reason),)
+    return Interaction(rga, pairs, reason, straight, crosswise, against)
 
 
 def closed_loop_response(design: Design, frequencies: Floats) -> Complexes:
@@ -101,6 +103,11 @@ def _reason(diagonal: float) -> str:
     )
 
 
-def _against(diagonal: float, reason: str) -> Finding:
-    advice = f"The RGA advises against the diagonal pairing: {reason} Try the cross pairing."
-    return Finding("pairing_cross", "warning" if diagonal >= 0 else "error", advice)
+def _against(diagonal: float, advised: Pairing, reason: str) -> Finding:
+    own = diagonal if advised == "cross" else 1 - diagonal
+    severity: Severity = "warning" if own >= 0 else "error"
+    if advised == "cross":
+        words = f"The RGA advises against the diagonal pairing: {reason} Try the cross pairing."
+        return Finding("pairing_cross", severity, words)
+    words = f"The RGA advises against the cross pairing: {reason} Try the diagonal pairing."
+    return Finding("pairing_diagonal", severity, words)

@@ -30,10 +30,21 @@ async function call(path, { method = 'GET', body } = {}) {
 }
 
 export const getPresets = () => call('api/v1/presets');
+export const getMethods = () => call('api/v1/methods');
 /** @param {string} coupling @param {string} lead */
 export const getSymbolic = (coupling, lead) => call(`api/v1/symbolic?${new URLSearchParams({ coupling, lead })}`);
 /** @param {unknown} design */
 export const suggestLoops = (design) => call('api/v1/suggest', { method: 'POST', body: design });
+/** The design's poles through every method. @param {unknown} design with scenario */
+export const compareMethods = (design) => call('api/v1/compare', { method: 'POST', body: design });
+/** All ways to deal the poles to the two pairs. @param {unknown} design */
+export const compareSplits = (design) => call('api/v1/splits', { method: 'POST', body: design });
+/** The relative gains, at the frequencies that it names too. @param {unknown} design */
+export const relativeGain = (design) => call('api/v1/rga', { method: 'POST', body: design });
+/** The paper as data: its equations, numbers, errata and figures, recomputed. */
+export const getPaper = () => call('api/v1/paper');
+/** The derivation in numbers. @param {unknown} design */
+export const walkThrough = (design) => call('api/v1/walkthrough', { method: 'POST', body: design });
 /** @param {string} session @param {string} rig */
 export const putRig = (session, rig) => call(`scene/${encodeURIComponent(session)}/rig`, { method: 'PUT', body: { rig } });
 

@@ -1,11 +1,12 @@
 /** Wires only: state to views, views to state, and the design to the server. What each part does is written in its module. */
-import { getPresets, Live } from './api.js';
+import { getMethods, getPresets, Live } from './api.js';
 import { byId } from './dom.js';
 import { Plots } from './plots.js';
 import { SceneView } from './scene_view.js';
 import { SPlane } from './splane.js';
 import { Stats } from './stats.js';
 import { designOf, requestOf, Store } from './store.js';
+import { ComparePanel } from './panels/compare.js';
 import { FieldProblems } from './panels/problems.js';
 import { FindingsPanel } from './panels/findings.js';
 import { FormulasPanel } from './panels/formulas.js';
@@ -13,6 +14,7 @@ import { HeaderPanel } from './panels/header.js';
 import { LoopsPanel } from './panels/loops.js';
 import { MetricsPanel } from './panels/metrics.js';
 import { NumbersPanel } from './panels/numbers.js';
+import { PaperPanel } from './panels/paper.js';
 import { PolesPanel } from './panels/poles.js';
 import { ScenarioPanel } from './panels/scenario.js';
 
@@ -23,8 +25,8 @@ const scene = new SceneView(byId('scene'), store, { onTime: (t) => plots.setTime
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t) });
 const views = [
   new HeaderPanel(byId('header'), store), new FindingsPanel(byId('strip')), new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store),
-  new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new NumbersPanel(byId('numbers')), new MetricsPanel(byId('metrics')),
-  new FormulasPanel(byId('formulas'), store), new FieldProblems(document.body), scene,
+  new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
+  new ComparePanel(byId('compare'), store), new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene,
 ];
 
 /** @type {Map<number, number|undefined>} */
@@ -84,8 +86,8 @@ function publish() {
 async function start() {
   for (let delay = 300; ; delay = Math.min(2 * delay, 5000)) {
     try {
-      const presets = await getPresets();
-      store.set({ presets });
+      const [presets, methods] = await Promise.all([getPresets(), getMethods()]);
+      store.set({ presets, methods });
       store.load(designOf(presets[0]));
       return;
     } catch {

@@ -6,6 +6,7 @@
  */
 import { h, setAttr, setText, svg } from './dom.js';
 import { fixed, poleText, seconds } from './format.js';
+import { placesPoles } from './methods.js';
 import { character, drag, isComplex, nudge, pairOf, partner, tidy } from './poles.js';
 import { drawGrid } from './splane_grid.js';
 import { bounds, fit, keyStep, outgrown, toPixel, toPlane, zoom } from './splane_math.js';
@@ -32,6 +33,7 @@ export class SPlane {
   /** @param {HTMLElement} root @param {import('./store.js').Store} store */
   constructor(root, store) {
     this.store = store;
+    this.root = root;
     this.grid = svg('g');
     this.open = svg('g', { class: 'open-poles', 'data-testid': 'open-poles' });
     this.loop = svg('g', { class: 'loop-poles', 'data-testid': 'loop-poles' });
@@ -50,7 +52,7 @@ export class SPlane {
       h('button', { type: 'button', title: 'Zoom out', 'aria-label': 'Zoom out', onclick: () => this.#zoomBy(1 / 1.4) }, '\u2212'),
       h('button', { type: 'button', title: 'Fit all poles into view', 'data-testid': 'fit', onclick: () => this.fit() }, 'Fit'));
     this.key = h('div', { class: 'splane-key', 'data-testid': 'splane-key' },
-      h('span', { title: 'poles of the whole loop: PI moves the poles that you placed' }, svg('svg', { class: 'loop-poles', 'aria-hidden': 'true', viewBox: '-7 -7 14 14' }, svg('path', { d: LOOP_MARK })), 'with PI'),
+      h('span', { title: 'poles of the whole loop: PI moves the poles that you placed' }, svg('svg', { class: 'loop-poles', 'aria-hidden': 'true', viewBox: '-7 -7 14 14' }, svg('path', { d: LOOP_MARK })), (this.loopName = h('span'))),
       h('span', { title: 'poles of the rig without feedback' }, svg('svg', { class: 'open-poles', 'aria-hidden': 'true', viewBox: '-7 -7 14 14' }, svg('path', { d: OPEN_MARK })), 'open loop'));
     root.append(backdrop, this.svg, this.readout, tools, this.key);
     this.#listen();
@@ -235,8 +237,12 @@ export class SPlane {
   }
 
   /** @param {State} state */
-  #draw({ design, reply }) {
+  #draw(state) {
+    const { design, reply } = state;
     if (!design) return;
+    const unused = !placesPoles(state); // then the loop's own poles are all there is to see
+    this.root.classList.toggle('unused', unused);
+    setText(this.loopName, unused ? 'whole loop' : 'with PI');
     for (const [i, handle] of this.handles.entries()) {
       const p = design.poles[i];
       const [x, y] = toPixel(this.#view, p);
@@ -253,7 +259,7 @@ export class SPlane {
       for (const [name, value] of Object.entries({ x1, y1, x2, y2 })) setAttr(link, name, value.toFixed(1));
     }
     this.#marks(this.open, reply?.open_loop_poles ?? [], () => svg('path', { d: OPEN_MARK }));
-    this.#marks(this.loop, design.outer === 'pi' ? reply?.loop_poles ?? [] : [], () => svg('path', { d: LOOP_MARK }));
+    this.#marks(this.loop, design.outer === 'pi' || unused ? reply?.loop_poles ?? [] : [], () => svg('path', { d: LOOP_MARK }));
     this.#drawReadout();
   }
 

@@ -13,7 +13,7 @@ const DEPTH = 200;
 
 /** @returns {State} */
 export const initialState = () => ({
-  presets: [], design: null, reply: null, problem: null, connection: 'connecting', motion: 'both', showLinear: true, dragging: false,
+  presets: [], methods: [], design: null, reply: null, problem: null, connection: 'connecting', motion: 'both', showLinear: true, dragging: false,
   canUndo: false, canRedo: false,
 });
 
@@ -22,11 +22,14 @@ export function designOf(preset, keep = {}) {
   return {
     preset: preset.name,
     parameters: {},
+    theta0: preset.operating_point?.theta ?? 0,
     poles: fromWire(preset.poles),
+    method: 'full-rank',
     coupling: /** @type {Design['coupling']} */ (preset.coupling ?? 'triangular'),
     lead: preset.lead ?? 'pitch',
     outer: /** @type {Design['outer']} */ (preset.outer ?? 'pi'),
     pairing: /** @type {Design['pairing']} */ (preset.pairing ?? 'diagonal'),
+    decoupler: preset.decoupler ?? false,
     loops: { pitch: { ...preset.loops.pitch }, yaw: { ...preset.loops.yaw } },
     scenario: {
       reference: { theta: preset.scenario?.reference?.theta ?? 0.2, psi: preset.scenario?.reference?.psi ?? 0.5 },
@@ -36,22 +39,28 @@ export function designOf(preset, keep = {}) {
   };
 }
 
-/** The message to the server. @param {Design} design @param {number} seq */
-export function requestOf(design, seq) {
+/** A design as the server's calls take it. @param {Design} design */
+export function bodyOf(design) {
   return {
-    seq,
     preset: design.preset,
     parameters: design.parameters,
+    operating_point: { theta: design.theta0 },
     poles: design.poles,
+    method: design.method,
     coupling: design.coupling,
     lead: design.lead,
     outer: design.outer,
     pairing: design.pairing,
+    decoupler: design.decoupler,
     loops: design.loops,
-    scenario: { reference: design.scenario.reference, duration: design.scenario.duration, samples: 501, rtol: 1e-5 },
-    each_axis: true,
   };
 }
+
+/** The experiment, sampled for the screen. @param {Design} design */
+export const scenarioOf = ({ scenario: { reference, duration } }) => ({ reference, duration, samples: 501, rtol: 1e-5 });
+
+/** The message to the server. @param {Design} design @param {number} seq */
+export const requestOf = (design, seq) => ({ seq, ...bodyOf(design), scenario: scenarioOf(design), each_axis: true });
 
 export class Store extends EventTarget {
   /** @type {State} */ state = initialState();

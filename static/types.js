@@ -12,11 +12,14 @@
  * @typedef {object} Design
  * @property {string} preset
  * @property {Record<string, number>} parameters  overrides of the preset's values
+ * @property {number} theta0  the pitch angle at which the rig rests and is linearized, rad
  * @property {Poles} poles
- * @property {Coupling} coupling
+ * @property {string} method  a name of GET methods
+ * @property {Coupling} coupling  full-rank's only, as is lead
  * @property {'pitch'|'yaw'} lead
  * @property {'pi'|'none'} outer
  * @property {'diagonal'|'cross'} pairing
+ * @property {boolean} decoupler  whether Ĝ(0)⁻¹ stands between the PI loops and the motors
  * @property {Loops} loops
  * @property {{reference: Reference, duration: number}} scenario
  *
@@ -34,6 +37,16 @@
  * @property {'pitch'|'yaw'} [lead]
  * @property {string} [pairing]
  * @property {string} [outer]
+ * @property {boolean} [decoupler]
+ * @property {{theta: number}} [operating_point]
+ *
+ * @typedef {object} Method
+ * @property {string} name
+ * @property {string} title
+ * @property {string} source
+ * @property {boolean} places_poles
+ * @property {boolean} available
+ * @property {string} [needs]  the package that it is computed with
  *
  * @typedef {{code: string, severity: 'info'|'warning'|'error', message: string}} Finding
  * @typedef {ArrayLike<number>} Series
@@ -62,9 +75,9 @@
  *
  * @typedef {object} Reply
  * @property {number} seq
- * @property {{K: number[][], closed_loop_poles: Complex[], pole_error: number, norm: number}} gains
+ * @property {{K: number[][], closed_loop_poles: Complex[], pole_error?: number, norm: number}} gains
  * @property {Complex[]} open_loop_poles
- * @property {{rga?: number[][], pairing?: string[][], niederlinski?: number}} [rga]
+ * @property {{rga?: number[][], pairing?: string[][], reason?: string, niederlinski?: number, niederlinski_cross?: number}} [rga]
  * @property {StepPair} step
  * @property {{theta?: StepPair, psi?: StepPair}} axis_steps
  * @property {Record<string, {gain_margin?: number, phase_margin?: number, delay_margin?: number}>} [margins]
@@ -80,6 +93,7 @@
  *
  * @typedef {object} State
  * @property {Preset[]} presets
+ * @property {Method[]} methods
  * @property {Design|null} design
  * @property {Reply|null} reply
  * @property {Problem|null} problem

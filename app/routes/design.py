@@ -25,8 +25,9 @@ def build_router(compute: Compute) -> APIRouter:
     )
     async def rga(request: RgaRequest) -> Response:
         def work() -> replies.Reply:
-            design = place(request.to_spec())
-            return replies.rga_reply(design, interaction(design), request.frequencies)
+            spec = request.to_spec()
+            design = place(spec)
+            return replies.rga_reply(design, interaction(design, spec.outer.pairing), request.frequencies)
 
         return json_response(await compute.run(work))
 

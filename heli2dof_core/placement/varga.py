@@ -7,7 +7,11 @@ import warnings
 import numpy as np
 
 from ..errors import MethodUnavailableError
+from ..poles import pole_error
 from .method import Placement, Task
+
+MISSED = 1e-3
+"""Share of the largest pole by which a gain may miss the poles and still count as one that places them."""
 
 
 class Varga:
@@ -36,15 +40,22 @@ class Varga:
                 hint="pip install 'heli2dof[slycot]'",
             ) from error
         n, p = task.B.shape
-        everything = -10.0 * float(
-            np.max(np.abs(np.linalg.eigvals(task.A)), initial=1.0)
-        )  # leaves no pole alone
+        fastest = float(np.max(np.abs(np.linalg.eigvals(task.A)), initial=1.0))
         try:
             with warnings.catch_warnings():  # of large gains, which the norm of K tells anyway
                 warnings.simplefilter("ignore", SlycotResultWarning)
-                *_, F, _Z = sb01bd(n, p, n, everything, task.A, task.B, task.poles, "C")
+                *_, F, _Z = sb01bd(n, p, n, -10.0 * fastest, task.A, task.B, task.poles, "C")
         except SlycotError as error:
             raise MethodUnavailableError(
                 f"SLICOT cannot place these poles: {str(error).strip()}", field="poles"
             ) from error
-        return Placement(-np.asarray(F, dtype=float))
+        K = -np.asarray(F, dtype=float)
+        missed = pole_error(task.poles, np.linalg.eigvals(task.A - task.B @ K).astype(np.complex128))
+        if not missed <= MISSED * max(float(np.max(np.abs(task.poles))), 1.0):
+            raise MethodUnavailableError(
+                f"SLICOT's gain, of norm {np.linalg.norm(K):.1e}, misses these poles by {missed:.1e}: it moves "
+                "complex poles two at a time, and meets two of the plant's that the inputs hardly reach together",
+                field="poles",
+                hint="Take real poles, or another method.",
+            )
+        return Placement(K)

@@ -5,7 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..signals import Floats
-from .dormand_prince import EventFunction, RightHandSide, Segment, StepBudgetError
+from .dormand_prince import EventFunction, RightHandSide, Segment, State, StepBudgetError
+
+MOST_EVALUATIONS = 100_000
+"""After that many the simulation is given up; they take about two seconds."""
 
 
 def integrate_stiff(
@@ -25,12 +28,21 @@ def integrate_stiff(
     """
     from scipy.integrate import solve_ivp  # 0.8 s to import, for rare designs only
 
+    evaluations = 0
+
+    def slope(_t: float, y: Floats) -> State:
+        nonlocal evaluations
+        evaluations += 1
+        if evaluations > MOST_EVALUATIONS:
+            raise StepBudgetError(f"{MOST_EVALUATIONS} evaluations do not reach t = {samples[-1]:g} s")
+        return rate(y.tolist())
+
     def crossing(_t: float, y: Floats) -> float:
         return event(y.tolist()) if event else -1.0
 
     crossing.terminal, crossing.direction = True, 1.0  # pyright: ignore[reportFunctionMemberAccess]
     solution = solve_ivp(
-        lambda _t, y: rate(y.tolist()),
+        slope,
         (t, float(samples[-1])),
         state,
         method="LSODA",

@@ -60,8 +60,9 @@ export class FindingsPanel {
     const none = h('li', { class: 'none' }, h('span', { class: 'message' }, reply ? 'Nothing to object: the motors stay within their limits.' : ''));
     this.list.replaceChildren(...(findings.length ? findings.slice(0, SHOWN).map((f) => this.#item(f)) : [none]));
     this.all.replaceChildren(...findings.map((f) => this.#item(f)));
-    this.more.hidden = findings.length <= SHOWN;
-    setText(this.more, `${findings.length - SHOWN} more`);
+    const cut = [...this.list.querySelectorAll('.message')].some((m) => m.scrollHeight > m.clientHeight + 1 || m.scrollWidth > m.clientWidth + 1);
+    this.more.hidden = findings.length <= SHOWN && !cut;
+    setText(this.more, findings.length > SHOWN ? `${findings.length - SHOWN} more` : 'Read all');
     if (this.more.hidden) this.#toggle(false);
   }
 }

@@ -2,30 +2,8 @@
 import { h, setText } from '../dom.js';
 import { significant } from '../format.js';
 import { getSymbolic } from '../api.js';
-
-/** Draws a matrix's brackets as borders: without a mathematical font a browser does not stretch them. @param {Element} table */
-function bracket(table) {
-  const [before, after] = [table.previousElementSibling, table.nextElementSibling];
-  if (before?.textContent?.trim() !== '[' || after?.textContent?.trim() !== ']') return;
-  before.remove();
-  after.remove();
-  table.classList.add('bracketed');
-}
-
-/** The server's own MathML, parsed as XML and adopted: it is never taken for HTML. @param {string|undefined} text @returns {Node} */
-function formula(text) {
-  if (!text) return document.createTextNode('–');
-  const source = text.includes('xmlns') ? text : text.replace('<math', '<math xmlns="http://www.w3.org/1998/Math/MathML"');
-  const parsed = new DOMParser().parseFromString(source, 'application/xml').documentElement;
-  if (parsed.localName !== 'math') return document.createTextNode('This formula could not be read.');
-  const node = /** @type {Element} */ (document.importNode(parsed, true));
-  for (const element of [node, ...node.querySelectorAll('*')]) {
-    for (const { name } of [...element.attributes]) if (name.startsWith('on') || name === 'href' || name === 'style') element.removeAttribute(name);
-  }
-  node.setAttribute('display', 'block');
-  for (const table of node.querySelectorAll('mtable')) bracket(table);
-  return node;
-}
+import { formula } from '../mathml.js';
+import { FULL_RANK } from '../methods.js';
 
 const SUB = '₀₁₂₃₄';
 const OTHERS = [['RGA', 'Relative gain array at s = 0'], ['A', 'System matrix A'], ['B', 'Input matrix B'], ['T', 'Luenberger’s transformation T'], ['Q', 'Q'], ['closed_loop', 'Closed loop A − BK'], ['canonical_closed_loop', 'Closed loop in Luenberger’s basis, T(A − BK)T⁻¹'], ['G', 'Closed loop Ĝ(s)']];
@@ -54,7 +32,7 @@ export class FormulasPanel {
       this.#structure = structure;
       this.#load(design.coupling, design.lead, structure);
     }
-    for (const { cell, i, j } of this.#values) setText(cell, reply ? significant(reply.gains.K[i][j], 6) : '');
+    for (const { cell, i, j } of this.#values) setText(cell, reply && design.method === FULL_RANK ? significant(reply.gains.K[i][j], 6) : '–'); // another method's K is not this formula's
   }
 
   /** @param {string} coupling @param {string} lead @param {string} structure */

@@ -16,7 +16,7 @@ export class HeaderPanel {
     this.redo = button('redo', 'Redo', 'Redo (Ctrl+Shift+Z)', () => store.redo());
     this.reset = button('reset', 'Reset', "Back to this preset's poles, loops and steps", () => this.#reset());
     this.status = h('span', { class: 'connection', role: 'status', 'data-testid': 'connection' }, h('span', { class: 'dot', 'aria-hidden': 'true' }), h('span', {}));
-    root.append(h('div', { class: 'rig' }, this.select, this.source), h('div', { class: 'buttons' }, this.undo, this.redo, this.reset, h('a', { class: 'button', href: '#formulas' }, 'Formulas')), this.status);
+    root.append(h('div', { class: 'rig' }, this.select, this.source), h('div', { class: 'buttons' }, this.undo, this.redo, this.reset, h('a', { class: 'button', href: '#compare', title: 'Methods side by side' }, 'Compare'), h('a', { class: 'button', href: '#formulas' }, 'Formulas'), h('a', { class: 'button', href: '#paper', title: 'The paper, step by step' }, 'Paper')), this.status);
     document.addEventListener('keydown', (e) => this.#key(e));
   }
 

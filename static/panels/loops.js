@@ -1,22 +1,27 @@
-/** The outer loops: on or off, their PI values, how they are paired, and which structure the inner loop has. */
+/** The outer loops: on or off, their PI values, how they are paired; and the method that makes the inner loop's gain. */
 import { h, setText, symbol } from '../dom.js';
 import { Choice, NumberField } from '../fields.js';
 import { suggestLoops } from '../api.js';
-import { requestOf } from '../store.js';
+import { FULL_RANK, keyOf, nameOf, partOf, STRUCTURES } from '../methods.js';
+import { bodyOf } from '../store.js';
 
 /** @typedef {'pitch'|'yaw'} Axis */
 const AXES = /** @type {Axis[]} */ (['pitch', 'yaw']);
 
-const STRUCTURES = [
-  ['triangular/pitch', 'triangular, pitch leads', 'pitch has exactly its own pair and drives yaw: the paper’s'],
-  ['triangular/yaw', 'triangular, yaw leads', 'yaw has exactly its own pair and drives pitch'],
-  ['input-diagonal', 'input-diagonal', 'standard Luenberger: diagonal in B₂⁻¹[θ, ψ]'],
-  ['axis-decoupled', 'axis-decoupled', 'pitch and yaw do not feel each other'],
+/** @param {string[][]} options value, name, explanation */
+const optionsOf = (options) => options.map(([value, name, title]) => h('option', { value, title }, name));
+
+/** @param {import('../types.js').Method[]} methods */
+const groupsOf = (methods) => [
+  h('optgroup', { label: 'Full-rank' }, optionsOf(STRUCTURES)),
+  h('optgroup', { label: 'Other methods' }, methods.filter((m) => m.name !== FULL_RANK).map((m) =>
+    h('option', { value: m.name, disabled: !m.available, title: m.available ? `${m.title}: ${m.source}` : `${m.title} needs the package ${m.needs ?? ''}, which this server has not` }, nameOf({ method: m.name, title: m.title })))),
 ];
 
 export class LoopsPanel {
   /** @type {import('../types.js').Preset|undefined} */ #preset;
   /** @type {import('../types.js').Design|null} */ #told = null;
+  /** @type {import('../types.js').Method[]|null} */ #methods = null;
 
   /** @param {HTMLElement} root @param {import('../store.js').Store} store */
   constructor(root, store) {
@@ -25,17 +30,17 @@ export class LoopsPanel {
       options: [['none', 'Inner loop alone', 'v = Ĝ(0)⁻¹ r: the placed poles, and no others'], ['pi', 'PI loops', 'a PI controller on each axis, which moves the placed poles']] });
     this.suggest = h('button', { type: 'button', 'data-testid': 'suggest-pi', title: 'Suggest PI values that suit these poles', 'aria-label': 'Suggest PI for these poles', onclick: () => this.#suggest() }, 'Suggest PI');
     this.note = h('p', { class: 'note', 'data-testid': 'loops-note', 'aria-live': 'polite' });
-    this.structure = this.#select('Structure', 'structure', STRUCTURES, (value) => {
-      const [coupling, lead] = /** @type {[any, any]} */ (value.split('/'));
-      return { coupling, lead: lead ?? 'pitch' };
-    });
+    this.method = this.#select('Method', 'method', [], partOf);
     this.pairing = this.#select('Pairing', 'pairing', [['diagonal', 'diagonal', 'pitch error to the pitch motor'], ['cross', 'crosswise', 'pitch error to the yaw motor']], (value) => ({ pairing: /** @type {any} */ (value) }));
+    this.decoupler = h('input', { type: 'checkbox', 'data-testid': 'decoupler', 'data-field': 'decoupler', onchange: () => this.#set({ decoupler: this.decoupler.checked }) });
     this.axes = AXES.map((axis) => this.#axis(axis));
     for (const event of ['pointerdown', 'keydown']) document.addEventListener(event, () => setText(this.note, ''));
     root.append(
       h('div', { class: 'row spread' }, this.outer.node, this.suggest),
       h('div', { class: 'pis' }, this.axes.map((a) => a.node)),
-      h('div', { class: 'row advanced' }, this.structure.node, this.pairing.node),
+      h('div', { class: 'row advanced' }, this.method.node),
+      h('div', { class: 'row advanced' }, this.pairing.node,
+        h('label', { class: 'check', title: 'static decoupler Ĝ(0)⁻¹ between the PI loops and the motors' }, this.decoupler, 'decoupler')),
       this.note,
     );
   }
@@ -47,7 +52,7 @@ export class LoopsPanel {
 
   /** @param {string} text @param {string} key @param {string[][]} options value, name, explanation @param {(value: string) => Partial<import('../types.js').Design>} read */
   #select(text, key, options, read) {
-    const select = h('select', { 'data-testid': key, 'data-field': key, onchange: () => this.#set(read(select.value)) }, options.map(([value, name, title]) => h('option', { value, title }, name)));
+    const select = h('select', { 'data-testid': key, 'data-field': key, onchange: () => this.#set(read(select.value)) }, optionsOf(options));
     return { select, node: h('label', { class: 'select' }, h('span', {}, text), select) };
   }
 
@@ -70,8 +75,7 @@ export class LoopsPanel {
     if (!design) return;
     this.suggest.disabled = true;
     try {
-      const { seq: _seq, each_axis: _each, scenario: _scenario, ...body } = requestOf(design, 0);
-      const answer = await suggestLoops(body);
+      const answer = await suggestLoops(bodyOf(design));
       this.#set({ loops: answer.loops, outer: 'pi' });
       this.#tell(answer.rule ?? '');
     } catch (error) {
@@ -87,8 +91,12 @@ export class LoopsPanel {
   }
 
   /** @param {import('../types.js').State} state */
-  render({ design }) {
+  render({ design, methods }) {
     if (!design) return;
+    if (methods !== this.#methods) {
+      this.#methods = methods;
+      this.method.select.replaceChildren(...groupsOf(methods));
+    }
     if (design !== this.#told) this.#tell('');
     const preset = this.store.preset;
     if (preset && preset !== this.#preset) {
@@ -98,7 +106,7 @@ export class LoopsPanel {
         ti.setRange({ min: Math.min(0.01, preset.loops[axis].ti / 10), max: Math.max(5, preset.loops[axis].ti * 5) });
       }
     }
-    const off = design.outer === 'none';
+    const off = design.outer === 'none' || design.method === 'lqr-integral'; // that brings its own integral action
     this.outer.set(design.outer);
     for (const { axis, kp, ti, node } of this.axes) {
       kp.set(design.loops[axis].kp);
@@ -109,6 +117,9 @@ export class LoopsPanel {
     }
     this.pairing.select.value = design.pairing;
     this.pairing.select.disabled = off;
-    this.structure.select.value = design.coupling === 'triangular' ? `triangular/${design.lead}` : design.coupling;
+    this.decoupler.checked = design.decoupler;
+    this.decoupler.disabled = off;
+    this.method.select.value = keyOf(design);
+    this.method.select.title = this.method.select.selectedOptions[0]?.title ?? '';
   }
 }

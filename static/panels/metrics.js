@@ -11,8 +11,8 @@ const volts = (v) => (v === undefined ? '–' : `${fixed(v, 1)} V`);
 /** Peaks may be plain numbers or carry their share of saturation. @param {any} m @param {'V_p'|'V_y'} motor */
 const motor = (m, motor) => (typeof m?.[motor] === 'object' ? m[motor] : { peak: undefined, saturated: undefined });
 
-/** @param {any} m @param {'V_p'|'V_y'} name */
-function motorText(m, name) {
+/** The peak, or the share of time at the limit. @param {any} m @param {'V_p'|'V_y'} name */
+export function motorText(m, name) {
   const { peak, saturated } = motor(m, name);
   return saturated > 0 ? `at limit ${percent(saturated, saturated < 0.1 ? 1 : 0)}` : volts(peak);
 }

@@ -1,62 +1,84 @@
-/** K and the RGA as matrices, and what the RGA says, in words. */
-import { h, setAttr, setText, symbol } from '../dom.js';
+/** K and the RGA as matrices, what the RGA says, in words, and the one step that heeds it. */
+import { suggestLoops } from '../api.js';
+import { h, setAttr, setText } from '../dom.js';
 import { fixed, significant } from '../format.js';
+import { gainMatrix, relativeGains } from '../matrix.js';
+import { bodyOf } from '../store.js';
 
-const dotted = (/** @type {string} */ s) => h('span', { class: 'sym' }, h('i', {}, `${s}\u0307`));
-const STATES = [{ name: 'θ', unit: 'V/rad' }, { name: 'ψ', unit: 'V/rad' }, { name: 'θ̇', unit: 'V·s/rad' }, { name: 'ψ̇', unit: 'V·s/rad' }];
-const MOTORS = ['V_p', 'V_y'];
+/** @typedef {'diagonal'|'cross'} Pairing */
 
-/** A matrix with names on its borders. */
-class Matrix {
-  /** @param {string} testid @param {Node} name @param {Node[]} rows @param {Node[]} columns @param {(i: number, j: number) => string} title */
-  constructor(testid, name, rows, columns, title) {
-    this.title = title;
-    this.cells = rows.map((_r, i) => columns.map((_c, j) => h('td', { 'data-testid': `${testid}-${i}${j}` })));
-    this.node = h('table', { class: 'matrix', 'data-testid': testid },
-      h('thead', {}, h('tr', {}, h('th', { class: 'name' }, name), columns.map((c) => h('th', { scope: 'col' }, c)))),
-      h('tbody', {}, rows.map((r, i) => h('tr', {}, h('th', { scope: 'row' }, r), this.cells[i]))));
-  }
+const NAMES = { diagonal: 'Diagonal', cross: 'Crosswise' };
 
-  /** @param {number[][]|undefined} values @param {(v: number) => string} format */
-  render(values, format) {
-    this.cells.forEach((row, i) => row.forEach((cell, j) => {
-      setText(cell, values ? format(values[i][j]) : '–');
-      setAttr(cell, 'title', `${this.title(i, j)}${values ? `\n${significant(values[i][j], 8)}` : ''}`);
-    }));
-  }
+/** @param {import('../types.js').Reply|null} reply @returns {Pairing|undefined} */
+export function advisedPairing(reply) {
+  if (!reply?.rga?.pairing) return undefined;
+  return reply.rga.pairing[0]?.[1] === 'V_y' ? 'cross' : 'diagonal';
 }
 
-/** What the RGA and the Niederlinski index mean for the pairing in use. @param {import('../types.js').Reply} reply @param {'diagonal'|'cross'} pairing */
-export function pairingWords({ rga }, pairing) {
+/** What the RGA and the Niederlinski index mean for the pairing in use. @param {import('../types.js').Reply} reply @param {Pairing} pairing */
+export function pairingWords(reply, pairing) {
+  const { rga } = reply;
+  const advised = advisedPairing(reply);
   if (!rga?.rga) return { level: 'info', text: 'No steady state, so no relative gains: a pole lies at 0.' };
-  const advised = rga.pairing?.[0]?.[1] === 'V_y' ? 'cross' : 'diagonal';
-  const gain = pairing === 'cross' ? rga.rga[0][1] : rga.rga[0][0];
-  const strength = Math.abs(gain - 1) < 0.05 ? 'hardly any interaction' : gain > 0.7 && gain < 2 ? 'moderate interaction' : gain <= 0 ? 'the loops fight each other' : 'strong interaction';
-  const n = rga.niederlinski;
-  const index = n === undefined ? '' : ` Niederlinski ${fixed(n)}${n > 0 ? '' : ': unstable with integral action'}.`;
-  if (advised !== pairing) return { level: 'warning', text: `The RGA advises ${advised === 'cross' ? 'the crosswise' : 'the diagonal'} pairing: λ = ${fixed(gain, 3)} as paired now, ${strength}.${index}` };
-  return { level: 'good', text: `${pairing === 'cross' ? 'Crosswise' : 'Diagonal'} pairing is right: λ = ${fixed(gain, 3)}, ${strength}.${index}` };
+  const n = pairing === 'cross' ? rga.niederlinski_cross : rga.niederlinski;
+  const told = pairing === 'diagonal' && /Niederlinski/.test(rga.reason ?? '');
+  const index = n === undefined || told ? '' : ` Niederlinski ${fixed(n)}${n > 0 ? '' : ': unstable with integral action'}.`;
+  const verdict = advised === pairing ? `${NAMES[pairing]} pairing is right` : `${advised === 'cross' ? 'Crosswise' : 'Diagonal'} pairing is advised`;
+  return { level: advised === pairing ? 'good' : 'warning', text: `${verdict}: ${rga.reason ?? ''}${index}` };
 }
 
 export class NumbersPanel {
-  /** @param {HTMLElement} root */
-  constructor(root) {
-    const motors = () => [symbol('V', 'p'), symbol('V', 'y')];
-    this.k = new Matrix('k-matrix', h('b', {}, 'K'), motors(), [symbol('θ'), symbol('ψ'), dotted('θ'), dotted('ψ')],
-      (i, j) => `k${'₁₂'[i]}${'₁₂₃₄'[j]}: ${STATES[j].unit}, what ${MOTORS[i]} gets back of ${STATES[j].name}`);
-    this.rga = new Matrix('rga-matrix', h('b', {}, 'RGA'), [symbol('θ'), symbol('ψ')], [symbol('v', 'p'), symbol('v', 'y')],
-      (i, j) => `λ${'₁₂'[i]}${'₁₂'[j]}: relative gain from ${['v_p', 'v_y'][j]} to ${['θ', 'ψ'][i]} at s = 0, dimensionless`);
-    this.words = h('p', { class: 'pairing-words', 'data-testid': 'pairing-words' });
-    root.append(h('div', { class: 'matrices' }, this.k.node, this.rga.node), this.words);
+  /** @type {import('../types.js').Design|null} */ #told = null;
+
+  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  constructor(root, store) {
+    this.store = store;
+    this.k = gainMatrix('k-matrix');
+    this.rga = relativeGains('rga-matrix');
+    this.words = h('span', { class: 'pairing-words', 'data-testid': 'pairing-words' });
+    this.pair = h('button', { type: 'button', class: 'pair-advised', hidden: true, 'data-testid': 'pair-advised', title: 'Pairs as the RGA advises, with PI values that suit the new pairs', onclick: () => this.#pair() });
+    this.note = h('p', { class: 'note', 'data-testid': 'pairing-note', role: 'status' });
+    root.append(h('div', { class: 'matrices' }, this.k.node, this.rga.node), h('p', { class: 'advice' }, this.words, ' ', this.pair), this.note);
+  }
+
+  /** The PI values belong to the pairing, so both change in one step; where none are found, the pairing alone. */
+  async #pair() {
+    const { design, reply } = this.store.state;
+    const pairing = advisedPairing(reply);
+    if (!design || !pairing) return;
+    this.pair.disabled = true;
+    /** @type {Partial<import('../types.js').Design>} */ let part = { pairing };
+    let trouble = '';
+    try {
+      const { loops } = await suggestLoops(bodyOf({ ...design, pairing }));
+      part = { pairing, loops };
+    } catch (error) {
+      trouble = `Paired, but the PI values are the old ones: ${error instanceof Error ? error.message : error}`;
+    }
+    this.pair.disabled = false;
+    if (this.store.state.design?.preset !== design.preset) return;
+    this.store.edit((d) => ({ ...d, ...part }));
+    this.#tell(trouble);
+  }
+
+  /** Says something of the present design; the next change takes it away. @param {string} text */
+  #tell(text) {
+    this.#told = this.store.state.design;
+    setText(this.note, text);
   }
 
   /** @param {import('../types.js').State} state */
   render({ reply, design }) {
     this.k.render(reply?.gains.K, (v) => significant(v, 4));
     this.rga.render(reply?.rga?.rga, (v) => fixed(v, 3));
+    if (design !== this.#told) this.#tell('');
     if (!reply || !design) return;
     const { level, text } = pairingWords(reply, design.pairing);
     this.words.className = `pairing-words ${level}`;
     setText(this.words, text);
+    setAttr(this.words, 'title', text);
+    const advised = advisedPairing(reply);
+    this.pair.hidden = level !== 'warning' || design.outer === 'none' || design.method === 'lqr-integral';
+    setText(this.pair, advised === 'cross' ? 'Pair crosswise' : 'Pair diagonally');
   }
 }

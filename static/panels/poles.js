@@ -2,6 +2,7 @@
 import { h } from '../dom.js';
 import { Choice, NumberField } from '../fields.js';
 import { isComplex, LIMIT, setComplex, setMode, setReal } from '../poles.js';
+import { placesPoles } from '../methods.js';
 import { niceStep } from '../splane_math.js';
 
 const NAMES = ['pitch', 'yaw'];
@@ -60,13 +61,16 @@ export class PolesPanel {
 
   /** @param {HTMLElement} root @param {import('../store.js').Store} store */
   constructor(root, store) {
+    this.root = root;
     this.pairs = [new PairEditor(0, store), new PairEditor(1, store)];
     root.append(...this.pairs.map((p) => p.node));
   }
 
   /** @param {import('../types.js').State} state */
-  render({ design, dragging }) {
+  render(state) {
+    const { design, dragging } = state;
     if (!design) return;
+    this.root.classList.toggle('unused', !placesPoles(state));
     const far = Math.max(1, ...design.poles.map((p) => Math.max(Math.abs(p.re), Math.abs(p.im))));
     if (!dragging && (far > this.#reach || far < this.#reach / 4)) {
       const step = niceStep(2 * far, 4);

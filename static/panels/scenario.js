@@ -1,4 +1,4 @@
-/** What is asked of the rig: how far it steps and how long one watches; and what the plots' lines mean. */
+/** What is asked of the rig: where it rests, how far it steps and how long one watches; and what the plots' lines mean. */
 import { h, symbol } from '../dom.js';
 import { NumberField } from '../fields.js';
 import { DEGREE } from '../format.js';
@@ -13,10 +13,12 @@ export class ScenarioPanel {
     this.psi = this.#step('psi', 'yaw step', 'ψ');
     this.duration = new NumberField({ label: 'duration in seconds', mark: 'over', unit: 's', testid: 'duration', field: 'scenario.duration', min: 0.1, max: 60, positive: true,
       onInput: (v, stamp) => store.edit((d) => ({ ...d, scenario: { ...d.scenario, duration: v } }), { gesture: 'duration', stamp }), onCommit: () => store.commit() });
+    this.theta0 = new NumberField({ label: 'operating point in degrees', mark: h('span', { title: 'operating point: the pitch angle at which the rig rests, and at which it is linearized' }, 'from ', symbol('θ', '0')), unit: '°', testid: 'theta0',
+      field: 'operating_point.theta', min: -80, max: 80, onInput: (v, stamp) => store.edit((d) => ({ ...d, theta0: v / DEGREE }), { gesture: 'theta0', stamp }), onCommit: () => store.commit() });
     this.linear = h('input', { type: 'checkbox', 'data-testid': 'show-linear', onchange: () => store.set({ showLinear: this.linear.checked }) });
     const key = (/** @type {string} */ kind, /** @type {string} */ text, /** @type {string} */ title) => h('span', { class: 'key', title }, h('span', { class: `line ${kind}`, 'aria-hidden': 'true' }), text);
     root.append(
-      h('div', { class: 'row steps' }, h('span', { class: 'caption' }, 'Step'), this.theta.node, this.psi.node, this.duration.node),
+      h('div', { class: 'row steps' }, h('span', { class: 'caption' }, 'Step'), this.theta0.node, h('span', { class: 'caption' }, 'to'), this.theta.node, this.psi.node, this.duration.node),
       h('div', { class: 'row legend', 'data-testid': 'legend' },
         key('pitch solid', 'pitch step', 'nonlinear rig, pitch reference stepped alone'), key('yaw solid', 'yaw step', 'nonlinear rig, yaw reference stepped alone'),
         key('halo', 'played', 'the motion that the scene plays'),
@@ -39,6 +41,7 @@ export class ScenarioPanel {
     if (!design) return;
     const { reference, duration } = design.scenario;
     const degrees = (/** @type {number} */ v) => Math.round(v * DEGREE * 1e4) / 1e4;
+    this.theta0.set(degrees(design.theta0));
     this.theta.set(degrees(reference.theta));
     this.psi.set(degrees(reference.psi));
     this.duration.set(duration);

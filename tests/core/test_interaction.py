@@ -79,6 +79,14 @@ def test_the_cross_pairing_works_with_the_signs_of_the_paths():
     assert not close_loop(place(AERO), wrong).stable
 
 
+def test_crossing_what_should_not_be_crossed_is_told(spec):
+    crossed = evaluate(replace(spec, outer=replace(spec.outer, pairing="cross")))
+    advice = next(f for f in crossed.findings if f.code == "pairing_diagonal")
+    assert advice.severity == "error"  # λ₁₂ is negative
+    heeded = evaluate(replace(AERO, outer=replace(AERO.outer, pairing="cross")))
+    assert not {"pairing_cross", "pairing_diagonal"} & {f.code for f in heeded.findings}
+
+
 def test_dominance_of_the_papers_example_holds_at_all_frequencies(design):
     at = np.geomspace(1e-3, 1e5, 500)
     rows, columns = dominance_over_frequency(design, at)

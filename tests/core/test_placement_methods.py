@@ -170,6 +170,14 @@ def test_unknown_methods_are_refused_with_those_known():
     assert all(name in caught.value.hint for name in METHODS)
 
 
+def test_a_gain_of_slicot_that_misses_is_refused():
+    """Two complex pairs on this rig: SB01BD returns ‖K‖ = 2e18 without an error."""
+    poles = [-9 + 5j, -9 - 5j, -9 + 2.25j, -9 - 2.25j]
+    with pytest.raises(MethodUnavailableError, match="misses these poles"):
+        place_poles(HELICOPTER.A, HELICOPTER.B, poles, "varga")
+    assert place_poles(HELICOPTER.A, HELICOPTER.B, poles).pole_error < 1e-9
+
+
 def test_varga_law_on_random_systems():
     """SLICOT places one pole after the other, so its error is larger than rounding K explains."""
     rng = np.random.default_rng(15)

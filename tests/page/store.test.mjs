@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
-import { designOf, requestOf, Store } from "../../static/store.js";
+import { bodyOf, designOf, requestOf, Store } from "../../static/store.js";
 
 const PRESET = {
   name: "rig", title: "Rig", source: "a manual", rig: "helicopter", parameters: { m: 1 }, limits: { V_p: 24, V_y: 15 },
@@ -87,4 +87,16 @@ test("the request holds the whole design and asks for each axis", () => {
   assert.deepEqual(request.loops, PRESET.loops);
   assert.deepEqual(request.scenario.reference, { theta: 0.1, psi: 0.2 });
   assert.equal(request.scenario.duration, 4);
+});
+
+test("what a preset leaves out has a value: full-rank, no decoupler, level", () => {
+  const { method, decoupler, operating_point } = bodyOf(store.state.design);
+  assert.deepEqual([method, decoupler, operating_point], ["full-rank", false, { theta: 0 }]);
+  const other = designOf({ ...PRESET, decoupler: true, operating_point: { theta: 0.3 }, coupling: "axis-decoupled" });
+  assert.deepEqual([other.decoupler, other.theta0, other.coupling], [true, 0.3, "axis-decoupled"]);
+});
+
+test("a design's body is the request without number and experiment", () => {
+  const { seq: _seq, scenario: _scenario, each_axis: _each, ...rest } = requestOf(store.state.design, 3);
+  assert.deepEqual(rest, bodyOf(store.state.design));
 });

@@ -1,0 +1,96 @@
+/** Figs. 4 and 5, drawn anew: four answers to a step of one radian, told apart by dashes as well as by colour. */
+import uPlot from '../vendor/uplot/uPlot.esm.js';
+import { h, svg } from '../dom.js';
+import { DEGREE, fixed } from '../format.js';
+import { rich } from '../rich.js';
+import { CURVES } from './paper_words.js';
+
+/** @typedef {import('../paper_math.js').Curves} Curves */
+const Chart = /** @type {any} */ (uPlot); // its types stay in its package
+const FONT = '12px system-ui, sans-serif';
+/** The first is drawn broad, since others lie upon it. @type {Record<string, {color: string, width: number, dash: number[]}>} */
+const LINES = {
+  corrected: { color: 'halo-strong', width: 7, dash: [] }, printed: { color: 'pitch', width: 2, dash: [9, 5] },
+  manual: { color: 'yaw', width: 2.2, dash: [2, 4] }, limited: { color: 'ink', width: 1.8, dash: [] },
+};
+const styleOf = (/** @type {string} */ name) => LINES[name] ?? LINES.limited;
+
+export class PaperCurves {
+  /** @type {Record<string, string>} */ #colors = {};
+  /** @type {any[]} */ #charts = [];
+
+  /** @param {() => number|undefined} stop the pitch stop of the rig of the manual, rad */
+  constructor(stop) {
+    this.stop = stop;
+    this.#readColors();
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+      this.#readColors();
+      for (const chart of this.#charts) chart.redraw(false);
+    });
+  }
+
+  #readColors() {
+    const style = getComputedStyle(document.getElementById('paper') ?? document.documentElement);
+    for (const name of ['pitch', 'yaw', 'ink', 'muted', 'grid', 'halo-strong', 'danger', 'limit-fill']) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
+  }
+
+  /** @param {Curves} figure */
+  draw({ number, output, t, curves }) {
+    const greek = output === 'theta' ? 'θ' : 'ψ';
+    const stop = output === 'theta' ? this.stop() : undefined;
+    const body = h('div', { class: 'plot-body' });
+    const legend = h('ul', { class: 'legend' }, curves.map((c) => {
+      const { width, dash } = styleOf(c.name);
+      return h('li', {}, svg('svg', { class: `sample ${c.name}`, viewBox: '0 0 34 8', 'aria-hidden': 'true' }, svg('line', { x1: 1, y1: 4, x2: 33, y2: 4, 'stroke-width': width, 'stroke-dasharray': dash.join(' ') || undefined })), h('span', {}, rich(c.title)));
+    }));
+    const said = stop === undefined ? '' : ` The rig’s stop is at ${fixed(stop * DEGREE, 1)}°.`;
+    const figure = h('figure', { class: 'curves', 'data-testid': `fig-${number}-plot`, role: 'group', 'aria-label': `${greek} in degrees over time in seconds, for a step of 1 rad` }, legend, body,
+      h('figcaption', {}, `${greek} in degrees over seconds. ${CURVES}${said}`));
+    const color = (/** @type {string} */ name) => () => this.#colors[name];
+    const top = 5 * Math.ceil((DEGREE * Math.max(1, ...curves.flatMap((c) => c.angle))) / 5);
+    const axis = (/** @type {any} */ more) => ({ stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, ...more });
+    const chart = new Chart({
+      width: 300, height: 260, legend: { show: false }, cursor: { show: false }, padding: [8, 12, 0, 0],
+      series: [{}, ...curves.map((c) => ({ stroke: color(styleOf(c.name).color), width: styleOf(c.name).width, dash: styleOf(c.name).dash, points: { show: false } }))],
+      scales: { x: { time: false }, y: { range: () => [0, top] } },
+      axes: [axis({ size: 26, values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((s, i) => `${Number(s.toFixed(3))}${i === v.length - 1 ? ' s' : ''}`) }), axis({ size: 40, values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((d) => `${d}°`) })],
+      hooks: { drawClear: [(/** @type {any} */ u) => this.#rules(u, stop)] },
+    }, [t, ...curves.map((c) => c.angle.map((v) => v * DEGREE))], body);
+    this.#charts.push(chart);
+    new ResizeObserver(([entry]) => {
+      const { width, height } = entry.contentRect;
+      if (width > 60) chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
+    }).observe(body);
+    return figure;
+  }
+
+  /** The reference, and the stop with what lies beyond it. @param {any} u @param {number|undefined} stop */
+  #rules(u, stop) {
+    const { ctx, bbox } = u;
+    const ratio = devicePixelRatio;
+    const line = (/** @type {number} */ degrees, /** @type {string} */ color, /** @type {string} */ label) => {
+      const y = Math.round(u.valToPos(degrees, 'y', true));
+      ctx.strokeStyle = ctx.fillStyle = this.#colors[color];
+      ctx.lineWidth = 1.25 * ratio;
+      ctx.setLineDash(color === 'danger' ? [] : [1, 5].map((d) => d * ratio));
+      ctx.beginPath();
+      ctx.moveTo(bbox.left, y);
+      ctx.lineTo(bbox.left + bbox.width, y);
+      ctx.stroke();
+      ctx.font = `${11 * ratio}px system-ui, sans-serif`;
+      ctx.textAlign = 'right';
+      ctx.textBaseline = 'top';
+      ctx.fillText(label, bbox.left + bbox.width - 5 * ratio, y + 5 * ratio);
+      return y;
+    };
+    ctx.save();
+    if (stop !== undefined) {
+      const y = Math.round(u.valToPos(stop * DEGREE, 'y', true));
+      ctx.fillStyle = this.#colors['limit-fill'];
+      ctx.fillRect(bbox.left, bbox.top, bbox.width, y - bbox.top);
+      line(stop * DEGREE, 'danger', `stop ${fixed(stop * DEGREE, 1)}°`);
+    }
+    line(DEGREE, 'ink', `reference 1 rad = ${fixed(DEGREE, 1)}°`);
+    ctx.restore();
+  }
+}
