@@ -22,8 +22,8 @@ const CHARTS = [
     { name: () => [size('11')], title: 'relative gain of the diagonal pairing at this frequency', of: (r) => r.rga_magnitude.map((/** @type {number[][]} */ m) => m[0][0]) },
     { name: () => [size('12')], title: 'relative gain of the crosswise pairing at this frequency', of: (r) => r.rga_magnitude.map((/** @type {number[][]} */ m) => m[0][1]) }] },
   { id: 'dominance', title: 'Off-diagonal over diagonal', limit: true, series: [
-    { name: () => ['rows'], title: 'larger of both rows of Ĝ(jω): an angle’s answer to the other input, over that to its own', of: (r) => largest(r.dominance.rows) },
-    { name: () => ['columns'], title: 'larger of both columns of Ĝ(jω): an input’s effect on the other angle, over that on its own', of: (r) => largest(r.dominance.columns) }] },
+    { name: () => ['rows'], title: 'larger of both rows of Ĝ(jω): an angle’s answer to the other input, over that to its own', of: (r) => largest(r.dominance?.rows ?? []) },
+    { name: () => ['columns'], title: 'larger of both columns of Ĝ(jω): an input’s effect on the other angle, over that on its own', of: (r) => largest(r.dominance?.columns ?? []) }] },
 ];
 
 class FrequencyPlot {
@@ -104,7 +104,7 @@ class FrequencyPlot {
     this.#data = this.about.series.map((s) => s.of(reply));
     const seen = this.#data.flat().filter((v) => Number.isFinite(v) && v > 0).map((v) => Math.log10(v));
     this.#range = [10 ** Math.max(-6, Math.floor(Math.min(-1, ...seen))), 10 ** Math.min(6, Math.ceil(Math.max(1, ...seen)))];
-    this.chart.setData([FREQUENCIES, ...this.#data.map((values) => values.map((v) => (v > 0 && Number.isFinite(v) ? v : null)))]);
+    this.chart.setData([FREQUENCIES, ...this.#data.map((values) => FREQUENCIES.map((_w, i) => (values[i] > 0 && Number.isFinite(values[i]) ? values[i] : null)))]);
     this.valuesAt(0);
   }
 
@@ -134,7 +134,8 @@ export class InteractionCard {
       return;
     }
     for (const plot of this.plots) plot.show(reply);
-    const { dominant, text } = dominanceWords(reply.frequencies, reply.dominance);
+    const { dominant, text } = reply.dominance ? dominanceWords(reply.frequencies, reply.dominance)
+      : { dominant: false, text: 'A diagonal entry of Ĝ(jω) is 0: there is nothing that could dominate.' };
     setText(this.words, text);
     this.words.classList.toggle('warning', !dominant);
     this.#hover(null);
