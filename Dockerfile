@@ -8,16 +8,20 @@ COPY constraints.txt pyproject.toml hatch_build.py package.json package-lock.jso
 COPY heli2dof_core heli2dof_core
 COPY app app
 COPY static static
-# Bytecode is made here, since the server may not write at run time. The packages' own tests stay out.
+# Bytecode and compiled kernels are made here, since the server may not write at run time; the kernels for
+# any processor of the kind. The packages' own tests stay out.
+ENV NUMBA_CACHE_DIR=/opt/heli2dof/kernels NUMBA_CPU_NAME=generic
 RUN /opt/heli2dof/bin/pip install --no-cache-dir --disable-pip-version-check -c constraints.txt . \
  && /opt/heli2dof/bin/pip uninstall --yes pip \
  && find /opt/heli2dof/lib -type d -name tests -prune -exec rm -rf {} + \
- && /opt/heli2dof/bin/python -m compileall -q /opt/heli2dof
+ && /opt/heli2dof/bin/python -m compileall -q /opt/heli2dof \
+ && /opt/heli2dof/bin/python -c "from heli2dof_core.engine import warm_up; warm_up()"
 
 FROM python:3.13-slim
 RUN useradd --system --uid 10001 --no-create-home --shell /usr/sbin/nologin heli2dof
 COPY --from=build /opt/heli2dof /opt/heli2dof
 USER 10001
+ENV NUMBA_CACHE_DIR=/opt/heli2dof/kernels NUMBA_CPU_NAME=generic
 ENV PATH=/opt/heli2dof/bin:$PATH PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1 PORT=8000
 EXPOSE 8000
 HEALTHCHECK --interval=15s --timeout=3s --start-period=20s --retries=3 \

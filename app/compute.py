@@ -12,6 +12,8 @@ from typing import TypeVar
 
 from threadpoolctl import threadpool_limits
 
+from .kernels import KernelCompiler
+
 _log = logging.getLogger(__name__)
 T = TypeVar("T")
 
@@ -20,13 +22,15 @@ class Compute:
     """Runs functions of the core in threads, once the derivation is there.
 
     The first derivation imports SymPy and takes a second or two; `start` runs it in the background,
-    so that the page is served meanwhile, and `run` waits for it.
+    so that the page is served meanwhile, and `run` waits for it. It does not wait for the compiled
+    kernels, which come later (see `kernels`).
     """
 
     def __init__(self, threads: int = 2) -> None:
         self._pool = ThreadPoolExecutor(threads, thread_name_prefix="compute")
         self._warm = threading.Event()
         self._failure: BaseException | None = None
+        self._kernels = KernelCompiler()
 
     @property
     def ready(self) -> bool:
@@ -55,6 +59,7 @@ class Compute:
 
     def close(self) -> None:
         """Drops what waits and stops the pool's threads."""
+        self._kernels.close()
         self._pool.shutdown(wait=False, cancel_futures=True)
 
     def _warm_up(self) -> None:
@@ -69,3 +74,4 @@ class Compute:
             _log.exception("the derivation failed")
         finally:
             self._warm.set()
+        self._kernels.run()

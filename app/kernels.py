@@ -1,0 +1,84 @@
+"""The compiled kernels of a server: made in a process of their own, then loaded from Numba's cache.
+
+Compiling holds Python's lock for ten seconds and more, in which no drag would be answered. So a child
+process compiles while the interpreted kernels answer; the server then loads what it left on the disk.
+"""
+
+from __future__ import annotations
+
+import atexit
+import logging
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+from pathlib import Path
+from time import perf_counter
+
+from heli2dof_core.engine import engine, warm_up
+
+_log = logging.getLogger(__name__)
+COMPILE = "from heli2dof_core.engine import warm_up; warm_up()"
+_FALLBACK = Path("/dev/shm")  # writable in read-only containers
+
+
+class KernelCompiler:
+    """Brings the compiled kernels into this process, in the background."""
+
+    def __init__(self) -> None:
+        self._child: subprocess.Popen[bytes] | None = None
+        self._closed = threading.Event()
+
+    def run(self) -> None:
+        """Compiles and loads; whatever fails leaves the interpreted kernels in place, with a warning."""
+        if engine().compiled:
+            return
+        began = perf_counter()
+        try:
+            seed_cache()
+            self._child = subprocess.Popen([sys.executable, "-c", COMPILE])
+            status = self._child.wait()
+            if self._closed.is_set():
+                return
+            if status:
+                raise RuntimeError(f"the compiler's process ended with status {status}")
+            warm_up()
+        except Exception as error:
+            _log.warning("the kernels stay interpreted, responses take twenty times longer: %s", error)
+        else:
+            _log.info("kernels ready after %.1f s", perf_counter() - began)
+
+    def close(self) -> None:
+        """Ends the child process, if there still is one."""
+        self._closed.set()
+        if self._child is not None and self._child.poll() is None:
+            self._child.terminate()
+
+
+def seed_cache() -> None:
+    """Where NUMBA_CACHE_DIR cannot be written to, as in a read-only container, moves on to a copy.
+
+    Numba does not even read a cache that it cannot write to. Must run before Numba is imported.
+
+    Raises:
+        OSError: there is no place to write to at all.
+    """
+    home = os.environ.get("NUMBA_CACHE_DIR")
+    if not home or "numba" in sys.modules or os.access(home, os.W_OK):
+        return
+    copy = Path(tempfile.mkdtemp(prefix="heli2dof-kernels-", dir=_writable()))
+    atexit.register(shutil.rmtree, copy, ignore_errors=True)
+    if Path(home).is_dir():
+        shutil.copytree(home, copy, dirs_exist_ok=True)
+    os.environ["NUMBA_CACHE_DIR"] = str(copy)
+
+
+def _writable() -> str:
+    try:
+        return tempfile.gettempdir()
+    except FileNotFoundError:
+        if os.access(_FALLBACK, os.W_OK):
+            return str(_FALLBACK)
+        raise

@@ -1,0 +1,162 @@
+"""Dormand and Prince's 5(4) pair on the rig's loop, with continuous output and located switches.
+
+Sources: Dormand & Prince, J. Comput. Appl. Math. 6 (1980) 19–26 (the pair); Hairer, Nørsett & Wanner,
+Solving Ordinary Differential Equations I, 2nd ed., II.4 (step control), II.6 (continuous output of
+order 4).
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+
+import numpy as np
+
+from .jit import kernel
+from .rig import REST, TRAVEL, meet_stop, rates, resolve, switch, watch
+
+ENDED, OUT_OF_STEPS, OUT_OF_SWITCHES = 0, 1, 2
+MOST_SWITCHES = 2000
+
+
+@kernel
+def integrate(y, t, c, m, rtol, atol, most_steps, states):
+    """States at all t into `states`, (len(t), 6), from y at t[0]; y and m end where the course ends.
+
+    Returns the outcome, the number of samples filled, of steps, of switches and of impacts.
+    """
+    k, q = np.empty((8, 8)), np.empty((5, 6))
+    trial, probe, g = np.empty(6), np.empty(6), np.empty(5)
+    switches = impacts = steps = 0
+    now, end, samples = t[0], t[-1], len(t)
+    resolve(y, c, m)
+    if abs(y[0]) >= c[TRAVEL]:
+        meet_stop(y, c, m, k, g)
+    rates(y, c, m, k, 0)
+    h = first_step(y, k, end - now, rtol, atol)
+    states[0] = y
+    done = 1
+    while done < samples:
+        steps += 1
+        h = min(h, end - now)
+        if steps > most_steps or h < 1e-15 * end:
+            return OUT_OF_STEPS, done, steps, switches, impacts
+        error = attempt(y, h, k, trial, c, m, rtol, atol)
+        if not error <= 1.0:  # also rejects a state that is not finite
+            h *= max(0.2, 0.9 * error**-0.2) if error < inf else 0.1
+            continue
+        interpolant(y, h, k, trial, q)
+        which, share = first_switch(q, c, m, k, g, probe)
+        reached = now + share * h
+        last = end - reached < 1e-12 * end
+        while done < samples and (t[done] <= reached or last):
+            point(min((t[done] - now) / h, share), q, states[done])
+            done += 1
+        if which < 0:
+            for i in range(6):
+                y[i] = trial[i]
+                k[0, i] = k[6, i]
+            h *= 5.0 if error == 0.0 else min(5.0, 0.9 * error**-0.2)
+        else:
+            switches += 1
+            if switches > MOST_SWITCHES:
+                return OUT_OF_SWITCHES, done, steps, switches, impacts
+            point(share, q, y)
+            if which == 4 and m[REST] == 0:
+                impacts += 1
+            switch(which, y, c, m, k, g)
+            rates(y, c, m, k, 0)
+            h *= max(1.0 - share, 1e-3)
+        now = reached
+    return ENDED, done, steps, switches, impacts
+
+
+@kernel
+def first_step(y, k, length, rtol, atol):
+    """A hundredth of the time in which the state would change by itself (Hairer, II.4)."""
+    size = speed = 0.0
+    for i in range(6):
+        scale = atol + rtol * abs(y[i])
+        size += (y[i] / scale) ** 2
+        speed += (k[0, i] / scale) ** 2
+    size, speed = sqrt(size / 6), sqrt(speed / 6)
+    return min(length, 1e-6 if min(size, speed) < 1e-5 else 0.01 * size / speed)
+
+
+@kernel
+def attempt(y, h, k, trial, c, m, rtol, atol):
+    """One step of size h from y into `trial`; its estimated error, accepted up to 1."""
+    for i in range(6):
+        trial[i] = y[i] + h * (k[0, i] / 5)
+    rates(trial, c, m, k, 1)
+    for i in range(6):
+        trial[i] = y[i] + h * (3 / 40 * k[0, i] + 9 / 40 * k[1, i])
+    rates(trial, c, m, k, 2)
+    for i in range(6):
+        trial[i] = y[i] + h * (44 / 45 * k[0, i] - 56 / 15 * k[1, i] + 32 / 9 * k[2, i])
+    rates(trial, c, m, k, 3)
+    for i in range(6):
+        slope = 19372 / 6561 * k[0, i] - 25360 / 2187 * k[1, i] + 64448 / 6561 * k[2, i]
+        trial[i] = y[i] + h * (slope - 212 / 729 * k[3, i])
+    rates(trial, c, m, k, 4)
+    for i in range(6):
+        slope = 9017 / 3168 * k[0, i] - 355 / 33 * k[1, i] + 46732 / 5247 * k[2, i]
+        trial[i] = y[i] + h * (slope + 49 / 176 * k[3, i] - 5103 / 18656 * k[4, i])
+    rates(trial, c, m, k, 5)
+    for i in range(6):
+        slope = 35 / 384 * k[0, i] + 500 / 1113 * k[2, i] + 125 / 192 * k[3, i]
+        trial[i] = y[i] + h * (slope - 2187 / 6784 * k[4, i] + 11 / 84 * k[5, i])
+    rates(trial, c, m, k, 6)
+    total = 0.0
+    for i in range(6):
+        d = 71 / 57600 * k[0, i] - 71 / 16695 * k[2, i] + 71 / 1920 * k[3, i]
+        d += -17253 / 339200 * k[4, i] + 22 / 525 * k[5, i] - 1 / 40 * k[6, i]
+        total += (h * d / (atol + rtol * max(abs(y[i]), abs(trial[i])))) ** 2
+    return sqrt(total / 6) if total < inf else inf
+
+
+@kernel
+def interpolant(y, h, k, trial, q):
+    """Coefficients of the step's continuous output into q, 5×6."""
+    for i in range(6):
+        change = trial[i] - y[i]
+        bend = h * k[0, i] - change
+        q[0, i], q[1, i], q[2, i] = y[i], change, bend
+        q[3, i] = change - h * k[6, i] - bend
+        d = -12715105075 / 11282082432 * k[0, i] + 87487479700 / 32700410799 * k[2, i]
+        d += -10690763975 / 1880347072 * k[3, i] + 701980252875 / 199316789632 * k[4, i]
+        q[4, i] = h * (d - 1453857185 / 822651844 * k[5, i] + 69997945 / 29380423 * k[6, i])
+
+
+@kernel
+def point(x, q, out):
+    """The state at the share x of a step."""
+    z = 1.0 - x
+    for i in range(6):
+        out[i] = q[0, i] + x * (q[1, i] + z * (q[2, i] + x * (q[3, i] + z * q[4, i])))
+
+
+@kernel
+def first_switch(q, c, m, k, g, probe):
+    """Which function of `watch` turns negative first, and at which share of the step; −1 if none.
+
+    Looked for at the middle and at the end of the step, then bisected to the last digit.
+    """
+    low = 0.0
+    for half in range(1, 3):
+        high = 0.5 * half
+        point(high, q, probe)
+        which = watch(probe, c, m, k, g)
+        if which >= 0:
+            while high - low > 1e-15:
+                middle = 0.5 * (low + high)
+                if middle <= low or middle >= high:
+                    break
+                point(middle, q, probe)
+                found = watch(probe, c, m, k, g)
+                if found >= 0:
+                    high, which = middle, found
+                else:
+                    low = middle
+            return which, high
+        low = high
+    return -1, 1.0

@@ -1,0 +1,207 @@
+"""The loop around the nonlinear rig: its rates, and the modes that limits, clamping and stops put it in.
+
+State y: θ, ψ, θ̇, ψ̇, z_p, z_y (angles absolute, z = ∫ error). All that is constant stands in one array
+`c`, all modes in one array of integers `m`; the layouts follow. `k` is the integrator's table of
+slopes, 8×8: columns 0–5 are ẏ, 6–7 each motor's λ; row 7 is scratch.
+"""
+
+from __future__ import annotations
+
+from math import cos, sin
+
+from .jit import kernel
+
+# c: the rig's parameters (α = J_p + m l²), gains u = G y + offset, limits, references, back-calculation
+K_PP, K_PY, K_YP, K_YY, ALPHA, J_Y, ML2, MGL, B_P, B_Y, K_S = range(11)
+GAIN, OFFSET, LIMIT, WANTED, TRACKING, TRAVEL, CONSTANTS = 11, 23, 25, 27, 29, 33, 34
+
+# m: each motor's mode and which limit it is at (±1), the stop that pitch rests on (0, ±1), the motor
+# that each integrator drives, and the kind of anti-windup
+SIDE, REST, MOTOR_OF, WINDUP, MODES = 2, 4, 5, 7, 8
+INSIDE, BEYOND, SLIDING = 0, 1, 2
+NO_ANTI_WINDUP, CLAMPING, BACK_CALCULATION = 0, 1, 2
+
+
+@kernel
+def accelerations(theta, theta_dot, psi_dot, V_p, V_y, c):
+    """(θ̈, ψ̈), rad/s² (Eqs. 9–12); a test holds them to the derivation."""
+    sine, cosine = sin(theta), cos(theta)
+    sway = c[ML2] * sine * cosine
+    pitch = c[K_PP] * V_p + c[K_PY] * V_y - c[B_P] * theta_dot - c[K_S] * theta
+    pitch -= sway * psi_dot * psi_dot + c[MGL] * cosine
+    yaw = c[K_YP] * V_p + c[K_YY] * V_y - c[B_Y] * psi_dot + 2.0 * sway * theta_dot * psi_dot
+    return pitch / c[ALPHA], yaw / (c[J_Y] + c[ML2] * cosine * cosine)
+
+
+@kernel
+def asked(y, motor, c):
+    """The voltage that the loop asks of a motor, before its limit."""
+    row = GAIN + 6 * motor
+    u = c[OFFSET + motor]
+    for j in range(6):
+        u += c[row + j] * y[j]
+    return u
+
+
+@kernel
+def given(u, motor, c, m):
+    """What the motor gets of it, by its mode."""
+    return u if m[motor] == INSIDE else m[SIDE + motor] * c[LIMIT + motor]
+
+
+@kernel
+def rates(y, c, m, k, row):
+    """ẏ into k[row]."""
+    u0, u1 = asked(y, 0, c), asked(y, 1, c)
+    v0, v1 = given(u0, 0, c, m), given(u1, 1, c, m)
+    pitch, yaw = accelerations(y[0], y[2], y[3], v0, v1, c)
+    theta_dot = y[2]
+    if m[REST] != 0:
+        theta_dot = pitch = 0.0
+    k[row, 0], k[row, 1], k[row, 2], k[row, 3] = theta_dot, y[3], pitch, yaw
+    e0, e1 = c[WANTED] - y[0], c[WANTED + 1] - y[1]
+    if m[WINDUP] == CLAMPING and (m[0] != INSIDE or m[1] != INSIDE):
+        clamp(e0, e1, c, m, k, row)
+        return
+    if m[WINDUP] == BACK_CALCULATION:
+        cut0, cut1 = v0 - u0, v1 - u1
+        e0 += c[TRACKING] * cut0 + c[TRACKING + 1] * cut1
+        e1 += c[TRACKING + 2] * cut0 + c[TRACKING + 3] * cut1
+    k[row, 4], k[row, 5] = e0, e1
+
+
+@kernel
+def clamp(e0, e1, c, m, k, row):
+    """Rates of the integrals under clamping: on, off, or sliding.
+
+    An integrator pushes if it drives its motor farther beyond its limit; beyond, what pushes stands
+    still. Where it would come back at once if it stood still, but leave again if it went on, the
+    voltage slides along its limit: the share λ of the error is integrated that keeps u̇ = 0 (Filippov).
+    """
+    a, b = m[MOTOR_OF], m[MOTOR_OF + 1]
+    pushes0 = m[a] != INSIDE and c[GAIN + 6 * a + 4] * e0 * m[SIDE + a] > 0.0
+    pushes1 = m[b] != INSIDE and c[GAIN + 6 * b + 5] * e1 * m[SIDE + b] > 0.0
+    share0 = 0.0 if m[0] == BEYOND else 1.0
+    share1 = 0.0 if m[1] == BEYOND else 1.0
+    if m[0] == SLIDING or m[1] == SLIDING:
+        # u̇_i = k_i + Σ_j λ_j s_ij is 0 on each sliding motor; s_ij sums the integrators that push motor j
+        k0 = k1 = s00 = s01 = s10 = s11 = 0.0
+        for j in range(4):
+            k0 += c[GAIN + j] * k[row, j]
+            k1 += c[GAIN + 6 + j] * k[row, j]
+        for i in range(2):
+            e, pushes, motor = (e0, pushes0, a) if i == 0 else (e1, pushes1, b)
+            f0, f1 = c[GAIN + 4 + i] * e, c[GAIN + 10 + i] * e
+            if not pushes:
+                k0 += f0
+                k1 += f1
+            elif motor == 0:
+                s00 += f0
+                s10 += f1
+            else:
+                s01 += f0
+                s11 += f1
+        if m[0] == SLIDING and m[1] == SLIDING:
+            det = s00 * s11 - s01 * s10
+            share0 = (k1 * s01 - k0 * s11) / det if det != 0.0 else 2.0
+            share1 = (k0 * s10 - k1 * s00) / det if det != 0.0 else 2.0
+        elif m[0] == SLIDING:
+            share0 = -(k0 + share1 * s01) / s00 if s00 != 0.0 else 2.0
+        else:
+            share1 = -(k1 + share0 * s10) / s11 if s11 != 0.0 else 2.0
+    k[row, 6], k[row, 7] = share0, share1
+    if pushes0:
+        e0 *= share0 if a == 0 else share1
+    if pushes1:
+        e1 *= share0 if b == 0 else share1
+    k[row, 4], k[row, 5] = e0, e1
+
+
+@kernel
+def watch(y, c, m, k, g):
+    """Functions that stay positive while the modes hold, into g; which one does not, or −1.
+
+    Two per motor (its distance from the limit; sliding: λ and 1 − λ) and one for the pitch stop (the
+    way left; resting: the torque that presses).
+    """
+    u0, u1 = asked(y, 0, c), asked(y, 1, c)
+    if m[0] == SLIDING or m[1] == SLIDING:
+        rates(y, c, m, k, 7)
+    for motor in range(2):
+        limit = c[LIMIT + motor]
+        u = u0 if motor == 0 else u1
+        g[2 * motor + 1] = 1.0
+        if m[motor] == SLIDING:
+            g[2 * motor] = k[7, 6 + motor]
+            g[2 * motor + 1] = 1.0 - k[7, 6 + motor]
+        elif m[motor] == INSIDE:
+            g[2 * motor] = 1.0 - abs(u) / limit
+        else:
+            g[2 * motor] = m[SIDE + motor] * u / limit - 1.0
+    if m[REST] == 0:
+        g[4] = c[TRAVEL] - abs(y[0])
+    else:
+        pitch, _ = accelerations(y[0], 0.0, y[3], given(u0, 0, c, m), given(u1, 1, c, m), c)
+        g[4] = m[REST] * pitch
+    low = 0
+    for j in range(1, 5):
+        if g[j] < g[low]:
+            low = j
+    return low if g[low] < -1e-13 else -1
+
+
+@kernel
+def resolve(y, c, m):
+    """The motors' modes afresh, at the start and after a jump of the state."""
+    for motor in range(2):
+        u = asked(y, motor, c)
+        m[SIDE + motor] = 1 if u > 0.0 else -1
+        m[motor] = BEYOND if abs(u) > c[LIMIT + motor] else INSIDE
+
+
+@kernel
+def meet_stop(y, c, m, k, g):
+    """Pitch is at a stop: its rate is gone, and it rests there while the torque presses."""
+    m[REST] = 1 if y[0] > 0.0 else -1
+    y[0], y[2] = m[REST] * c[TRAVEL], 0.0
+    resolve(y, c, m)
+    watch(y, c, m, k, g)
+    if g[4] <= 0.0:
+        leave_stop(y, m)
+
+
+@kernel
+def leave_stop(y, m):
+    """The torque has turned; just inside, so that the next impact is seen."""
+    m[REST] = 0
+    y[0] *= 1.0 - 1e-12
+
+
+@kernel
+def switch(which, y, c, m, k, g):
+    """The modes after the function `which` of `watch` has turned negative."""
+    motor = which // 2
+    if which == 4:
+        if m[REST] == 0:
+            meet_stop(y, c, m, k, g)
+        else:
+            leave_stop(y, m)
+    elif m[motor] == INSIDE:
+        m[SIDE + motor] = 1 if asked(y, motor, c) > 0.0 else -1
+        m[motor] = BEYOND
+        if m[WINDUP] == CLAMPING:
+            rates(y, c, m, k, 7)
+            rise = 0.0
+            for j in range(6):
+                rise += c[GAIN + 6 * motor + j] * k[7, j]
+            if rise * m[SIDE + motor] < 0.0:
+                m[motor] = SLIDING
+    elif m[motor] == SLIDING:
+        m[motor] = BEYOND if which % 2 == 0 else INSIDE
+    else:
+        m[motor] = INSIDE
+        if m[WINDUP] == CLAMPING:
+            m[motor] = SLIDING
+            rates(y, c, m, k, 7)
+            if not k[7, 6 + motor] < 1.0:
+                m[motor] = INSIDE

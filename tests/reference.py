@@ -1,0 +1,177 @@
+"""The rig's loop once more, by SciPy: DOP853 from event to event, the equations typed from the theory sheet.
+
+Slow and careful, and nothing of heli2dof's own simulation in it: what the kernels are measured against.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+FREE, BEYOND, SLIDING = "free", "beyond", "sliding"
+
+
+class Reference:
+    """One loop with limits, stops and anti-windup; modes are re-decided at every event."""
+
+    def __init__(self, loop, limits, scenario):
+        plant = loop.design.plant
+        self.rig, self.K, self.scenario = plant.parameters, loop.design.K, scenario
+        self.P, self.I, self.F = loop.proportional, loop.integral, loop.feedforward
+        self.wanted, start = scenario.resolved(plant.theta_0)
+        self.rest = np.array([plant.theta_0, 0.0])
+        self.trim = plant.trim if scenario.trim_feedforward else np.zeros(2)
+        self.limits = np.array([limits.V_p, limits.V_y]) if scenario.saturation else np.full(2, np.inf)
+        self.travel = limits.theta if scenario.travel_stops and limits.theta else np.inf
+        self.y = np.concatenate([start, np.zeros(2)])
+        self.motor_of = [0, 0] if self.I is None else [int(np.argmax(np.abs(self.I[:, i]))) for i in range(2)]
+        self.mode, self.side, self.stop = [FREE, FREE], [1.0, 1.0], 0
+
+    def asked(self, y):
+        x = y[:4] - [*self.rest, 0, 0]
+        u = self.trim - self.K @ x + self.P @ (self.wanted - y[:2]) + self.F @ (self.wanted - self.rest)
+        return u if self.I is None else u + self.I @ y[4:]
+
+    def given(self, y):
+        u = self.asked(y)
+        return [u[i] if self.mode[i] == FREE else self.side[i] * self.limits[i] for i in range(2)]
+
+    def mechanics(self, y):
+        r, (theta, _, theta_dot, psi_dot) = self.rig, y[:4]
+        V_p, V_y = self.given(y)
+        s, c, ml2 = np.sin(theta), np.cos(theta), r.m * r.l**2
+        pitch = r.K_pp * V_p + r.K_py * V_y - r.B_p * theta_dot - r.K_s * theta - r.m * r.g * r.l * c
+        pitch = (pitch - ml2 * s * c * psi_dot**2) / (r.J_p + ml2)
+        yaw = r.K_yp * V_p + r.K_yy * V_y - r.B_y * psi_dot + 2 * ml2 * s * c * theta_dot * psi_dot
+        return pitch, yaw / (r.J_y + ml2 * c**2)
+
+    def pushing(self, y):
+        e = self.wanted - y[:2]
+        return [
+            self.I is not None and self.mode[m] != FREE and self.I[m, i] * e[i] * self.side[m] > 0
+            for i, m in enumerate(self.motor_of)
+        ]
+
+    def shares(self, y):
+        """λ of each motor, from u̇ = 0 on those that slide."""
+        pitch, yaw = self.mechanics(y)
+        x_dot = np.array([0 if self.stop else y[2], y[3], 0 if self.stop else pitch, yaw])
+        e, push = self.wanted - y[:2], self.pushing(y)
+        gradient = -self.K.copy()
+        gradient[:, :2] -= self.P
+        known = gradient @ x_dot
+        S = np.zeros((2, 2))
+        for i, m in enumerate(self.motor_of):
+            if push[i]:
+                S[:, m] += self.I[:, i] * e[i]
+            else:
+                known = known + self.I[:, i] * e[i]
+        share = np.array([0.0 if mode == BEYOND else 1.0 for mode in self.mode])
+        sliding = [i for i in range(2) if self.mode[i] == SLIDING]
+        if sliding:
+            fixed = [i for i in range(2) if i not in sliding]
+            right = -(known + S[:, fixed] @ share[fixed])[sliding]
+            share[sliding] = np.linalg.lstsq(S[np.ix_(sliding, sliding)], right, rcond=None)[0]
+        return share
+
+    def rates(self, _t, y):
+        pitch, yaw = self.mechanics(y)
+        e = self.wanted - y[:2]
+        if self.I is None:
+            z = np.zeros(2)
+        elif self.scenario.anti_windup == "clamping" and self.scenario.saturation:
+            share, push = self.shares(y), self.pushing(y)
+            z = [e[i] * share[m] if push[i] else e[i] for i, m in enumerate(self.motor_of)]
+        else:
+            z = e
+        if self.stop:
+            return [0.0, y[3], 0.0, yaw, *z]
+        return [y[2], y[3], pitch, yaw, *z]
+
+    def events(self):
+        found = []
+        for i in range(2):
+            if self.mode[i] == SLIDING:
+                found.append(lambda _t, y, i=i: self.shares(y)[i])
+                found.append(lambda _t, y, i=i: 1 - self.shares(y)[i])
+            elif self.mode[i] == FREE:
+                found.append(lambda _t, y, i=i: 1 - abs(self.asked(y)[i]) / self.limits[i])
+            else:
+                found.append(lambda _t, y, i=i: self.side[i] * self.asked(y)[i] / self.limits[i] - 1)
+        if self.stop:
+            found.append(lambda _t, y: self.stop * self.mechanics(np.array([y[0], y[1], 0, *y[3:]]))[0])
+        elif np.isfinite(self.travel):
+            found.append(lambda _t, y: self.travel - abs(y[0]))
+        for event in found:
+            event.terminal, event.direction = True, -1
+        return found
+
+    def decide(self, y, jumped=()):
+        """Modes at a point: what lies beyond is beyond; on the limit, what the rates say."""
+        clamping = self.scenario.anti_windup == "clamping" and self.I is not None
+        u = self.asked(y)
+        for i in range(2):
+            near = abs(abs(u[i]) / self.limits[i] - 1) < 1e-9 and i not in jumped
+            self.side[i] = np.sign(u[i])
+            if not near:
+                self.mode[i] = BEYOND if abs(u[i]) > self.limits[i] else FREE
+                continue
+            drift = {}
+            for share in (0.0, 1.0):
+                self.mode[i] = BEYOND
+                rates = np.array(self.rates(0, y))
+                if share and clamping:
+                    e, push = self.wanted - y[:2], self.pushing(y)
+                    for j, m in enumerate(self.motor_of):
+                        if m == i and push[j]:
+                            rates[4 + j] = e[j]
+                gradient = -self.K.copy()
+                gradient[:, :2] -= self.P
+                total = gradient @ rates[:4] + (0 if self.I is None else self.I @ rates[4:])
+                drift[share] = total[i] * self.side[i]
+            nothing = 1e-7 * abs(drift[1.0] - drift[0.0])  # where sliding ends one of them is 0
+            if drift[0.0] >= -nothing:
+                self.mode[i] = BEYOND
+            else:
+                self.mode[i] = SLIDING if clamping and drift[1.0] > nothing else FREE
+
+    def run(self, t, rtol=1e-12):
+        states, y, now = np.empty((len(t), 6)), self.y.copy(), t[0]
+        self.decide(y, jumped=(0, 1))
+        states[0] = y
+        for _ in range(2000):
+            grid = t[t > now]
+            if not len(grid):
+                return states
+            solution = solve_ivp(
+                self.rates,
+                (now, t[-1]),
+                y,
+                "DOP853",
+                t_eval=grid,
+                events=self.events(),
+                rtol=rtol,
+                atol=1e-13,
+                max_step=0.02,
+            )
+            if np.size(solution.y):
+                first = int(np.searchsorted(t, solution.t[0]))
+                states[first : first + solution.y.shape[1]] = solution.y.T
+            if solution.status != 1:
+                return states
+            fired = next(i for i, times in enumerate(solution.t_events) if len(times))
+            now, y = float(solution.t_events[fired][0]), solution.y_events[fired][0].copy()
+            at_stop = fired == len(solution.t_events) - 1 and (self.stop or np.isfinite(self.travel))
+            if at_stop and self.stop:
+                self.stop = 0
+                y[0] *= 1 - 1e-12
+            elif at_stop:
+                self.stop = int(np.sign(y[0]))
+                y[0], y[2] = self.stop * self.travel, 0.0
+                self.decide(y, jumped=(0, 1))
+                if self.stop * self.mechanics(y)[0] <= 0:
+                    self.stop = 0
+                    y[0] *= 1 - 1e-12
+            else:
+                self.decide(y)
+        raise AssertionError("too many events")
