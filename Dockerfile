@@ -15,7 +15,7 @@ RUN /opt/heli2dof/bin/pip install --no-cache-dir --disable-pip-version-check -c 
  && /opt/heli2dof/bin/pip uninstall --yes pip \
  && find /opt/heli2dof/lib -type d -name tests -prune -exec rm -rf {} + \
  && /opt/heli2dof/bin/python -m compileall -q /opt/heli2dof \
- && /opt/heli2dof/bin/python -c "from heli2dof_core.engine import warm_up; warm_up()"
+ && cd / && /opt/heli2dof/bin/python -c "from heli2dof_core.engine import warm_up; warm_up()"
 
 FROM python:3.13-slim
 RUN useradd --system --uid 10001 --no-create-home --shell /usr/sbin/nologin heli2dof

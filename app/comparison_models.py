@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .models import Complex, Finding, LoopMargins, Metrics, Model
+from .models import Complex, Finding, LoopMargins, Metrics, Model, Sensitivity
 
 
 class Method(Model):
@@ -81,6 +81,7 @@ class ComparisonRow(Model):
     metrics: Metrics | None = None
     axis_metrics: AxisMetricsAlone | None = None
     margins: LoopMargins | None = None
+    sensitivity: Sensitivity | None = None
     loop_poles: list[Complex] | None = None
     stable: bool | None = None
     findings: list[Finding] | None = None

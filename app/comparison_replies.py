@@ -13,7 +13,16 @@ from heli2dof_core.placement.method import Method
 from heli2dof_core.placement.registry import METHODS
 
 from .problems import problem_of
-from .replies import Reply, findings_reply, gains_reply, margins_reply, metrics_reply, poles_reply, rga_reply
+from .replies import (
+    Reply,
+    findings_reply,
+    gains_reply,
+    margins_reply,
+    metrics_reply,
+    poles_reply,
+    rga_reply,
+    sensitivity_reply,
+)
 
 
 def methods_reply() -> list[Reply]:
@@ -101,6 +110,7 @@ def _row(row: Row) -> Reply:
             axis: metrics_reply(steps["nonlinear"].metrics) for axis, steps in report.axis_steps.items()
         },
         "margins": margins_reply(report.margins),
+        **sensitivity_reply(report.sensitivity),
         "loop_poles": poles_reply(report.loop.poles),
         "stable": report.loop.stable,
         "findings": findings_reply(report.findings),

@@ -92,7 +92,7 @@ class Rga(Model):
 
 
 class AxisMetrics(Model):
-    """Step metrics of one axis; s, %, rad, rad·s."""
+    """Step metrics of one axis; s, %, rad, rad·s, rad·s²."""
 
     rise_time: float | None = None
     settling_time: float | None = None
@@ -101,13 +101,15 @@ class AxisMetrics(Model):
     peak_time: float
     steady_state_error: float
     iae: float
+    itae: float
 
 
 class MotorMetrics(Model):
-    """Largest |voltage|, V, and share of time at the limit."""
+    """Largest |voltage|, V, share of time at the limit, and effort ∫ (V − V_trim)² dt, V²·s."""
 
     peak: float
     saturated: float
+    effort: float
 
 
 class Metrics(Model):
@@ -159,6 +161,18 @@ class LoopMargins(Model):
     yaw: Margins | None = None
 
 
+class Sensitivity(Model):
+    """Sensitivity peak and disk margin at both motors at once, rad/s; what the disk margin guarantees."""
+
+    peak: float
+    peak_frequency: float
+    disk_margin: float
+    disk_frequency: float
+    gain_low: float
+    gain_high: float | None = None
+    phase: float
+
+
 class AxisSteps(Model):
     """Each axis of the reference stepped alone."""
 
@@ -184,6 +198,7 @@ class Evaluation(Model):
     step: BothModels
     axis_steps: AxisSteps
     margins: LoopMargins
+    sensitivity: Sensitivity | None = None
     loop_poles: list[Complex]
     stable: bool
     trim: Voltages

@@ -31,6 +31,7 @@ from heli2dof_core.interaction import dominance_over_frequency
 from heli2dof_core.margins import Margins
 from heli2dof_core.metrics import StepMetrics
 from heli2dof_core.parameters import PARAMETER_INFO
+from heli2dof_core.sensitivity import Sensitivity
 from heli2dof_core.signals import AXES, INPUTS, OUTPUTS, Floats
 from heli2dof_core.spec import Limits
 from heli2dof_core.tuning import Suggestion
@@ -160,6 +161,7 @@ def report_reply(report: Report, spec: Spec) -> Reply:
             for axis, steps in report.axis_steps.items()
         },
         "margins": margins_reply(report.margins),
+        **sensitivity_reply(report.sensitivity),
         "loop_poles": poles_reply(loop.poles),
         "stable": loop.stable,
         "trim": _voltages(report.design.plant.trim),
@@ -230,6 +232,18 @@ def margins_reply(margins: tuple[Margins, Margins] | None) -> Reply:
     if margins is None:
         return {}
     return {axis: present(asdict(own)) for axis, own in zip(AXES, margins, strict=True)}
+
+
+def sensitivity_reply(sensitivity: Sensitivity | None) -> Reply:
+    """Disk margin and sensitivity peak under ``sensitivity``; nothing where the loop is unstable."""
+    if sensitivity is None:
+        return {}
+    low, high = sensitivity.gain_range
+    return {
+        "sensitivity": present(
+            {**asdict(sensitivity), "gain_low": low, "gain_high": high, "phase": sensitivity.phase}
+        )
+    }
 
 
 def _limits(limits: Limits) -> Reply:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from .couplings import Structure
 from .design import FULL_RANK, Design, design
 from .findings import Finding, merged
@@ -16,6 +18,7 @@ from .placement.method import Weights
 from .plant import plant
 from .poles import PoleSet
 from .presets import Preset
+from .sensitivity import Sensitivity, loop_sensitivity
 from .simulation.linear import simulate_linear
 from .simulation.nonlinear import simulate_nonlinear
 from .simulation.response import Response
@@ -76,6 +79,7 @@ class Report:
         interaction: RGA and pairing.
         loop: the whole loop and its poles.
         margins: at the pitch and the yaw motor; None if the loop is unstable.
+        sensitivity: at both motors at once; None if the loop is unstable.
         step: the scenario, by model.
         axis_steps: by output name and model, each axis stepped alone; empty unless asked for.
         findings: all remarks, the gravest first.
@@ -85,6 +89,7 @@ class Report:
     interaction: Interaction
     loop: Loop
     margins: tuple[Margins, Margins] | None
+    sensitivity: Sensitivity | None
     step: dict[Model, Step]
     axis_steps: dict[str, dict[Model, Step]]
     findings: tuple[Finding, ...]
@@ -102,7 +107,8 @@ def simulate(loop: Loop, spec: Spec, model: Model) -> Step:
         response = simulate_linear(loop, spec.scenario)
     else:
         response = simulate_nonlinear(loop, spec.limits, spec.scenario)
-    return Step(response, step_metrics(response))
+    trim = loop.design.plant.trim if model == "nonlinear" else np.zeros(2)
+    return Step(response, step_metrics(response, trim))
 
 
 def evaluate(spec: Spec, *, each_axis: bool = False) -> Report:
@@ -131,7 +137,8 @@ def evaluate(spec: Spec, *, each_axis: bool = False) -> Report:
     findings = merged(
         placed.findings, loop.findings, gains.findings, *(response.findings for response in responses)
     )
-    return Report(placed, gains, loop, loop_margins(loop), step, axis_steps, findings)
+    margins, sensitivity = loop_margins(loop), loop_sensitivity(loop)
+    return Report(placed, gains, loop, margins, sensitivity, step, axis_steps, findings)
 
 
 def _both_models(loop: Loop, spec: Spec) -> dict[Model, Step]:

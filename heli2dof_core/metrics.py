@@ -24,7 +24,8 @@ class AxisMetrics:
         peak: angle of the largest deviation from the start, rad.
         peak_time: when, s.
         steady_state_error: reference minus the last value, rad.
-        iae: integral of the absolute error over t, rad·s.
+        iae: integral of the absolute error over t, ∫ |e| dt, rad·s.
+        itae: the same weighted with time, ∫ t |e| dt, rad·s² (Graham & Lathrop, Trans. AIEE 72 (1953) 273).
     """
 
     rise_time: float | None
@@ -34,14 +35,22 @@ class AxisMetrics:
     peak_time: float
     steady_state_error: float
     iae: float
+    itae: float
 
 
 @dataclass(frozen=True)
 class MotorMetrics:
-    """One motor's largest |voltage|, V, and the share of time at its limit."""
+    """What one motor has to do.
+
+    Attributes:
+        peak: its largest |voltage|, V.
+        saturated: share of time at its limit.
+        effort: ∫ (V − V_trim)² dt, V²·s: what the control costs beyond holding still.
+    """
 
     peak: float
     saturated: float
+    effort: float
 
 
 @dataclass(frozen=True)
@@ -59,8 +68,13 @@ class StepMetrics:
     motors: dict[str, MotorMetrics]
 
 
-def step_metrics(response: Response) -> StepMetrics:
-    """Metrics of a response; axes whose reference equals their start are not stepped."""
+def step_metrics(response: Response, trim: Floats) -> StepMetrics:
+    """Metrics of a response; axes whose reference equals their start are not stepped.
+
+    Args:
+        response: linear or nonlinear.
+        trim: the voltages that count as rest, shape (2,), V; zeros where they are deviations already.
+    """
     steps = [r - s for r, s in zip(response.reference, response.start, strict=True)]
     stepped = [i for i, step in enumerate(steps) if step != 0.0]
     axes = {OUTPUTS[i].name: _axis(response.t, response.angles[i], response, i) for i in stepped}
@@ -69,7 +83,11 @@ def step_metrics(response: Response) -> StepMetrics:
         other = 1 - stepped[0]
         coupling = float(np.max(np.abs(response.angles[other] - response.start[other])))
     motors = {
-        signal.name: MotorMetrics(float(np.max(np.abs(response.voltages[i]))), response.saturated[i])
+        signal.name: MotorMetrics(
+            float(np.max(np.abs(response.voltages[i]))),
+            response.saturated[i],
+            float(np.trapezoid((response.voltages[i] - trim[i]) ** 2, response.t)),
+        )
         for i, signal in enumerate(INPUTS)
     }
     return StepMetrics(axes, coupling, motors)
@@ -88,6 +106,7 @@ def _axis(t: Floats, angle: Floats, response: Response, index: int) -> AxisMetri
         peak_time=float(t[at]),
         steady_state_error=float(reference - angle[-1]),
         iae=float(np.trapezoid(np.abs(reference - angle), t)),
+        itae=float(np.trapezoid(t * np.abs(reference - angle), t)),
     )
 
 
