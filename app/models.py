@@ -265,6 +265,7 @@ class Preset(Model):
     components: dict[str, float]
     component_info: dict[str, ComponentInfo]
     limits: Limits
+    encoders: dict[str, int]
     operating_point: dict[str, float]
     poles: list[Complex]
     coupling: str

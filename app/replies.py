@@ -197,6 +197,7 @@ def preset_reply(preset: Preset) -> Reply:
         "components": {} if preset.components is None else preset.components.as_dict(),
         "component_info": COMPONENT_INFO,
         "limits": _limits(preset.limits),
+        "encoders": {"theta": preset.encoders[0], "psi": preset.encoders[1]},
         "operating_point": {"theta": preset.theta_0},
         "poles": poles_reply(preset.poles.values),
         "coupling": preset.structure.coupling,

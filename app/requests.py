@@ -18,7 +18,7 @@ from heli2dof_core.placement.method import Weights
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.presets import DEFAULT
 from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
-from heli2dof_core.spec import AntiWindup, Model, Outer, Pairing, Scenario
+from heli2dof_core.spec import AntiWindup, Digital, Disturbance, Model, Outer, Pairing, Rates, Scenario
 from heli2dof_core.weights import bryson_weights
 
 
@@ -241,6 +241,32 @@ class Initial(Strict):
     psi_dot: float = Field(default=0.0, description="rad/s")
 
 
+class EncoderCounts(Strict):
+    """Counts per revolution; 0 measures exactly."""
+
+    theta: int = Field(default=4096, ge=0)
+    psi: int = Field(default=8192, ge=0)
+
+
+class DigitalController(Strict):
+    """The rig's own controller: sampled, quantized, filtered, late, noisy."""
+
+    sample_time: float = Field(default=0.002, description="s; voltages are held between samples")
+    delay: bool = Field(default=False, description="voltages reach the motors one sample late")
+    encoders: EncoderCounts | None = Field(default=None, description="the preset's where left out")
+    rates: Rates = Field(default="filtered", description="filtered: from the angles, 20 Hz, damping 0.85")
+    noise: float = Field(default=0.0, description="standard deviation on the measured angles, rad")
+    seed: int = Field(default=0, ge=0, le=2**32 - 1)
+
+
+class InputDisturbance(Strict):
+    """Volts that act on the motors besides the controller's, from `time` on."""
+
+    V_p: float = 0.0
+    V_y: float = 0.0
+    time: float = Field(default=0.0, description="s")
+
+
 class ScenarioChanges(Strict):
     """An experiment: references step at t = 0; without a reference the preset's own is used."""
 
@@ -254,9 +280,11 @@ class ScenarioChanges(Strict):
     travel_stops: bool = True
     trim_feedforward: bool = True
     rtol: float = Field(default=1e-8, description="tolerance of the nonlinear integration")
+    digital: DigitalController | None = Field(default=None, description="nonlinear model; null is continuous")
+    disturbance: InputDisturbance | None = Field(default=None, description="nonlinear model")
 
-    def to_scenario(self, base: Scenario) -> Scenario:
-        """The core's scenario; `base` is the preset's.
+    def to_scenario(self, base: Scenario, encoders: tuple[int, int]) -> Scenario:
+        """The core's scenario; `base` and `encoders` are the preset's.
 
         Raises:
             Heli2DofError: a value is out of its range.
@@ -275,7 +303,16 @@ class ScenarioChanges(Strict):
             travel_stops=self.travel_stops,
             trim_feedforward=self.trim_feedforward,
             rtol=self.rtol,
+            digital=self._digital(encoders),
+            disturbance=self.disturbance and Disturbance(**self.disturbance.model_dump()),
         )
+
+    def _digital(self, encoders: tuple[int, int]) -> Digital | None:
+        if self.digital is None:
+            return None
+        given = self.digital
+        counts = encoders if given.encoders is None else (given.encoders.theta, given.encoders.psi)
+        return Digital(given.sample_time, given.delay, counts, given.rates, given.noise, given.seed)
 
 
 class StepRequest(DesignRequest):
@@ -286,7 +323,8 @@ class StepRequest(DesignRequest):
     def to_spec(self) -> Spec:
         """The core's spec, with this scenario."""
         spec = super().to_spec()
-        return replace(spec, scenario=self.scenario.to_scenario(spec.scenario))
+        scenario = self.scenario.to_scenario(spec.scenario, preset(self.preset).encoders)
+        return replace(spec, scenario=scenario)
 
 
 class EvaluateRequest(StepRequest):

@@ -19,6 +19,7 @@ from .plant import plant
 from .poles import PoleSet
 from .presets import Preset
 from .sensitivity import Sensitivity, loop_sensitivity
+from .simulation.digital import simulate_digital
 from .simulation.linear import simulate_linear
 from .simulation.nonlinear import simulate_nonlinear
 from .simulation.response import Response
@@ -105,8 +106,10 @@ def simulate(loop: Loop, spec: Spec, model: Model) -> Step:
     """The scenario's response by one model, with its metrics."""
     if model == "linear":
         response = simulate_linear(loop, spec.scenario)
-    else:
+    elif spec.scenario.digital is None:
         response = simulate_nonlinear(loop, spec.limits, spec.scenario)
+    else:
+        response = simulate_digital(loop, spec.limits, spec.scenario, spec.scenario.digital)
     trim = loop.design.plant.trim if model == "nonlinear" else np.zeros(2)
     return Step(response, step_metrics(response, trim))
 

@@ -22,6 +22,7 @@ class Preset:
         name, title: for programs and for people.
         source: where the numbers come from.
         rig: which machine the scene shows, ``helicopter`` or ``aero``.
+        encoders: counts per revolution of pitch and yaw.
         components: the parts that the parameters are computed from, where the source gives them.
     """
 
@@ -37,6 +38,7 @@ class Preset:
     structure: Structure = Structure()
     theta_0: float = 0.0
     components: Components | None = None
+    encoders: tuple[int, int] = (4096, 8192)
 
 
 _TRAVEL = radians(40.5)
@@ -142,6 +144,7 @@ _ALL = (
         _AERO_POLES,
         OuterLoop(pitch=PIGains(60.0, 0.85), yaw=PIGains(36.0, 0.5)),
         Scenario(theta=radians(10), psi=radians(15), duration=10.0),
+        encoders=(2880, 4096),
     ),
     Preset(
         "quanser-aero",
@@ -166,6 +169,7 @@ _ALL = (
         OuterLoop(pitch=PIGains(7.6, 0.85), yaw=PIGains(19.0, 0.5)),
         Scenario(theta=radians(10), psi=radians(15), duration=15.0),
         Structure("axis-decoupled"),
+        encoders=(2880, 4096),
     ),
 )
 

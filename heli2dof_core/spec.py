@@ -8,14 +8,18 @@ from typing import Literal
 import numpy as np
 
 from .checks import require_one_of, require_within
+from .errors import InvalidInputError
 from .signals import Floats
 
 Outer = Literal["pi", "none"]
 Pairing = Literal["diagonal", "cross"]
 Model = Literal["linear", "nonlinear"]
+Rates = Literal["filtered", "true"]
 AntiWindup = Literal["none", "clamping", "back-calculation"]
 
 MOST_SAMPLES = 20_001
+MOST_SAMPLE_TIMES = 100_000
+"""Most samples of a digital controller in one simulation."""
 LONGEST = 600.0
 """Longest simulation, s."""
 
@@ -70,6 +74,51 @@ class Limits:
 
 
 @dataclass(frozen=True)
+class Digital:
+    """How the rig's own controller differs from the continuous one of the theory.
+
+    Attributes:
+        sample_time: between two samples; the voltages are held, s.
+        delay: the voltages reach the motors one sample after they were computed from.
+        encoders: counts per revolution of pitch and yaw; 0 measures exactly.
+        rates: ``filtered`` from the angles (second order, 2π·20 rad/s, ζ 0.85), or ``true``.
+        noise: standard deviation of white noise on the measured angles, rad.
+        seed: of the noise.
+    """
+
+    sample_time: float = 0.002
+    delay: bool = False
+    encoders: tuple[int, int] = (4096, 8192)
+    rates: Rates = "filtered"
+    noise: float = 0.0
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        require_within(self.sample_time, "scenario.digital.sample_time", "s", 1e-4, 1.0)
+        require_one_of(self.rates, Rates, "scenario.digital.rates")
+        require_within(self.noise, "scenario.digital.noise", "rad", 0.0, 1.0)
+        for counts, axis in zip(self.encoders, ("theta", "psi"), strict=True):
+            require_within(counts, f"scenario.digital.encoders.{axis}", "counts", 0, 10**7)
+
+
+@dataclass(frozen=True)
+class Disturbance:
+    """Volts that act on the motors besides the controller's, beyond the limits, from `time` (s) on.
+
+    A digital controller's rig feels them from its next sample.
+    """
+
+    V_p: float = 0.0
+    V_y: float = 0.0
+    time: float = 0.0
+
+    def __post_init__(self) -> None:
+        for value, name in ((self.V_p, "V_p"), (self.V_y, "V_y")):
+            require_within(value, f"scenario.disturbance.{name}", "V", -1e3, 1e3)
+        require_within(self.time, "scenario.disturbance.time", "s", 0.0, LONGEST)
+
+
+@dataclass(frozen=True)
 class Scenario:
     """One experiment: references step at t = 0 from the initial state. Angles in rad, absolute.
 
@@ -82,6 +131,8 @@ class Scenario:
         travel_stops: pitch is stopped at ±`Limits.theta`, without rebound.
         trim_feedforward: the constant trim voltages are added, so that the rig starts at rest.
         rtol: tolerance of the adaptive integration, relative and (in rad, rad/s) absolute.
+        digital: the nonlinear rig's controller is a digital one; None is continuous.
+        disturbance: of the nonlinear rig's motors.
     """
 
     theta: float | None = None
@@ -94,6 +145,8 @@ class Scenario:
     travel_stops: bool = True
     trim_feedforward: bool = True
     rtol: float = 1e-8
+    digital: Digital | None = None
+    disturbance: Disturbance | None = None
 
     def __post_init__(self) -> None:
         names = ("scenario.reference.theta", "scenario.reference.psi")
@@ -107,6 +160,13 @@ class Scenario:
         require_within(self.samples, "scenario.samples", "", 2, MOST_SAMPLES)
         require_one_of(self.anti_windup, AntiWindup, "scenario.anti_windup")
         require_within(self.rtol, "scenario.rtol", "", 1e-12, 1e-2)
+        if self.digital is not None and self.duration / self.digital.sample_time > MOST_SAMPLE_TIMES:
+            raise InvalidInputError(
+                f"{self.duration / self.digital.sample_time:.0f} samples of the controller are too many",
+                field="scenario.digital.sample_time",
+                value=self.digital.sample_time,
+                hint=f"At most {MOST_SAMPLE_TIMES} fit in the duration.",
+            )
 
     def resolved(self, theta_0: float) -> tuple[Floats, Floats]:
         """References [θ, ψ] and start [θ, ψ, θ̇, ψ̇] with the operating point (θ₀, 0) filled in, rad."""

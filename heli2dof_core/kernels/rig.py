@@ -11,9 +11,10 @@ from math import cos, sin
 
 from .jit import kernel
 
-# c: the rig's parameters (α = J_p + m l²), gains u = G y + offset, limits, references, back-calculation
+# c: the rig's parameters (α = J_p + m l²), gains u = G y + offset, limits, references, back-calculation,
+# pitch travel, and volts that disturb the motors
 K_PP, K_PY, K_YP, K_YY, ALPHA, J_Y, ML2, MGL, B_P, B_Y, K_S = range(11)
-GAIN, OFFSET, LIMIT, WANTED, TRACKING, TRAVEL, CONSTANTS = 11, 23, 25, 27, 29, 33, 34
+GAIN, OFFSET, LIMIT, WANTED, TRACKING, TRAVEL, DISTURBANCE, CONSTANTS = 11, 23, 25, 27, 29, 33, 34, 36
 
 # m: each motor's mode and which limit it is at (±1), the stop that pitch rests on (0, ±1), the motor
 # that each integrator drives, and the kind of anti-windup
@@ -54,7 +55,7 @@ def rates(y, c, m, k, row):
     """ẏ into k[row]."""
     u0, u1 = asked(y, 0, c), asked(y, 1, c)
     v0, v1 = given(u0, 0, c, m), given(u1, 1, c, m)
-    pitch, yaw = accelerations(y[0], y[2], y[3], v0, v1, c)
+    pitch, yaw = accelerations(y[0], y[2], y[3], v0 + c[DISTURBANCE], v1 + c[DISTURBANCE + 1], c)
     theta_dot = y[2]
     if m[REST] != 0:
         theta_dot = pitch = 0.0
@@ -141,7 +142,9 @@ def watch(y, c, m, k, g):
     if m[REST] == 0:
         g[4] = c[TRAVEL] - abs(y[0])
     else:
-        pitch, _ = accelerations(y[0], 0.0, y[3], given(u0, 0, c, m), given(u1, 1, c, m), c)
+        v0 = given(u0, 0, c, m) + c[DISTURBANCE]
+        v1 = given(u1, 1, c, m) + c[DISTURBANCE + 1]
+        pitch, _ = accelerations(y[0], 0.0, y[3], v0, v1, c)
         g[4] = m[REST] * pitch
     low = 0
     for j in range(1, 5):

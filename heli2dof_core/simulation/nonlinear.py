@@ -33,6 +33,7 @@ class NonlinearLoop:
         reference: θ_ref, ψ_ref, absolute, rad.
         limits: of the voltages, V; infinite without saturation.
         travel: of pitch, rad; infinite without stops.
+        disturbed_from: when the disturbance within `constants` sets in, s; infinite without one.
     """
 
     constants: Floats
@@ -43,6 +44,7 @@ class NonlinearLoop:
     reference: Floats
     limits: Floats
     travel: float
+    disturbed_from: float
 
     @classmethod
     def of(cls, loop: Loop, limits: Limits, scenario: Scenario) -> NonlinearLoop:
@@ -57,15 +59,18 @@ class NonlinearLoop:
         ceilings = np.array([limits.V_p, limits.V_y]) if scenario.saturation else np.full(2, np.inf)
         travel = limits.theta if scenario.travel_stops and limits.theta is not None else np.inf
         motors, tracking = _anti_windup(loop)
+        disturbance = scenario.disturbance
+        disturbed = [0.0, 0.0] if disturbance is None else [disturbance.V_p, disturbance.V_y]
+        since = np.inf if disturbance is None else disturbance.time
         ml2 = p.m * p.l**2
         rig = [p.K_pp, p.K_py, p.K_yp, p.K_yy, p.alpha, p.J_y, ml2, p.m * p.g * p.l, p.B_p, p.B_y, p.K_s]
         constants = np.concatenate(
-            [rig, gain.ravel(), offset, ceilings, reference, tracking.ravel(), [travel]]
+            [rig, gain.ravel(), offset, ceilings, reference, tracking.ravel(), [travel], disturbed]
         )
         windup = _WINDUP[scenario.anti_windup] if loop.has_integrators and scenario.saturation else 0
         modes = np.array([0, 0, 1, 1, 0, *motors, windup], dtype=np.int64)
         first = np.concatenate([start, np.zeros(2)])
-        return cls(constants, modes, gain, offset, first, reference, ceilings, travel)
+        return cls(constants, modes, gain, offset, first, reference, ceilings, travel, since)
 
     def voltages(self, states: Floats) -> Floats:
         """What the motors get in `states`, (6, n): shape (2, n), V."""
@@ -98,20 +103,43 @@ def simulate_nonlinear(loop: Loop, limits: Limits, scenario: Scenario) -> Respon
     system = NonlinearLoop.of(loop, limits, scenario)
     t = np.linspace(0.0, scenario.duration, scenario.samples)
     states = np.full((scenario.samples, 6), np.nan)
-    rtol, kernels = scenario.rtol, engine()
-    outcome, _, _, _, impacts = kernels.integrate(
-        system.start.copy(),
-        t,
-        system.constants,
-        system.modes.copy(),
-        rtol,
-        ABSOLUTE_TOLERANCE * rtol,
-        kernels.most_steps,
-        states,
-    )
-    courses = np.ascontiguousarray(states.T)
-    angles, voltages, findings = hold_when_diverged(t, courses[:2], system.voltages(courses))
-    saturated = _share_at_limit(voltages, limits, scenario.saturation)
+    outcome, impacts = _integrate(system, scenario.rtol, t, states)
+    voltages = system.voltages(np.ascontiguousarray(states.T))
+    return response_of(system, t, states, voltages, outcome=outcome, impacts=impacts)
+
+
+def _integrate(system: NonlinearLoop, rtol: float, t: Floats, states: Floats) -> tuple[int, int]:
+    """Fills `states` before and after the disturbance sets in; the outcome and the number of impacts."""
+    y, modes, kernels = system.start.copy(), system.modes.copy(), engine()
+    numbers = (rtol, ABSOLUTE_TOLERANCE * rtol, kernels.most_steps)
+    calm = system.constants.copy()
+    calm[-2:] = 0.0
+    before = int(np.searchsorted(t, system.disturbed_from))
+    if before == len(t):
+        outcome, _, _, _, impacts = kernels.integrate(y, t, calm, modes, *numbers, states)
+        return outcome, impacts
+    impacts, at = 0, max(system.disturbed_from, 0.0)
+    for constants, grid, place in (
+        (calm, np.append(t[:before], at), slice(0, before)),
+        (system.constants, np.insert(t[before:], 0, at), slice(before, len(t))),
+    ):
+        if grid[-1] <= grid[0]:
+            continue
+        course = np.full((len(grid), 6), np.nan)
+        outcome, _, _, _, hits = kernels.integrate(y, grid, constants, modes, *numbers, course)
+        impacts += hits
+        states[place] = course[:-1] if place.start == 0 and before else course[1:]
+        if outcome:
+            return outcome, impacts
+    return 0, impacts
+
+
+def response_of(
+    system: NonlinearLoop, t: Floats, states: Floats, voltages: Floats, *, outcome: int, impacts: int
+) -> Response:
+    """What a kernel has filled, as a response: states (n, 6), NaN where none was reached; voltages (2, n)."""
+    angles, voltages, findings = hold_when_diverged(t, np.ascontiguousarray(states[:, :2].T), voltages)
+    saturated = _share_at_limit(voltages, system.limits)
     if outcome:
         words = f"The simulation was given up: {_OUTCOMES[outcome]}."
         findings.append(Finding("integration_stopped", "warning", words))
@@ -121,11 +149,8 @@ def simulate_nonlinear(loop: Loop, limits: Limits, scenario: Scenario) -> Respon
     return Response("nonlinear", t, angles, voltages, reference, start, saturated, tuple(findings))
 
 
-def _share_at_limit(voltages: Floats, limits: Limits, saturation: bool) -> tuple[float, float]:
-    if not saturation:
-        return 0.0, 0.0
-    ceiling = np.array([[limits.V_p], [limits.V_y]])
-    share = np.mean(np.abs(voltages) >= ceiling * (1.0 - 1e-9), axis=1)
+def _share_at_limit(voltages: Floats, limits: Floats) -> tuple[float, float]:
+    share = np.mean(np.abs(voltages) >= limits[:, None] * (1.0 - 1e-9), axis=1)
     return float(share[0]), float(share[1])
 
 

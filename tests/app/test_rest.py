@@ -231,3 +231,24 @@ def test_page_and_favicon_are_served(client):
     page = client.get("/")
     assert page.status_code == 200 and "<title>" in page.text
     assert client.get("/favicon.ico").headers["content-type"] == "image/svg+xml"
+
+
+def test_a_digital_controller_and_a_disturbance_are_options_of_the_same_step(client):
+    scenario = {"reference": {"theta": 0.1}, "duration": 1.0, "samples": 101}
+    plain = post(client, "step", {**PAPER, "scenario": scenario})
+    digital = post(client, "step", {**PAPER, "scenario": {**scenario, "digital": {"sample_time": 0.05}}})
+    models.Step.model_validate(digital)
+    assert digital["V_p"][1] == digital["V_p"][4] != digital["V_p"][6]
+    assert "slow_sampling" in {f["code"] for f in digital["findings"]}
+    pushed = post(
+        client, "step", {**PAPER, "scenario": {**scenario, "disturbance": {"V_p": 5.0, "time": 0.5}}}
+    )
+    assert pushed["theta"][:50] == pytest.approx(plain["theta"][:50], abs=1e-9)
+    assert max(pushed["theta"]) > max(plain["theta"]) + 0.01
+    for body, field in (
+        ({"digital": {"sample_time": 0}}, "scenario.digital.sample_time"),
+        ({"digital": {"rates": "guessed"}}, "scenario.digital.rates"),
+        ({"digital": {"encoders": {"theta": -1}}}, "scenario.digital.encoders.theta"),
+        ({"disturbance": {"V_y": 1e9}}, "scenario.disturbance.V_y"),
+    ):
+        assert post(client, "step", {"scenario": body}, status=422)["field"] == field

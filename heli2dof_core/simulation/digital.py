@@ -1,0 +1,79 @@
+"""Step responses of the rig under a digital controller: samples, encoders, filtered rates, delay, noise."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.linalg import expm
+
+from ..engine import engine
+from ..findings import Finding
+from ..loop import Loop
+from ..signals import Floats
+from ..spec import Digital, Limits, Scenario
+from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop, response_of
+from .response import Response
+
+FILTER_FREQUENCY = 2 * np.pi * 20
+"""Natural frequency of the rig's rate filters, rad/s (Quanser 2-DOF Helicopter, laboratory manual)."""
+FILTER_DAMPING = 0.85
+SLOW_SAMPLING = 0.25
+"""Sample time times the fastest pole beyond which the digital loop is no longer like the continuous one:
+about 25 samples per period of it (Åström & Wittenmark, Computer-Controlled Systems, 1997, section 4.4
+advises 10 to 30)."""
+
+
+def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Digital) -> Response:
+    """As `simulate_nonlinear`, the controller running every `digital.sample_time` on what it can measure.
+
+    Angles are rounded to encoder steps, rates come from second-order filters on them, the voltages are
+    held between samples and, with `digital.delay`, reach the motors one sample late. The integrals
+    are sums (Euler), and an anti-windup acts at the samples.
+    """
+    system = NonlinearLoop.of(loop, limits, scenario)
+    t = np.linspace(0.0, scenario.duration, scenario.samples)
+    states = np.full((scenario.samples, 6), np.nan)
+    held = np.full((scenario.samples, 2), np.nan)
+    count = int(np.ceil(scenario.duration / digital.sample_time)) + 2
+    noise = digital.noise * np.random.default_rng(digital.seed).standard_normal((count, 2))
+    kernels = engine()
+    outcome, _, impacts = kernels.run_digital(
+        system.start.copy(),
+        t,
+        system.constants,
+        system.modes.copy(),
+        _settings(digital),
+        noise,
+        system.disturbed_from,
+        scenario.rtol,
+        ABSOLUTE_TOLERANCE * scenario.rtol,
+        kernels.most_steps,
+        states,
+        held,
+    )
+    response = response_of(system, t, states, np.ascontiguousarray(held.T), outcome=outcome, impacts=impacts)
+    remarks = tuple(_remarks(loop, digital))
+    return Response(**{**vars(response), "findings": (*response.findings, *remarks)})
+
+
+def _settings(digital: Digital) -> Floats:
+    """`kernels.digital`'s array d."""
+    steps = [2 * np.pi / counts if counts else 0.0 for counts in digital.encoders]
+    w, zeta = FILTER_FREQUENCY, FILTER_DAMPING
+    continuous = np.array([[0.0, 1.0, 0.0], [-(w**2), -2 * zeta * w, 1.0], [0.0, 0.0, 0.0]])
+    step = np.asarray(expm(continuous * digital.sample_time))
+    filtered = float(digital.rates == "filtered")
+    F, b = step[:2, :2].ravel(), step[:2, 2]
+    return np.array([digital.sample_time, *steps, filtered, *F, *b, w**2, float(digital.delay)])
+
+
+def _remarks(loop: Loop, digital: Digital) -> Iterator[Finding]:
+    fastest = float(np.max(np.abs(loop.poles)))
+    if digital.sample_time * fastest > SLOW_SAMPLING:
+        yield Finding(
+            "slow_sampling",
+            "warning",
+            f"A sample time of {1e3 * digital.sample_time:g} ms is slow for a pole {fastest:.3g} rad/s out: the "
+            f"digital loop is not like the continuous one. Below {1e3 * SLOW_SAMPLING / fastest:.2g} ms it would be.",
+        )
