@@ -12,7 +12,7 @@ from fastapi.openapi.docs import get_swagger_ui_html
 from fastapi.responses import FileResponse
 from fastapi.staticfiles import StaticFiles
 
-from . import live, problems, scene
+from . import live, problems, robustness, scene
 from .compute import Compute
 from .routes import catalogue, comparison, derivation, design
 from .settings import Settings
@@ -49,6 +49,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(derivation.build_router(compute))
     app.include_router(comparison.build_router(compute))
     app.include_router(live.build_router(compute))
+    app.include_router(robustness.build_router(compute))
     app.include_router(scene.build_router(sessions))
     app.mount("/static", RevalidatedFiles(directory=settings.static), name="static")
     problems.install(app)

@@ -34,6 +34,7 @@ from .plant import Plant, plant
 from .poles import PoleSet, match_poles, pole_error
 from .presets import PRESETS, Preset, preset
 from .relative_gains import best_pairing, diagonal_dominance, niederlinski_index, relative_gain_array
+from .robustness import Cloud, Uncertainty, cloud
 from .simulation.response import Response
 from .spec import Limits, OuterLoop, PIGains, Scenario
 from .tuning import suggest_pi
@@ -42,6 +43,7 @@ __all__ = [
     "METHODS",
     "PRESETS",
     "Assessment",
+    "Cloud",
     "Components",
     "Design",
     "Finding",
@@ -63,11 +65,13 @@ __all__ = [
     "Spec",
     "Structure",
     "StructureUnavailableError",
+    "Uncertainty",
     "UncontrollableError",
     "UnpairedPolesError",
     "Weights",
     "best_pairing",
     "close_loop",
+    "cloud",
     "compare",
     "compare_splits",
     "design",

@@ -20,11 +20,13 @@ class Engine:
         compiled: whether Numba has compiled them; else they are interpreted, some hundred times slower.
         integrate: see `kernels.dormand_prince.integrate`.
         run_digital: see `kernels.digital.run`.
+        run_cloud: see `kernels.cloud.run`.
     """
 
     compiled: bool
     integrate: Any
     run_digital: Any
+    run_cloud: Any
 
     @property
     def most_steps(self) -> int:
@@ -63,6 +65,7 @@ def _load(package: str) -> Engine:
         compiled=package == "kernels",
         integrate=import_module(f"{home}.dormand_prince").integrate,
         run_digital=import_module(f"{home}.digital").run,
+        run_cloud=import_module(f"{home}.cloud").run,
     )
 
 
@@ -97,3 +100,5 @@ def _exercise(kernels: Engine) -> None:
     kernels.run_digital(
         np.zeros(6), t, c, m, d, np.zeros((3, 2)), np.inf, 1e-3, 1e-3, 10, states, np.empty((2, 2))
     )
+    rigs, angles = c[None, :11].copy(), np.empty((1, 2, 2))
+    kernels.run_cloud(rigs, np.zeros(6), t, c, m, 1e-3, 1e-3, 10, angles, np.empty(1))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from .checks import require_within
@@ -83,7 +83,7 @@ class Parameters:
 
     def as_dict(self) -> dict[str, float]:
         """Name → value in SI units."""
-        return asdict(self)
+        return dict(vars(self))
 
 
 PARAMETER_INFO: dict[str, dict[str, Any]] = {f.name: dict(f.metadata) for f in fields(Parameters)}

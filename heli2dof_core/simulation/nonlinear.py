@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,7 +50,7 @@ class NonlinearLoop:
     @classmethod
     def of(cls, loop: Loop, limits: Limits, scenario: Scenario) -> NonlinearLoop:
         """The loop, limits and scenario as numbers; the loop's deviations become absolute."""
-        plant, p = loop.design.plant, loop.design.plant.parameters
+        plant = loop.design.plant
         reference, start = scenario.resolved(plant.theta_0)
         rest = np.array([plant.theta_0, 0.0])
         gain = np.zeros((2, 6))
@@ -62,8 +63,7 @@ class NonlinearLoop:
         disturbance = scenario.disturbance
         disturbed = [0.0, 0.0] if disturbance is None else [disturbance.V_p, disturbance.V_y]
         since = np.inf if disturbance is None else disturbance.time
-        ml2 = p.m * p.l**2
-        rig = [p.K_pp, p.K_py, p.K_yp, p.K_yy, p.alpha, p.J_y, ml2, p.m * p.g * p.l, p.B_p, p.B_y, p.K_s]
+        rig = rig_constants(plant.parameters)
         constants = np.concatenate(
             [rig, gain.ravel(), offset, ceilings, reference, tracking.ravel(), [travel], disturbed]
         )
@@ -76,6 +76,12 @@ class NonlinearLoop:
         """What the motors get in `states`, (6, n): shape (2, n), V."""
         asked = self.gain @ states + self.offset[:, None]
         return np.clip(asked, -self.limits[:, None], self.limits[:, None])
+
+
+def rig_constants(p: Any) -> list[Any]:
+    """The rig's part of `kernels.rig`'s constants; `p` has Parameters' fields, as numbers or arrays."""
+    ml2 = p.m * p.l**2
+    return [p.K_pp, p.K_py, p.K_yp, p.K_yy, p.alpha, p.J_y, ml2, p.m * p.g * p.l, p.B_p, p.B_y, p.K_s]
 
 
 def _anti_windup(loop: Loop) -> tuple[list[int], Floats]:

@@ -1,0 +1,170 @@
+"""One controller on many rigs: the cloud of poles and the band of responses under uncertain parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from types import MappingProxyType, SimpleNamespace
+from typing import Literal
+
+import numpy as np
+
+from .checks import require_one_of, require_within
+from .compiled import linear_matrices
+from .engine import engine
+from .errors import InvalidInputError
+from .evaluate import Spec, place
+from .loop import Loop, close_loop
+from .parameters import PARAMETER_INFO, Parameters
+from .signals import Complexes, Floats
+from .simulation.nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop, rig_constants
+
+Distribution = Literal["uniform", "normal"]
+MOST_SAMPLES = 20_000
+CHUNK = 250
+"""Rigs before the first report of progress; each next part is twice as large."""
+GRID = 101
+"""Times at which responses are kept."""
+PERCENTILES = (5.0, 50.0, 95.0)
+SMALLEST = 0.02
+"""Least share of its nominal value that a parameter keeps, whatever the distribution says."""
+RTOL = 1e-5
+_DEFAULT = MappingProxyType({name: 0.1 for name in PARAMETER_INFO if name != "g"})
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """How far the rigs differ from the nominal one.
+
+    Attributes:
+        spread: per parameter its relative uncertainty: half width (uniform) or standard deviation
+            (normal, cut at three of them).
+        distribution, samples, seed: of the random rigs.
+    """
+
+    spread: Mapping[str, float] = field(default_factory=lambda: _DEFAULT)
+    distribution: Distribution = "uniform"
+    samples: int = 200
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        require_one_of(self.distribution, Distribution, "distribution")
+        require_within(self.samples, "samples", "", 1, MOST_SAMPLES)
+        for name, share in self.spread.items():
+            if name not in PARAMETER_INFO:
+                raise InvalidInputError(
+                    f"there is no parameter {name!r}",
+                    field=f"uncertainty.{name}",
+                    hint="Known are " + ", ".join(PARAMETER_INFO) + ".",
+                )
+            require_within(share, f"uncertainty.{name}", "", 0.0, 0.95)
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """What is known after `done` of the rigs.
+
+    Attributes:
+        done, samples: rigs so far, and in all.
+        loop_poles: of the whole loop, (done, 6), or 4 without integrators, rad/s.
+        t: s, (`GRID`,).
+        percentiles: of the responses, % (5, 50, 95).
+        envelopes: by output name, (3, `GRID`), rad, of the rigs whose responses stayed finite.
+        share_stable: of the rigs whose linear loop is stable.
+        share_within_limits: of those whose motors stay below their limits and whose pitch meets no stop.
+    """
+
+    done: int
+    samples: int
+    loop_poles: Complexes
+    t: Floats
+    percentiles: tuple[float, ...]
+    envelopes: dict[str, Floats]
+    share_stable: float
+    share_within_limits: float
+
+
+def cloud(spec: Spec, uncertainty: Uncertainty = Uncertainty()) -> Cloud:
+    """The whole cloud at once."""
+    *_, last = cloud_in_parts(spec, uncertainty)
+    return last
+
+
+def cloud_in_parts(spec: Spec, uncertainty: Uncertainty) -> Iterator[Cloud]:
+    """The cloud after every few hundred rigs; who stops asking stops the work.
+
+    K and the outer loop stay as they were designed for the nominal rig, and so does the trim.
+
+    Raises:
+        Heli2DofError: the design does not exist.
+    """
+    loop = close_loop(place(spec), spec.outer)
+    rigs = _random_rigs(spec.parameters, uncertainty)
+    system = NonlinearLoop.of(loop, spec.limits, spec.scenario)
+    t = np.linspace(0.0, spec.scenario.duration, GRID)
+    constants = _constants(rigs)
+    poles = _loop_poles(loop, rigs)
+    angles, within = np.empty((len(rigs), 2, GRID)), np.empty(len(rigs))
+    kernels = engine()
+
+    def respond(first: int, last: int) -> None:
+        part = slice(first, last)
+        numbers = (RTOL, ABSOLUTE_TOLERANCE * RTOL, kernels.most_steps)
+        arguments = (system.start, t, system.constants, system.modes, *numbers)
+        kernels.run_cloud(constants[part], *arguments, angles[part], within[part])
+
+    with ThreadPoolExecutor(2) as pool:
+        begin, size = 0, CHUNK
+        while begin < len(rigs):
+            end = min(begin + size, len(rigs))
+            middle = (begin + end) // 2
+            list(pool.map(respond, (begin, middle), (middle, end)))
+            yield _summary(t, poles, angles, within, end)
+            begin, size = end, 2 * size  # so that all summaries together cost as much as the last
+
+
+def _summary(t: Floats, poles: Complexes, angles: Floats, within: Floats, done: int) -> Cloud:
+    finite = np.all(np.isfinite(angles[:done]), axis=(1, 2))
+    kept = angles[:done][finite]
+    bands = np.percentile(kept, PERCENTILES, axis=0) if len(kept) else np.zeros((3, 2, len(t)))
+    return Cloud(
+        done=done,
+        samples=len(poles),
+        loop_poles=poles[:done],
+        t=t,
+        percentiles=PERCENTILES,
+        envelopes={name: np.ascontiguousarray(bands[:, i]) for i, name in enumerate(("theta", "psi"))},
+        share_stable=float(np.mean(np.max(poles[:done].real, axis=1) < 0)),
+        share_within_limits=float(np.mean(within[:done])),
+    )
+
+
+def _random_rigs(nominal: Parameters, uncertainty: Uncertainty) -> Floats:
+    """Rigs whose parameters are the nominal ones times random factors, (samples, 12), in field order."""
+    rng = np.random.default_rng(uncertainty.seed)
+    values = nominal.as_dict()
+    spread = np.array([uncertainty.spread.get(name, 0.0) for name in values])
+    shape = (uncertainty.samples, len(values))
+    if uncertainty.distribution == "uniform":
+        deviations = rng.uniform(-1.0, 1.0, shape)
+    else:
+        deviations = np.clip(rng.standard_normal(shape), -3.0, 3.0)
+    return np.array(list(values.values())) * np.maximum(1.0 + spread * deviations, SMALLEST)
+
+
+def _constants(rigs: Floats) -> Floats:
+    """The rigs' parts of `kernels.rig`'s constants, (samples, 11)."""
+    columns = SimpleNamespace(**dict(zip(PARAMETER_INFO, rigs.T, strict=True)))
+    columns.alpha = columns.J_p + columns.m * columns.l**2
+    return np.ascontiguousarray(np.column_stack(rig_constants(columns)))
+
+
+def _loop_poles(loop: Loop, rigs: Floats) -> Complexes:
+    """Poles of the nominal controller around each rig, linear, about the nominal operating point."""
+    matrices = [linear_matrices()(*rig, loop.design.plant.theta_0) for rig in rigs.tolist()]
+    A, B = np.array([m[0] for m in matrices], dtype=float), np.array([m[1] for m in matrices], dtype=float)
+    whole = np.repeat(loop.A[None], len(rigs), axis=0)
+    whole[:, :4] = B @ loop.voltage_from_state
+    whole[:, :4, :4] += A
+    return np.linalg.eigvals(whole).astype(np.complex128)
