@@ -48,12 +48,15 @@ export const walkThrough = (design) => call('api/v1/walkthrough', { method: 'POS
 /** @param {string} session @param {string} rig */
 export const putRig = (session, rig) => call(`scene/${encodeURIComponent(session)}/rig`, { method: 'PUT', body: { rig } });
 
-/** @returns {string} the live socket's address */
-export function liveAddress() {
-  const url = at('api/v1/live');
+/** @param {string} path */
+function socketAddress(path) {
+  const url = at(path);
   url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
   return url.href;
 }
+
+export const liveAddress = () => socketAddress('api/v1/live');
+export const cloudAddress = () => socketAddress('api/v1/robustness');
 
 /**
  * The live socket. One request is in flight at most; while it is, only the newest one waits. A lost connection is tried again, ever more slowly,

@@ -1,5 +1,6 @@
 /** Wires only: state to views, views to state, and the design to the server. What each part does is written in its module. */
 import { getMethods, getPresets, Live } from './api.js';
+import { CloudFeed } from './cloud.js';
 import { byId } from './dom.js';
 import { Plots } from './plots.js';
 import { SceneView } from './scene_view.js';
@@ -26,7 +27,7 @@ const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t) });
 const views = [
   new HeaderPanel(byId('header'), store), new FindingsPanel(byId('strip')), new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store),
   new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
-  new ComparePanel(byId('compare'), store), new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene,
+  new ComparePanel(byId('compare'), store), new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene, new CloudFeed(store),
 ];
 
 /** @type {Map<number, number|undefined>} */

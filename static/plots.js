@@ -28,6 +28,7 @@ export class Plots {
   /** @type {any[]} */ #seen = [];
   /** @type {number|null} */ #hover = null;
   #playhead = 0;
+  /** @type {import('./types.js').Cloud|null} */ #cloud = null;
   /** @type {{t: import('./types.js').Series, plots: Record<Signal, any[]>}|null} */ #data = null;
 
   /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onSeek: (t: number) => void}} handlers */
@@ -75,7 +76,7 @@ export class Plots {
         sync: { key: 'heli2dof', filters: { pub: (/** @type {string} */ type) => type === 'mousemove' || type === 'mouseleave' } },
         bind: { dblclick: () => () => this.#zoomTo(null) } },
       hooks: {
-        drawClear: [(/** @type {any} */ u) => this.#drawLimits(u, signal)],
+        drawClear: [(/** @type {any} */ u) => this.#drawLimits(u, signal), (/** @type {any} */ u) => this.#drawBand(u, signal)],
         draw: [(/** @type {any} */ u) => this.#drawReference(u, signal)],
         setCursor: [(/** @type {any} */ u) => this.#hovered(u)],
         setSelect: [(/** @type {any} */ u) => this.#selected(u)],
@@ -96,6 +97,10 @@ export class Plots {
 
   /** @param {State} state @returns {boolean} whether anything was drawn */
   render(state) {
+    if (state.cloud !== this.#cloud) {
+      this.#cloud = state.cloud;
+      for (const { signal, chart } of this.plots) if (!isVoltage(signal)) chart.redraw(false);
+    }
     const seen = [state.reply, state.motion, state.showLinear];
     if (!state.reply || seen.every((v, i) => v === this.#seen[i])) return false;
     this.#seen = seen;
@@ -140,6 +145,27 @@ export class Plots {
       else ctx.fillRect(bbox.left, y, bbox.width, bbox.top + bbox.height - y);
       this.#rule(u, y, this.#colors.danger, [], `limit ${v < 0 ? '\u2212' : ''}${Math.abs(v)} V`, v > 0 ? 1 : -1);
     }
+    ctx.restore();
+  }
+
+  /** Between the 5th and the 95th percentile of the cloud's responses. @param {any} u @param {Signal} signal */
+  #drawBand(u, signal) {
+    if (!this.#cloud || isVoltage(signal)) return;
+    const { t, envelopes } = this.#cloud;
+    const [low, , high] = envelopes[/** @type {'theta'|'psi'} */ (signal)];
+    const { ctx, bbox } = u;
+    const at = (/** @type {number[]} */ band, /** @type {number} */ i) => /** @type {const} */ ([u.valToPos(t[i], 'x', true), u.valToPos(band[i] * DEGREE, 'y', true)]);
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    ctx.beginPath();
+    for (let i = 0; i < t.length; i++) ctx.lineTo(...at(high, i));
+    for (let i = t.length - 1; i >= 0; i--) ctx.lineTo(...at(low, i));
+    ctx.closePath();
+    ctx.globalAlpha = 0.22;
+    ctx.fillStyle = this.#colors[signal === 'theta' ? 'pitch' : 'yaw'];
+    ctx.fill();
     ctx.restore();
   }
 

@@ -4,10 +4,12 @@
  * @typedef {import('./types.js').State} State
  * @typedef {import('./types.js').Complex} Complex
  */
+import { cloudWords, SPREADS } from './cloud.js';
 import { h, setAttr, setText, svg } from './dom.js';
 import { fixed, poleText, seconds } from './format.js';
 import { placesPoles } from './methods.js';
 import { character, drag, isComplex, nudge, pairOf, partner, tidy } from './poles.js';
+import { drawCloud } from './splane_cloud.js';
 import { drawGrid } from './splane_grid.js';
 import { bounds, fit, keyStep, outgrown, toPixel, toPlane, zoom } from './splane_math.js';
 
@@ -47,14 +49,19 @@ export class SPlane {
     this.svg = svg('svg', { class: 'splane-svg', 'data-testid': 'splane', role: 'group', 'aria-label': 'Poles in the s-plane' },
       this.open, ...this.links, this.loop, ...this.handles);
     this.readout = h('div', { class: 'readout', hidden: true, 'data-testid': 'readout' });
+    this.spread = h('select', { 'data-testid': 'spread', 'aria-label': 'Uncertainty of the rig', title: 'The same controller on rigs whose parameters differ by so much: their poles as dots, their responses as bands',
+      onchange: () => store.set({ spread: Number(this.spread.value) }) }, SPREADS.map((v) => h('option', { value: v }, v ? `± ${100 * v} %` : 'exact rig')));
+    this.cloud = h('canvas', { class: 'cloud', 'aria-hidden': 'true' });
+    this.cloudText = h('div', { class: 'cloud-words', 'data-testid': 'cloud-words', role: 'status' });
     const tools = h('div', { class: 'splane-tools' },
       h('button', { type: 'button', title: 'Zoom in', 'aria-label': 'Zoom in', onclick: () => this.#zoomBy(1.4) }, '+'),
       h('button', { type: 'button', title: 'Zoom out', 'aria-label': 'Zoom out', onclick: () => this.#zoomBy(1 / 1.4) }, '\u2212'),
-      h('button', { type: 'button', title: 'Fit all poles into view', 'data-testid': 'fit', onclick: () => this.fit() }, 'Fit'));
+      h('button', { type: 'button', title: 'Fit all poles into view', 'data-testid': 'fit', onclick: () => this.fit() }, 'Fit'),
+      this.spread);
     this.key = h('div', { class: 'splane-key', 'data-testid': 'splane-key' },
       h('span', { title: 'poles of the whole loop: PI moves the poles that you placed' }, svg('svg', { class: 'loop-poles', 'aria-hidden': 'true', viewBox: '-7 -7 14 14' }, svg('path', { d: LOOP_MARK })), (this.loopName = h('span'))),
       h('span', { title: 'poles of the rig without feedback' }, svg('svg', { class: 'open-poles', 'aria-hidden': 'true', viewBox: '-7 -7 14 14' }, svg('path', { d: OPEN_MARK })), 'open loop'));
-    root.append(backdrop, this.svg, this.readout, tools, this.key);
+    root.append(backdrop, this.cloud, this.svg, this.readout, tools, this.key, this.cloudText);
     this.#listen();
     new ResizeObserver(([entry]) => {
       if (entry.contentRect.width) this.#readoutWidth = entry.borderBoxSize[0].inlineSize;
@@ -260,6 +267,8 @@ export class SPlane {
     }
     this.#marks(this.open, reply?.open_loop_poles ?? [], () => svg('path', { d: OPEN_MARK }));
     this.#marks(this.loop, design.outer === 'pi' || unused ? reply?.loop_poles ?? [] : [], () => svg('path', { d: LOOP_MARK }));
+    drawCloud(this.cloud, this.#view, state.spread ? state.cloud : null);
+    setText(this.cloudText, state.spread ? cloudWords(state.cloud) : '');
     this.#drawReadout();
   }
 

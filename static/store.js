@@ -13,7 +13,7 @@ const DEPTH = 200;
 
 /** @returns {State} */
 export const initialState = () => ({
-  presets: [], methods: [], design: null, reply: null, problem: null, connection: 'connecting', motion: 'both', showLinear: true, dragging: false,
+  presets: [], methods: [], design: null, reply: null, problem: null, connection: 'connecting', motion: 'both', showLinear: true, dragging: false, spread: 0, cloud: null,
   canUndo: false, canRedo: false,
 });
 

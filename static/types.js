@@ -91,7 +91,12 @@
  * @typedef {'theta'|'psi'|'both'} Motion
  * @typedef {'connecting'|'open'|'lost'} Connection
  *
+ * @typedef {{theta: number[][], psi: number[][]}} Envelopes  a row per percentile
+ * @typedef {{done: number, samples: number, loop_poles: Complex[][], t: number[], envelopes: Envelopes, share_stable: number, share_within_limits: number}} Cloud
+ *
  * @typedef {object} State
+ * @property {number} spread  relative uncertainty of the rigs in the cloud; 0: no cloud
+ * @property {Cloud|null} cloud
  * @property {Preset[]} presets
  * @property {Method[]} methods
  * @property {Design|null} design

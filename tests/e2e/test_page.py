@@ -7,7 +7,7 @@ import socket
 import pytest
 from playwright.sync_api import Browser, Frame, Page, expect
 
-from tests.e2e.conftest import App, opened, running_app, settled, state
+from tests.e2e.conftest import PATIENCE, App, opened, running_app, settled, state
 
 POSE = """() => {
   const data = window.__viserMutable?.nodePoseData ?? {};
@@ -278,3 +278,19 @@ def test_a_drag_updates_many_times_a_second(page: Page, record_property):
         record_property(name, summary[name])
     print(f"\na drag: {summary}")
     assert summary["updates"] >= 10
+
+
+def test_uncertain_rigs_show_as_a_cloud_of_poles_and_a_band(page: Page):
+    before = {plot: page.evaluate(TRACES, plot) for plot in ("plot-theta", "plot-V_p")}
+    cloud = "() => [...document.querySelector('canvas.cloud').getContext('2d')"
+    cloud += ".getImageData(0, 0, 500, 500).data].filter((v, i) => i % 4 === 3 && v > 0).length"
+    page.get_by_test_id("spread").select_option("0.1")
+    expect(page.get_by_test_id("cloud-words")).to_contain_text("2000 rigs: 100 % stable", timeout=PATIENCE)
+    assert page.evaluate(cloud) > 500
+    assert page.evaluate(TRACES, "plot-theta") != before["plot-theta"]
+    assert page.evaluate(TRACES, "plot-V_p") == before["plot-V_p"]
+    drag(page, "pole-2", 60)
+    expect(page.get_by_test_id("cloud-words")).to_contain_text("rigs")
+    page.get_by_test_id("spread").select_option("0")
+    page.wait_for_function(f"() => ({cloud})() === 0")
+    expect(page.get_by_test_id("cloud-words")).to_be_empty()

@@ -1,0 +1,79 @@
+/** The feed of the cloud: few rigs at once, many at rest, one request at a time, nothing when it is off. */
+import assert from 'node:assert/strict';
+import { mock, test } from 'node:test';
+import { CloudFeed, cloudRequest, cloudWords } from '../../static/cloud.js';
+import { designOf, Store } from '../../static/store.js';
+
+const preset = {
+  name: 'rig', title: '', source: '', rig: 'helicopter', parameters: { K_pp: 1, g: 9.81 }, limits: { V_p: 24, V_y: 15 }, poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),
+  loops: { pitch: { kp: 1, ti: 1 }, yaw: { kp: 1, ti: 1 } }, scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 3 },
+};
+
+function rigged() {
+  const store = new Store();
+  store.set({ presets: [preset] });
+  store.load(designOf(preset));
+  const sockets = [];
+  const feed = new CloudFeed(store, () => {
+    const socket = { readyState: 0, sent: [], closed: false, send(text) { this.sent.push(JSON.parse(text)); }, close() { this.closed = true; } };
+    sockets.push(socket);
+    return socket;
+  });
+  const answer = (socket, samples, done = samples) => socket.onmessage({ data: JSON.stringify({ done, samples, loop_poles: [], t: [], envelopes: { theta: [], psi: [] }, share_stable: 1, share_within_limits: 0.999 }) });
+  const open = (socket) => { socket.readyState = 1; socket.onopen(); };
+  return { store, feed, sockets, answer, open };
+}
+
+test('nothing is asked until an uncertainty is chosen', () => {
+  const { store, feed, sockets } = rigged();
+  feed.render(store.state);
+  assert.equal(sockets.length, 0);
+});
+
+test('few rigs at once, many when the hand rests, one request at a time', () => {
+  mock.timers.enable({ apis: ['setTimeout'] });
+  const { store, feed, sockets, answer, open } = rigged();
+  store.set({ spread: 0.1 });
+  feed.render(store.state);
+  open(sockets[0]);
+  const { sent } = sockets[0];
+  assert.deepEqual([sent[0].samples, sent[0].uncertainty], [200, { K_pp: 0.1 }]);
+  store.edit((d) => ({ ...d, pairing: 'cross' }));
+  feed.render(store.state);
+  store.edit((d) => ({ ...d, pairing: 'diagonal', outer: 'none' }));
+  feed.render(store.state);
+  assert.equal(sent.length, 1);
+  answer(sockets[0], 200);
+  assert.equal(sent[1].outer, 'none');
+  answer(sockets[0], 200);
+  mock.timers.tick(600);
+  assert.equal(sent[2].samples, 2000);
+  answer(sockets[0], 2000, 250);
+  assert.equal(store.state.cloud.done, 250);
+  answer(sockets[0], 2000);
+  assert.equal(store.state.cloud.done, 2000);
+  mock.timers.reset();
+});
+
+test('switched off, the cloud goes and the socket with it', () => {
+  const { store, feed, sockets, answer, open } = rigged();
+  store.set({ spread: 0.2 });
+  feed.render(store.state);
+  open(sockets[0]);
+  answer(sockets[0], 200);
+  store.set({ spread: 0 });
+  feed.render(store.state);
+  assert.equal(store.state.cloud, null);
+  assert.equal(sockets[0].closed, true);
+});
+
+test('the request is for the motion that is played', () => {
+  const design = designOf(preset);
+  assert.deepEqual(cloudRequest(design, 0.1, 'psi', ['m', 'g'], 5).scenario, { reference: { psi: 0.2 }, duration: 3 });
+  assert.deepEqual(cloudRequest(design, 0.1, 'both', ['m', 'g'], 5).uncertainty, { m: 0.1 });
+});
+
+test('nearly all is not all', () => {
+  assert.equal(cloudWords(null), '');
+  assert.equal(cloudWords({ done: 2000, share_stable: 0.9995, share_within_limits: 1 }), '2000 rigs: 99 % stable, 100 % within limits');
+});
