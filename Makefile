@@ -37,8 +37,9 @@ e2e: $(VENV)/.tools browser ## the browser tests alone
 screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.screenshot docs/screenshot.png
 
-bench: $(VENV)/.tools ## time placement against python-control, as ratios
+bench: $(VENV)/.tools ## time all against python-control and SciPy, as ratios; writes docs/performance.md
 	$(BIN)/python -W ignore -m tests.bench.placement
+	$(BIN)/python -W ignore -m tests.bench.update docs/performance.md
 
 image: ## build the container with $(IMAGE_BUILDER)
 	$(IMAGE_BUILDER) -t $(IMAGE) .

@@ -126,9 +126,8 @@ def jobs() -> dict[str, dict[str, Callable[[], object]]]:
 def main() -> None:
     warm_up()
     warnings.simplefilter("ignore")
-    lines = [
-        f"Python {platform.python_version()}, {platform.machine()}, medians of one run; the first row of a table is 1."
-    ]
+    machine = f"Python {platform.python_version()}, {platform.machine()}"
+    lines = [f"{machine}, medians of one run; the first row of a table is 1."]
     for title, calls in jobs().items():
         times = measured(calls)
         peer = next(iter(times.values()))
@@ -139,7 +138,7 @@ def main() -> None:
     text = "\n".join(lines)
     print(text)
     if len(sys.argv) > 1:
-        header = "# Performance\n\n`make bench` makes this table anew. Ratios hold better than times: machines drift.\n\n"
+        header = "# Performance\n\n`make bench` makes this anew. Ratios hold better than times: machines drift.\n\n"
         Path(sys.argv[1]).write_text(header + text + "\n", encoding="utf-8")
 
 
