@@ -97,8 +97,16 @@ def cloud_in_parts(spec: Spec, uncertainty: Uncertainty) -> Iterator[Cloud]:
     K and the outer loop stay as they were designed for the nominal rig, and so does the trim.
 
     Raises:
+        InvalidInputError: the scenario has a digital controller or a disturbance.
         Heli2DofError: the design does not exist.
     """
+    for name in ("digital", "disturbance"):
+        if getattr(spec.scenario, name) is not None:
+            raise InvalidInputError(
+                f"the cloud knows no {name}: its controller is continuous and its motors undisturbed",
+                field=f"scenario.{name}",
+                hint="Leave it out.",
+            )
     loop = close_loop(place(spec), spec.outer)
     rigs = _random_rigs(spec.parameters, uncertainty)
     system = NonlinearLoop.of(loop, spec.limits, spec.scenario)

@@ -18,6 +18,8 @@ def test_rest_gives_the_whole_cloud(client):
         ({"uncertainty": {"mass": 0.1}}, "uncertainty.mass"),
         ({"samples": 10**6}, "samples"),
         ({"distribution": "flat"}, "distribution"),
+        ({"scenario": {"digital": {}}}, "scenario.digital"),
+        ({"scenario": {"disturbance": {"V_p": 1.0}}}, "scenario.disturbance"),
     ):
         assert post(client, "robustness", body, status=422)["field"] == field
 
