@@ -13,6 +13,7 @@ from .comparison import compare, compare_splits
 from .components import Components
 from .couplings import Structure
 from .design import Design, design
+from .engine import warm_up
 from .errors import (
     Heli2DofError,
     InvalidInputError,
@@ -90,4 +91,5 @@ __all__ = [
     "rga_over_frequency",
     "simulate",
     "suggest_pi",
+    "warm_up",
 ]
