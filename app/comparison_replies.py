@@ -6,6 +6,7 @@ from dataclasses import asdict
 from importlib.util import find_spec
 
 from heli2dof_core.comparison import STRUCTURES, Comparison, Row, Split
+from heli2dof_core.design import FULL_RANK
 from heli2dof_core.placement.assess import Assessment
 from heli2dof_core.placement.full_rank import FullRankPlacement
 from heli2dof_core.placement.lqr_integral import IntegralPlacement
@@ -75,7 +76,7 @@ def splits_reply(splits: tuple[Split, ...]) -> list[Reply]:
 
 
 def _method(method: Method) -> Reply:
-    own = method.name == "full-rank"
+    own = method.name == FULL_RANK
     needs = {} if method.needs is None else {"needs": method.needs}
     return {
         "name": method.name,

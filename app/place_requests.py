@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
+from heli2dof_core.design import FULL_RANK
 from heli2dof_core.errors import InvalidInputError
 from heli2dof_core.placement.assess import Assessment, assess, place_poles
 from heli2dof_core.placement.full_rank import full_rank
@@ -44,7 +45,7 @@ class PlaceRequest(Strict):
     A: Matrix
     B: Matrix
     poles: list[Pole] = Field(min_length=1, max_length=MOST_STATES)
-    method: str = Field(default="full-rank", json_schema_extra={"enum": [*METHODS]})
+    method: str = Field(default=FULL_RANK, json_schema_extra={"enum": [*METHODS]})
     groups: list[PoleGroup] | None = Field(
         default=None, max_length=MOST_STATES, description="full-rank: by default in the order of the poles"
     )
@@ -66,7 +67,7 @@ class PlaceRequest(Strict):
         """
         A, B, poles = require_system(_array(self.A, "A"), _array(self.B, "B"), self.poles)
         options = ("groups", "input_order", "triangle", "shift")
-        if self.method == "full-rank":
+        if self.method == FULL_RANK:
             groups = None
             if self.groups is not None:
                 groups = [Group(tuple(g.inputs), tuple(g.poles)) for g in self.groups]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,10 +18,12 @@ from heli2dof_core import (
     Interaction,
     InvalidInputError,
     Loop,
+    Parameters,
     Preset,
     Report,
     Spec,
     interaction,
+    plant,
     rga_over_frequency,
 )
 from heli2dof_core.components import COMPONENT_INFO
@@ -48,6 +51,13 @@ def poles_reply(poles: Iterable[complex]) -> list[Reply]:
     return [{"re": float(p.real), "im": float(p.imag)} for p in poles]
 
 
+@lru_cache(maxsize=256)
+def _indices(parameters: Parameters, theta_0: float) -> tuple[int, ...]:
+    """The rig's controllability indices, which no pole changes: scanned once, not at every drag."""
+    rig = plant(parameters, theta_0)
+    return controllability_indices(rig.A, rig.B)
+
+
 def findings_reply(findings: Iterable[Finding]) -> list[Reply]:
     """Findings as objects."""
     return [asdict(finding) for finding in findings]
@@ -68,7 +78,7 @@ def gains_reply(design: Design) -> Reply:
             "norm": design.norm,
             "spectral_norm": design.spectral_norm,
             "eigenvector_condition": design.eigenvector_condition,
-            "controllability_indices": list(controllability_indices(design.plant.A, design.plant.B)),
+            "controllability_indices": list(_indices(design.plant.parameters, design.plant.theta_0)),
             "findings": findings_reply(design.findings),
         }
     )

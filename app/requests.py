@@ -13,6 +13,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSche
 
 from heli2dof_core import OuterLoop, PIGains, PoleSet, Preset, Spec, Structure, preset
 from heli2dof_core.couplings import Coupling, Lead
+from heli2dof_core.design import FULL_RANK
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.placement.method import Weights
 from heli2dof_core.placement.registry import METHODS
@@ -149,7 +150,7 @@ class DesignRequest(Strict):
         default=None, min_length=4, max_length=4, description="p₁, p₂ (pitch's pair), p₃, p₄ (yaw's), rad/s"
     )
     method: str = Field(
-        default="full-rank", description="see GET /api/v1/methods", json_schema_extra={"enum": [*METHODS]}
+        default=FULL_RANK, description="see GET /api/v1/methods", json_schema_extra={"enum": [*METHODS]}
     )
     coupling: Coupling | None = None
     lead: Lead | None = Field(default=None, description="axis that leads where the coupling is triangular")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import atan, degrees
+from math import atan
 
 import numpy as np
 
@@ -67,13 +67,6 @@ def loop_sensitivity(loop: Loop) -> Sensitivity | None:
     return Sensitivity(peak, at, 1 / mu, at_disk)
 
 
-def words(sensitivity: Sensitivity) -> str:
-    """The disk margin as gain and phase, for people."""
-    low, high = sensitivity.gain_range
-    above = "∞" if high is None else f"{high:.2f}"
-    return f"gains × {low:.2f} to {above}, phases ± {degrees(sensitivity.phase):.0f}°, at both motors at once"
-
-
 def _sensitivity_response(loop: Loop) -> Callable[[Floats], Complexes]:
     """S(jω) for many ω, (n, 2, 2): as a sum over the poles where their eigenvectors allow it."""
     n = len(loop.A)
@@ -88,11 +81,12 @@ def _sensitivity_response(loop: Loop) -> Callable[[Floats], Complexes]:
             return np.asarray(np.eye(2) - C_u @ np.linalg.solve(pencil, B), dtype=np.complex128)
 
         return solved
-    residues = (C_u @ vectors).T[:, :, None] * np.linalg.solve(vectors, B.astype(complex))[:, None, :]
+    outputs, inputs = (C_u @ vectors).T, np.linalg.solve(vectors, B.astype(complex))
+    residues = (outputs[:, :, None] * inputs[:, None, :]).reshape(n, 4)
 
     def summed(w: Floats) -> Complexes:
         modes = 1 / (1j * w[:, None] - values[None, :])
-        return np.asarray(np.eye(2) - np.einsum("wk,kij->wij", modes, residues), dtype=np.complex128)
+        return np.asarray(np.eye(2) - (modes @ residues).reshape(-1, 2, 2), dtype=np.complex128)
 
     return summed
 

@@ -51,7 +51,10 @@ export class CloudFeed {
       this.#ask(cloudRequest(design, spread, motion, names, FEW));
     } else if (dragging || this.#timer) return;
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => this.store.state.dragging || this.#ask(cloudRequest(design, spread, motion, names, MANY)), REST_MS);
+    this.#timer = setTimeout(() => {
+      if (this.store.state.dragging) this.#timer = undefined; // asked when the hand lets go
+      else this.#ask(cloudRequest(design, spread, motion, names, MANY));
+    }, REST_MS);
   }
 
   #stop() {

@@ -1,5 +1,5 @@
 /** How well it does, in figures: one column for the step of each axis, from the nonlinear rig. */
-import { h, setText, symbol } from '../dom.js';
+import { h, setAttr, setText, symbol } from '../dom.js';
 import { decibel, degrees, fixed, percent, seconds } from '../format.js';
 
 /** @typedef {import('../types.js').Reply} Reply */
@@ -34,6 +34,9 @@ const ROWS = [
   { id: 'delay', name: () => ['Delay margin'], title: 'the dead time that this motor would still bear', of: (_m, _a, g) => seconds(g?.delay_margin) },
 ];
 
+/** The disk margin in words. @param {import('../types.js').Reply['sensitivity']} s */
+const bothMotors = (s) => (s ? `both motors at once: gains × ${fixed(s.gain_low)} to ${s.gain_high === undefined ? '∞' : fixed(s.gain_high)}, phases ± ${degrees(s.phase, 0)} (disk margin ${fixed(s.disk_margin)}); sensitivity peak ${fixed(s.peak)}` : '');
+
 export class MetricsPanel {
   /** @param {HTMLElement} root */
   constructor(root) {
@@ -52,6 +55,7 @@ export class MetricsPanel {
       const margin = reply.margins?.[axis === 'theta' ? 'pitch' : 'yaw'];
       ROWS.forEach((row, i) => {
         setText(this.cells[i][j], row.of(metrics, axis, margin));
+        if (row.id === 'margin') setAttr(this.cells[i][j], 'title', bothMotors(reply.sensitivity));
         this.cells[i][j].classList.toggle('warn', Boolean(metrics && row.warn?.(metrics)));
       });
     });

@@ -294,3 +294,9 @@ def test_uncertain_rigs_show_as_a_cloud_of_poles_and_a_band(page: Page):
     page.get_by_test_id("spread").select_option("0")
     page.wait_for_function(f"() => ({cloud})() === 0")
     expect(page.get_by_test_id("cloud-words")).to_be_empty()
+
+
+def test_the_disk_margin_stands_behind_the_margins(page: Page, app: App):
+    reply = page.request.post(app.url + "api/v1/evaluate", data={}).json()["sensitivity"]
+    told = page.get_by_test_id("metric-margin-theta").get_attribute("title") or ""
+    assert f"disk margin {reply['disk_margin']:.2f}" in told and "both motors" in told

@@ -77,3 +77,20 @@ test('nearly all is not all', () => {
   assert.equal(cloudWords(null), '');
   assert.equal(cloudWords({ done: 2000, share_stable: 0.9995, share_within_limits: 1 }), '2000 rigs: 99 % stable, 100 % within limits');
 });
+
+test('a hand that rests without letting go gets its many rigs when it does', () => {
+  mock.timers.enable({ apis: ['setTimeout'] });
+  const { store, feed, sockets, answer, open } = rigged();
+  store.set({ spread: 0.1, dragging: true });
+  feed.render(store.state);
+  open(sockets[0]);
+  answer(sockets[0], 200);
+  mock.timers.tick(600);
+  feed.render(store.state);
+  assert.equal(sockets[0].sent.length, 1);
+  store.set({ dragging: false });
+  feed.render(store.state);
+  mock.timers.tick(600);
+  assert.equal(sockets[0].sent[1].samples, 2000);
+  mock.timers.reset();
+});
