@@ -13,6 +13,7 @@ import { forField, parseNumber, significant } from './format.js';
  * @property {number} min
  * @property {number} max
  * @property {boolean} [positive]  zero is refused
+ * @property {number} [optional]  the field may be empty, which reads as NaN; the arrow keys then begin with this
  * @property {string} testid
  * @property {string} [field]  the path under which the server names it
  * @property {{min: number, max: number, log?: boolean}} [slider]
@@ -45,14 +46,14 @@ export class NumberField {
 
   /** @param {number} v */
   set(v) {
-    const changed = v !== this.value;
+    const changed = !Object.is(v, this.value);
     this.value = v;
     // Who types must not be corrected meanwhile; what comes from elsewhere (undo, another preset) replaces the text.
     const own = document.activeElement === this.input && (this.#typing || !changed);
     if (changed) this.#typing = false;
     if (!own && (changed || this.input.getAttribute('aria-invalid') !== 'true')) {
       this.complain('');
-      const text = forField(v);
+      const text = this.#text(v);
       if (this.input.value !== text) this.input.value = text;
     }
     if (this.slider && document.activeElement !== this.slider) this.#toSlider(v);
@@ -82,8 +83,9 @@ export class NumberField {
   /** @param {number} stamp */
   #typed(stamp) {
     const v = parseNumber(this.input.value);
-    const { min, max, positive } = this.options;
-    if (!Number.isFinite(v)) return this.complain('a number, please');
+    const { min, max, positive, optional } = this.options;
+    const empty = optional !== undefined && !this.input.value.trim();
+    if (!Number.isFinite(v) && !empty) return this.complain('a number, please');
     if (positive && v <= 0) return this.complain('must be positive');
     if (v < min || v > max) return this.complain(`${significant(min, 3)} to ${significant(max, 3)}`);
     this.complain('');
@@ -95,20 +97,29 @@ export class NumberField {
   #done() {
     this.#typing = false;
     this.complain('');
-    this.input.value = forField(this.value);
+    this.input.value = this.#text(this.value);
     this.options.onCommit();
   }
 
   /** @param {KeyboardEvent} e */
   #key(e) {
     if (e.key === 'Enter') this.#done();
-    if (e.key !== 'ArrowUp' && e.key !== 'ArrowDown') return;
+    if (e.key !== 'ArrowUp' && e.key !== 'ArrowDown') return undefined;
     e.preventDefault();
+    const { min, max, optional } = this.options;
+    if (optional !== undefined && !Number.isFinite(this.value)) {
+      this.input.value = forField(optional);
+      return this.#typed(e.timeStamp);
+    }
     const size = 10 ** Math.floor(Math.log10(Math.max(Math.abs(this.value), 1e-3)) + 1e-9) * (e.shiftKey ? 0.01 : 0.1);
-    const { min, max } = this.options;
     const v = Math.max(min, Math.min(max, this.value + (e.key === 'ArrowUp' ? size : -size)));
     this.input.value = forField(Number(v.toPrecision(9)));
-    this.#typed(e.timeStamp);
+    return this.#typed(e.timeStamp);
+  }
+
+  /** @param {number} v */
+  #text(v) {
+    return Number.isFinite(v) ? forField(v) : '';
   }
 
   #fromSlider() {

@@ -69,7 +69,8 @@ export function drag(poles, index, to, { snap, meet, together }) {
 }
 
 /**
- * One press of a key. Up and down leave the axis only where the pair has met: there is no other way a real pair can turn complex.
+ * One press of a key. Up and down leave the axis only where the pair has met: there is no other way a real pair can turn complex. So that it can
+ * meet, a pole that would step onto its partner, or over it, stops there.
  * @param {readonly Complex[]} poles @param {number} index @param {Complex} by
  * @returns {Poles}
  */
@@ -80,7 +81,10 @@ export function nudge(poles, index, by) {
     const crosses = Math.sign(to.im) !== Math.sign(here.im) || Math.abs(to.im) < Math.abs(by.im) / 2;
     return setComplex(poles, index, by.im !== 0 && crosses ? { re: to.re, im: 0 } : to);
   }
-  if (by.im !== 0 && here.re === poles[partner(index)].re) return setComplex(poles, index, to);
+  const other = poles[partner(index)].re;
+  if (by.im !== 0 && here.re === other) return setComplex(poles, index, to);
+  const [before, after] = [here.re - other, to.re - other];
+  if (before !== 0 && (before * after <= 0 || Math.abs(after) < Math.abs(by.re) / 2)) return setReal(poles, index, other);
   return by.re === 0 ? /** @type {Poles} */ (poles.slice()) : setReal(poles, index, to.re);
 }
 

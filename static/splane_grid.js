@@ -3,6 +3,8 @@ import { svg } from './dom.js';
 import { fixed } from './format.js';
 import { bounds, DAMPING, niceStep, rayEnd, ticks, toPixel } from './splane_math.js';
 
+const WN_DIRECTION = [Math.cos(0.87), Math.sin(0.87)];
+
 /** @param {number} step */
 const decimalsOf = (step) => Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
 
@@ -29,6 +31,12 @@ export function drawGrid(layer, view) {
   const farthest = Math.max(...[b.left, b.right].flatMap((re) => [b.bottom, b.top].map((im) => Math.hypot(re, im))));
   for (const r of ticks(step, farthest, step)) {
     nodes.push(svg('path', { class: 'grid', d: `M ${x0} ${y0 - r * view.scale} A ${r * view.scale} ${r * view.scale} 0 0 0 ${x0} ${y0 + r * view.scale}` }));
+  }
+  const labelled = step * (step * view.scale < 44 ? 2 : 1);
+  for (const r of ticks(labelled, farthest, labelled)) {
+    // Below the real axis, where no ray has its label, and away from the ticks of the imaginary one.
+    const [x, y] = toPixel(view, { re: -r * WN_DIRECTION[0], im: -r * WN_DIRECTION[1] });
+    if (x > 22 && x0 - x > 30 && y > 30 && y < view.height - 24) nodes.push(svg('text', { class: 'wn-label', x, y: y + 3, 'text-anchor': 'middle' }, `ωₙ ${fixed(r, decimals)}`));
   }
   for (const zeta of DAMPING) {
     const end = rayEnd(view, zeta);

@@ -25,6 +25,36 @@ export function zoom(v, factor, x, y) {
   return { ...v, scale, cx: p.re - (x - v.width / 2) / scale, cy: p.im + (y - v.height / 2) / scale };
 }
 
+const RING = 11; // px: half a pole's mark
+
+/**
+ * The pole that a press takes: the topmost of the marks that it falls on; beside all marks, the nearest within reach.
+ * @param {View} v @param {readonly Complex[]} poles @param {readonly number[]} order from the lowest to the topmost mark
+ * @param {{x: number, y: number}} at @param {number} reach pixels
+ * @returns {number|null}
+ */
+export function pick(v, poles, order, at, reach) {
+  const away = poles.map((p) => {
+    const [x, y] = toPixel(v, p);
+    return Math.hypot(x - at.x, y - at.y);
+  });
+  const onTop = order.findLast((i) => away[i] <= RING);
+  if (onTop !== undefined) return onTop;
+  const nearest = order.reduceRight((best, i) => (away[i] < away[best] ? i : best), order[order.length - 1]);
+  return away[nearest] <= reach ? nearest : null;
+}
+
+/**
+ * Two fingers: what lay between them stays between them, as far apart as they are now.
+ * @param {View} v when they touched down @param {[{x: number, y: number}, {x: number, y: number}]} from @param {[{x: number, y: number}, {x: number, y: number}]} to
+ * @returns {View}
+ */
+export function pinch(v, [a, b], [c, d]) {
+  const apart = (/** @type {{x: number, y: number}} */ p, /** @type {{x: number, y: number}} */ q) => Math.max(10, Math.hypot(p.x - q.x, p.y - q.y));
+  const zoomed = zoom(v, apart(c, d) / apart(a, b), (a.x + b.x) / 2, (a.y + b.y) / 2);
+  return { ...zoomed, cx: zoomed.cx - (c.x + d.x - a.x - b.x) / 2 / zoomed.scale, cy: zoomed.cy + (c.y + d.y - a.y - b.y) / 2 / zoomed.scale };
+}
+
 /**
  * The view that shows the poles with room to drag, the imaginary axis, and a little of the right half plane. Of the loop's poles only those
  * count that are not far beyond the placed ones, as one fast pole must not make the rest tiny; an unstable one must be seen.

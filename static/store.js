@@ -8,13 +8,14 @@
  * @typedef {import('./types.js').Preset} Preset
  */
 import { fromWire } from './poles.js';
+import { NONE } from './requirements.js';
 
 const DEPTH = 200;
 
 /** @returns {State} */
 export const initialState = () => ({
   presets: [], methods: [], design: null, reply: null, problem: null, connection: 'connecting', motion: 'both', showLinear: true, dragging: false, spread: 0, cloud: null,
-  canUndo: false, canRedo: false,
+  requirements: NONE, canUndo: false, canRedo: false,
 });
 
 /** What a preset proposes. @param {Preset} preset @param {Partial<Design>} [keep] @returns {Design} */

@@ -95,7 +95,11 @@
  * @typedef {{theta: number[][], psi: number[][]}} Envelopes  a row per percentile
  * @typedef {{done: number, samples: number, loop_poles: Complex[][], t: number[], envelopes: Envelopes, share_stable: number, share_within_limits: number}} Cloud
  *
+ * What the placed poles are held to; null: not asked. It is the yardstick, not the design, so undo leaves it alone.
+ * @typedef {{settling: number|null, overshoot: number|null}} Requirements  s, %
+ *
  * @typedef {object} State
+ * @property {Requirements} requirements
  * @property {number} spread  relative uncertainty of the rigs in the cloud; 0: no cloud
  * @property {Cloud|null} cloud
  * @property {Preset[]} presets

@@ -24,7 +24,7 @@ export class FindingsPanel {
     this.verdict = h('div', { class: 'verdict', 'data-testid': 'verdict', role: 'status' }, this.icon, h('div', {}, this.word, this.detail));
     this.list = h('ul', { class: 'list', 'aria-live': 'polite' });
     this.all = h('ul', { class: 'all', hidden: true, id: 'all-findings' });
-    this.more = h('button', { type: 'button', class: 'more', hidden: true, 'aria-expanded': 'false', 'aria-controls': 'all-findings', onclick: () => this.#toggle(this.all.hidden) });
+    this.more = h('button', { type: 'button', class: 'more', hidden: true, 'aria-expanded': 'false', 'aria-controls': 'all-findings', onclick: () => this.#toggle(Boolean(this.all.hidden)) });
     root.append(this.verdict, h('div', { class: 'findings', 'data-testid': 'findings' }, this.list, this.more, this.all));
     root.addEventListener('keydown', (e) => e.key === 'Escape' && this.#toggle(false));
     document.addEventListener('pointerdown', (e) => !root.contains(/** @type {Node} */ (e.target)) && this.#toggle(false));

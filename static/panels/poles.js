@@ -1,7 +1,8 @@
 /** The two pairs as numbers: real or complex, two values each, with sliders. */
-import { h } from '../dom.js';
+import { h, setAttr, setText } from '../dom.js';
 import { Choice, NumberField } from '../fields.js';
 import { isComplex, LIMIT, setComplex, setMode, setReal } from '../poles.js';
+import { isAsked, pairVerdict } from '../requirements.js';
 import { placesPoles } from '../methods.js';
 import { niceStep } from '../splane_math.js';
 
@@ -16,7 +17,8 @@ class PairEditor {
       onChange: (v) => store.edit((d) => ({ ...d, poles: setMode(d.poles, pair, v === 'complex') })) });
     this.fields = [0, 1].map((k) => this.#field(k, store));
     this.node = h('fieldset', { class: `pair ${name}`, 'data-testid': `pair-${name}` },
-      h('legend', {}, h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }), name), this.mode.node, this.fields.map((f) => f.node));
+      h('legend', {}, h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }), name), this.mode.node, this.fields.map((f) => f.node),
+      (this.verdict = h('p', { class: 'pair-verdict', hidden: true, 'data-testid': `verdict-${name}` })));
     this.marks = this.fields.map((f) => /** @type {HTMLElement} */ (f.node.querySelector('.mark')));
   }
 
@@ -39,8 +41,8 @@ class PairEditor {
     return setComplex(poles, index, k === 0 ? { re: v, im } : { re, im: sign * Math.max(Math.abs(v), 1e-3) });
   }
 
-  /** @param {import('../types.js').Poles} poles @param {number} reach */
-  render(poles, reach) {
+  /** @param {import('../types.js').Poles} poles @param {number} reach @param {import('../types.js').Requirements} asked */
+  render(poles, reach, asked) {
     const complex = isComplex(poles, this.pair);
     const [a, b] = [poles[2 * this.pair], poles[2 * this.pair + 1]];
     this.mode.set(complex ? 'complex' : 'real');
@@ -48,11 +50,16 @@ class PairEditor {
     const names = complex ? ['Re', '\u00b1 Im'] : [`p${'₁₂₃₄'[first - 1]}`, `p${'₁₂₃₄'[first]}`];
     this.marks.forEach((m, i) => m.textContent !== names[i] && m.replaceChildren(names[i]));
     const spoken = complex ? ['real part', 'imaginary part'] : [`pole ${first}`, `pole ${first + 1}`];
-    this.fields.forEach((f, i) => f.input.setAttribute('aria-label', `${NAMES[this.pair]} ${spoken[i]}, rad/s`));
+    this.fields.forEach((f, i) => setAttr(f.input, 'aria-label', `${NAMES[this.pair]} ${spoken[i]}, rad/s`));
     this.fields[0].setRange({ min: -reach, max: 0.2 * reach });
     this.fields[1].setRange(complex ? { min: 0, max: reach } : { min: -reach, max: 0.2 * reach });
     this.fields[0].set(a.re);
     this.fields[1].set(complex ? Math.abs(a.im) : b.re);
+    this.verdict.hidden = !isAsked(asked);
+    if (this.verdict.hidden) return;
+    const { met, text } = pairVerdict(poles, this.pair, asked);
+    this.verdict.classList.toggle('missed', !met);
+    setText(this.verdict, `${met ? '✓' : '✕'} ${text}`);
   }
 }
 
@@ -68,7 +75,7 @@ export class PolesPanel {
 
   /** @param {import('../types.js').State} state */
   render(state) {
-    const { design, dragging } = state;
+    const { design, dragging, requirements } = state;
     if (!design) return;
     this.root.classList.toggle('unused', !placesPoles(state));
     const far = Math.max(1, ...design.poles.map((p) => Math.max(Math.abs(p.re), Math.abs(p.im))));
@@ -76,6 +83,6 @@ export class PolesPanel {
       const step = niceStep(2 * far, 4);
       this.#reach = Math.ceil((1.5 * far) / step) * step;
     }
-    for (const pair of this.pairs) pair.render(design.poles, this.#reach);
+    for (const pair of this.pairs) pair.render(design.poles, this.#reach, requirements);
   }
 }

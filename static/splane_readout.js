@@ -1,0 +1,52 @@
+/** What one pole means, written beside it: place, damping, frequency, settling time, overshoot, and whether it meets the requirements. */
+import { h, setText } from './dom.js';
+import { fixed, seconds } from './format.js';
+import { character, isComplex, pairOf, partner } from './poles.js';
+import { readoutWords } from './requirements.js';
+import { bounds, toPixel } from './splane_math.js';
+
+const NAMES = ['pitch', 'yaw'];
+
+/** @param {readonly import('./types.js').Complex[]} poles @param {number} index @param {import('./types.js').Requirements} requirements @returns {string[]} */
+export function readoutLines(poles, index, requirements) {
+  const p = poles[index];
+  const pair = pairOf(index);
+  const { wn, zeta, settling, overshoot } = character(p);
+  const two = isComplex(poles, pair);
+  const first = Math.min(index, partner(index)) + 1;
+  return [
+    two ? `${NAMES[pair]} poles ${first}, ${first + 1}` : `${NAMES[pair]} pole ${index + 1}`,
+    two ? `${fixed(p.re)} \u00b1 ${fixed(Math.abs(p.im))}j rad/s` : `${fixed(p.re)} rad/s`,
+    `ζ ${fixed(zeta)}   ωₙ ${fixed(wn)} rad/s`,
+    settling === undefined ? 'grows: unstable' : `settles in ${seconds(settling)}${overshoot === undefined ? '' : `, overshoot ${fixed(overshoot, 0)} %`}`,
+    readoutWords(p, requirements),
+  ];
+}
+
+export class Readout {
+  #width = 190;
+
+  constructor() {
+    this.lines = [0, 1, 2, 3, 4].map(() => h('div'));
+    this.node = h('div', { class: 'readout', hidden: true, 'data-testid': 'readout' }, this.lines);
+    new ResizeObserver(([entry]) => {
+      if (entry.contentRect.width) this.#width = entry.borderBoxSize[0].inlineSize;
+    }).observe(this.node);
+  }
+
+  /** @param {import('./types.js').State} state @param {number|null} index of the pole in question @param {import('./splane_math.js').View} view */
+  draw({ design, requirements }, index, view) {
+    this.node.hidden = index === null || !design;
+    if (index === null || !design) return;
+    const lines = readoutLines(design.poles, index, requirements);
+    lines.forEach((line, k) => setText(this.lines[k], line));
+    const name = `readout ${NAMES[pairOf(index)]}${lines[4].startsWith('✕') ? ' missed' : ''}`;
+    if (this.node.className !== name) this.node.className = name;
+    const p = design.poles[index];
+    const [x, y] = toPixel(view, p);
+    const b = bounds(view);
+    const low = p.im > (b.top + b.bottom) / 2 + (b.top - b.bottom) / 4;
+    const column = Math.max(4, Math.min(x + 24, view.width - this.#width - 4));
+    this.node.style.transform = `translate(${column}px, ${low ? y + 26 : y - 26}px) translateY(${low ? '0' : '-100%'})`;
+  }
+}
