@@ -10,7 +10,7 @@ PACKAGING := pyproject.toml constraints.txt package.json package-lock.json hatch
 SOURCES := $(shell find app heli2dof_core static -type f -not -path '*/vendor/*' -not -name '*.pyc' 2>/dev/null)
 CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
 
-.PHONY: help serve test check unit page-test e2e screenshot bench image clean
+.PHONY: help serve test check types unit page-test e2e screenshot bench image clean
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
@@ -19,19 +19,22 @@ serve: $(VENV)/.installed ## build what is needed and start the app on http://12
 
 test: $(VENV)/.tools browser check page-test unit ## build what the tests need and run them all
 
-check: $(VENV)/.tools ## style, types, floors
+check: $(VENV)/.tools types ## style, types, floors
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/pyright
 	$(BIN)/lint-imports
 
-unit: $(VENV)/.tools ## the Python tests, the browser's among them
+types: $(VENV)/.tools node_modules/.installed ## the page's JSDoc types, by TypeScript
+	$(BIN)/node tests/page/check_types.mjs
+
+unit: $(VENV)/.tools node_modules/.installed ## the Python tests, the browser's among them
 	CHROMIUM=$(CHROMIUM) $(BIN)/pytest
 
 page-test: $(VENV)/.tools ## the page's pure modules
 	$(BIN)/node --test tests/page/*.test.mjs
 
-e2e: $(VENV)/.tools browser ## the browser tests alone
+e2e: $(VENV)/.tools node_modules/.installed browser ## the browser tests alone
 	CHROMIUM=$(CHROMIUM) $(BIN)/pytest tests/e2e
 
 screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew
@@ -45,7 +48,7 @@ image: ## build the container with $(IMAGE_BUILDER)
 	$(IMAGE_BUILDER) -t $(IMAGE) .
 
 clean: ## remove what was built
-	rm -rf $(VENV) static/vendor build dist
+	rm -rf $(VENV) node_modules static/vendor build dist
 
 .PHONY: browser
 browser:
@@ -61,6 +64,11 @@ $(VENV)/.installed: $(SOURCES) $(PACKAGING) | $(BIN)/pip
 	@echo "Installing heli2dof into $(VENV); the first time takes a minute."
 	@$(BIN)/pip install --quiet --disable-pip-version-check \
 	  $(if $(filter $(PACKAGING),$?),-c constraints.txt,--no-deps --force-reinstall) .
+	@touch $@
+
+# TypeScript and axe-core, for the tests alone; what ships is fetched by hatch_build.py.
+node_modules/.installed: package.json package-lock.json .npmrc | $(VENV)/.tools
+	@NODE_USE_SYSTEM_CA=1 $(BIN)/npm ci --silent
 	@touch $@
 
 $(VENV)/.tools: $(PACKAGING) | $(BIN)/pip

@@ -7,6 +7,7 @@ import { SceneView } from './scene_view.js';
 import { SPlane } from './splane.js';
 import { Stats } from './stats.js';
 import { designOf, requestOf, Store } from './store.js';
+import { watched } from './watch.js';
 import { ComparePanel } from './panels/compare.js';
 import { FieldProblems } from './panels/problems.js';
 import { FindingsPanel } from './panels/findings.js';
@@ -25,10 +26,11 @@ const stats = new Stats();
 const scene = new SceneView(byId('scene'), store, { onTime: (t) => plots.setTime(t) });
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t) });
 const views = [
-  new HeaderPanel(byId('header'), store), new FindingsPanel(byId('strip')), new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store),
+  new HeaderPanel(byId('header'), store), new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store),
   new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
   new ComparePanel(byId('compare'), store), new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene, new CloudFeed(store),
-];
+  new FindingsPanel(byId('strip')), // last, as it measures what it has written
+].map(watched);
 
 /** @type {Map<number, number|undefined>} */
 const stamps = new Map();
@@ -60,7 +62,7 @@ function render() {
   scheduled = false;
   const begin = performance.now();
   const { state } = store;
-  for (const view of views) view.render(state);
+  for (const view of views) view(state);
   if (plots.render(state)) {
     const now = performance.now();
     const answered = state.reply?.seq ?? 0;
@@ -73,11 +75,10 @@ function render() {
 /** The design and its key results in one attribute, for tests and scripts. */
 function publish() {
   const { design, reply, problem, connection, motion, dragging } = store.state;
-  const { latencies: _all, ...latency } = stats.summary();
   document.documentElement.dataset.state = JSON.stringify({
     ...design, connection, motion, dragging, seq, answered: reply?.seq ?? null, settled: reply?.seq === seq && !problem,
     K: reply?.gains.K ?? null, rga: reply?.rga?.rga ?? null, stable: reply?.stable ?? null, loopPoles: reply?.loop_poles ?? null,
-    findings: reply?.findings?.map((f) => f.code) ?? [], problem: problem?.code ?? null, latency,
+    findings: reply?.findings?.map((f) => f.code) ?? [], problem: problem?.code ?? null,
   });
 }
 

@@ -229,7 +229,7 @@ export class Plots {
   #movePlayhead() {
     for (const { chart, head } of this.plots) {
       const x = chart.valToPos(this.#playhead, 'x');
-      const inside = Number.isFinite(x) && x >= 0 && x <= chart.over.clientWidth;
+      const inside = Number.isFinite(x) && x >= 0 && x <= chart.bbox.width / devicePixelRatio; // the element's own width would have the page laid out anew
       head.hidden = !inside;
       if (inside) head.style.transform = `translateX(${x.toFixed(1)}px)`;
     }

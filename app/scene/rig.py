@@ -1,7 +1,7 @@
 """The rig as nodes of a viser server. Imported only when the first session is made: viser is slow.
 
 Nodes that the page moves: /rig/yoke (ψ), /rig/yoke/body (θ), its pitch_rotor and yaw_rotor (spin),
-/ghost/yoke and /ghost/yoke/body (the reference). static/scene.js names the same nodes.
+/ghost/yoke and /ghost/yoke/body (the reference). static/scene_pose.js names the same nodes.
 """
 
 from __future__ import annotations

@@ -1,12 +1,8 @@
 import assert from "node:assert/strict";
 import { afterEach, beforeEach, describe, test } from "node:test";
 
-import {
-  ScenePlayer,
-  poseMessages,
-  rotorAngles,
-  sampleTrajectory,
-} from "../../static/scene.js";
+import { ScenePlayer } from "../../static/scene.js";
+import { poseMessages, rotorAngles, sampleTrajectory } from "../../static/scene_pose.js";
 
 const ramp = {
   t: [0, 1, 2],
