@@ -60,11 +60,12 @@ export class Plots {
       h('figcaption', {}, symbol(about.base, about.sub), h('span', { class: 'what' }, `${about.title}, ${about.unit.trim() === '°' ? 'deg' : 'V'}`), h('span', { class: 'values' }, values)), body);
     this.root.append(figure);
     const color = (/** @type {string} */ name) => () => this.#colors[name];
-    const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({ stroke: color(name), width, dash, points: { show: false } });
+    const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({ stroke: color(name), width, dash, auto: false, points: { show: false } });
     const last = () => signal === 'V_y' || (signal === 'V_p' && this.root.classList.contains('two-columns'));
+    // auto: false, as the ranges are ours: no trace is searched for its extremes a second time.
     const chart = new Chart({
       width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [6, 10, 2, 0],
-      series: [{}, { stroke: color('halo'), width: 7, points: { show: false } }, line('pitch', 1.25, [7, 4]), line('yaw', 1.25, [2, 3]), line('yaw', 1.5), line('pitch', 2.4)],
+      series: [{}, { stroke: color('halo'), width: 7, auto: false, points: { show: false } }, line('pitch', 1.25, [7, 4]), line('yaw', 1.25, [2, 3]), line('yaw', 1.5), line('pitch', 2.4)],
       scales: { x: { time: false, range: () => this.#zoom ?? this.#time }, y: { range: () => this.#ranges[signal] ?? [0, 1] } },
       axes: [
         { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 4, size: () => (last() ? 22 : 4),

@@ -18,10 +18,12 @@ export function decodeFrame(buffer) {
   const data = 4 + size;
   if (data > buffer.byteLength) throw new RangeError('the frame is shorter than its header says');
   const text = new TextDecoder().decode(new Uint8Array(buffer, 4, size));
-  return JSON.parse(text, (_key, value) => {
-    const place = value?.$f32;
-    return Array.isArray(place) ? floats(buffer, data + 4 * place[0], place[1]) : value;
-  });
+  const filled = (/** @type {any} */ value) => {
+    if (Array.isArray(value.$f32)) return floats(buffer, data + 4 * value.$f32[0], value.$f32[1]);
+    for (const key of Object.keys(value)) if (typeof value[key] === 'object' && value[key] !== null) value[key] = filled(value[key]);
+    return value;
+  };
+  return filled(JSON.parse(text)); // a reviver would be called for each number: several times slower
 }
 
 /** @param {any} value @returns {ArrayBuffer} the counterpart, for tests and recordings */

@@ -66,6 +66,16 @@ test("keys move a pole, and take a met pair off the axis and back", () => {
   assert.deepEqual(nudge(complex, 0, { re: 0, im: -0.5 }).slice(0, 2), real(-5, -5));
 });
 
+test("a key never steps over the partner: there the pair meets, and the next press goes on", () => {
+  const near = setReal(setReal(START, 2, -9.25), 3, -8.76);
+  const met = nudge(near, 2, { re: 0.5, im: 0 });
+  assert.deepEqual(met.slice(2), real(-8.76, -8.76));
+  assert.equal(isComplex(nudge(met, 2, { re: 0, im: 0.5 }), 1), true);
+  assert.deepEqual(nudge(met, 2, { re: 0.5, im: 0 }).slice(2), real(-8.26, -8.76));
+  assert.deepEqual(nudge(near, 2, { re: 10, im: 0 })[2], { re: -8.76, im: 0 });
+  assert.deepEqual(nudge(near, 2, { re: 0.1, im: 0 })[2], { re: -9.15, im: 0 });
+});
+
 test("changing the kind of a pair keeps it stable, and twice gives it back", () => {
   const complex = setMode(START, 0, true);
   assert.deepEqual(complex.slice(0, 2), [{ re: -11, im: 2.75 }, { re: -11, im: -2.75 }]);

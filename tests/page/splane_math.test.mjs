@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { bounds, fit, niceStep, outgrown, rayEnd, ticks, toPixel, toPlane, zoom } from "../../static/splane_math.js";
+import { bounds, fit, niceStep, outgrown, pick, pinch, rayEnd, ticks, toPixel, toPlane, zoom } from "../../static/splane_math.js";
 
 const SIZE = { width: 400, height: 380 };
 const real = (...values) => values.map((re) => ({ re, im: 0 }));
@@ -68,4 +68,28 @@ test('an unstable pole of the loop is brought into view, a fast stable one is no
   const seen = (view, p) => p.re > bounds(view).left && p.re < bounds(view).right && Math.abs(p.im) < bounds(view).top;
   assert.ok(seen(fit(placed, [{ re: 1.2, im: 9.7 }, { re: 1.2, im: -9.7 }], { width: 380, height: 440 }), { re: 1.2, im: 9.7 }));
   assert.ok(!seen(fit(placed, [{ re: -90, im: 0 }], { width: 380, height: 440 }), { re: -90, im: 0 }));
+});
+
+test("a press takes the topmost mark under it, and beside all marks the nearest within reach", () => {
+  const view = { cx: -5, cy: 0, scale: 20, ...SIZE };
+  const poles = real(-12, -10, -9.25, -9);
+  const at = (re, dy = 0) => ({ x: toPixel(view, { re, im: 0 })[0], y: SIZE.height / 2 + dy });
+  const order = [3, 2, 1, 0];
+  assert.equal(pick(view, poles, order, at(-9.1), 28), 2);
+  assert.equal(pick(view, poles, [2, 1, 0, 3], at(-9.1), 28), 3);
+  assert.equal(pick(view, poles, [2, 1, 0, 3], at(-9.25), 28), 3); // also right on the one below
+  assert.equal(pick(view, poles, order, at(-9, 20), 28), 3);
+  assert.equal(pick(view, poles, order, at(-12, 40), 28), null);
+  const same = real(-9, -9, -9, -9);
+  for (const top of [0, 1, 2, 3]) assert.equal(pick(view, same, [...order.filter((i) => i !== top), top], at(-9, 20), 28), top);
+});
+
+test("two fingers keep what was between them between them", () => {
+  const view = { cx: -5, cy: 1, scale: 20, ...SIZE };
+  const [a, b, c, d] = [{ x: 100, y: 100 }, { x: 200, y: 140 }, { x: 60, y: 150 }, { x: 260, y: 230 }];
+  const after = pinch(view, [a, b], [c, d]);
+  assert.ok(Math.abs(after.scale / view.scale - 2) < 1e-9);
+  const [before, now] = [toPlane(view, 150, 120), toPlane(after, 160, 190)];
+  assert.ok(Math.hypot(before.re - now.re, before.im - now.im) < 1e-9);
+  assert.deepEqual(pinch(view, [a, b], [a, b]), view);
 });
