@@ -42,8 +42,8 @@ export class Gestures {
     svg.addEventListener('pointerleave', () => plane.activate(this.#focused()));
     svg.addEventListener('dblclick', (e) => this.#under(e) === null && plane.fit());
     svg.addEventListener('wheel', (e) => this.#wheel(e), { passive: false });
-    // Two fingers belong to the plane; the browser would scroll the page with them.
-    svg.addEventListener('touchstart', (e) => e.touches.length > 1 && e.cancelable && e.preventDefault(), { passive: false });
+    // Two fingers, or one that holds a pole, belong to the plane; the browser would scroll the page with them.
+    svg.addEventListener('touchstart', (e) => (e.touches.length > 1 || this.#drag) && e.cancelable && e.preventDefault(), { passive: false });
     for (const [i, handle] of marks.handles.entries()) {
       handle.addEventListener('keydown', (e) => this.#key(e, i));
       handle.addEventListener('keyup', () => store.commit());

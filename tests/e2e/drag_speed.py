@@ -1,4 +1,4 @@
-"""How smooth a drag is: a pointer move sixty times a second, frame times and pointer-to-plots latency as the page sees them.
+"""How smooth a drag is: a move sixty times a second, frame times and latency up to the plots as the page sees them.
 
 `python -m tests.e2e.drag_speed http://127.0.0.1:8000/` prints one JSON object per run; `test_drag_speed` judges it.
 """
@@ -10,6 +10,7 @@ import json
 import os
 import sys
 import time
+from itertools import pairwise
 from typing import Any
 
 from playwright.async_api import Page, async_playwright
@@ -44,8 +45,8 @@ def quantile(values: list[float], q: float) -> float:
 async def drag(page: Page) -> dict[str, Any]:
     """Moves a real pole to and fro along its axis while frames are timed.
 
-    The moves leave on a clock of their own, as a hand's do. Playwright's `mouse.move` would wait for each to be acknowledged and
-    run scripts of its own in the page meanwhile, which halves the rate.
+    The moves leave on a clock of their own, as a hand's do. Playwright's `mouse.move` would wait for each to be
+    acknowledged and run scripts of its own in the page meanwhile, which halves the rate.
     """
     cdp = await page.context.new_cdp_session(page)
     box = await page.get_by_test_id("pole-0").bounding_box()
@@ -70,7 +71,7 @@ async def drag(page: Page) -> dict[str, Any]:
     found = await page.evaluate(STOP)
     await page.mouse.up()
     frames, stats = found["frames"], found["stats"]
-    steps = [b - a for a, b in zip(frames[:-1], frames[1:], strict=True)]
+    steps = [b - a for a, b in pairwise(frames)]
     return {
         "frames": len(steps),
         "moves": found["moves"],

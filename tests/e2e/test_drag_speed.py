@@ -10,7 +10,7 @@ from tests.e2e.drag_speed import MOVES, measure
 
 
 def test_a_drag_is_smooth_and_the_plots_follow(app: App, record_property):
-    """Aims: p95 of the frames under 20 ms, median latency under 33 ms. Bounds that a shared machine keeps: far above."""
+    """Aims: frames' p95 under 20 ms, median latency under 33 ms. The bounds are what any machine should keep."""
     with ThreadPoolExecutor(1) as pool:  # Playwright's other interface holds this thread's event loop
         (found,) = pool.submit(lambda: asyncio.run(measure(app.url))).result()
     for name, value in found.items():

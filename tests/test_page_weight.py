@@ -1,0 +1,64 @@
+"""What the page weighs: the files that index.html and their imports name, as a server that compresses would send them."""
+
+from __future__ import annotations
+
+import gzip
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+STATIC = ROOT / "static"
+LIMIT = 250_000
+"""Bytes, compressed. The 3D scene is a page of its own, in a frame, and not counted."""
+LINES = 300
+LINKED = re.compile(r"""<(?:link|script|img)\b[^>]*?\b(?:href|src)="([^"]+)\"""")
+COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)  # types are imported in comments, which loads nothing
+IMPORTED = re.compile(r"""(?:\bfrom|\bimport)\s*\(?\s*["'](\.[^"']+)["']""")
+
+
+def loaded() -> set[Path]:
+    """index.html, what it links, and every module reached from there."""
+    page = STATIC / "index.html"
+    found, waiting = {page}, [ROOT / name for name in LINKED.findall(page.read_text("utf-8"))]
+    while waiting:
+        file = waiting.pop().resolve()
+        if file in found:
+            continue
+        found.add(file)
+        if file.suffix == ".js" and "vendor" not in file.parts:
+            waiting += [
+                file.parent / name for name in IMPORTED.findall(COMMENT.sub("", file.read_text("utf-8")))
+            ]
+    return found
+
+
+def weight(file: Path) -> int:
+    """Bytes after gzip at its default level."""
+    return len(gzip.compress(file.read_bytes(), 6))
+
+
+def test_the_page_is_light(record_property):
+    weights = {str(file.relative_to(STATIC)): weight(file) for file in loaded()}
+    total = sum(weights.values())
+    heaviest = sorted(weights.items(), key=lambda item: -item[1])[:5]
+    record_property("bytes", total)
+    print(f"\nthe page: {total} bytes in {len(weights)} files; heaviest: {heaviest}")
+    assert {"main.js", "splane_math.js", "vendor/uplot/uPlot.esm.js", "style.css"} <= set(weights)
+    assert total <= LIMIT
+
+
+def test_every_module_of_the_page_is_loaded_and_short():
+    modules = {file for file in STATIC.rglob("*.js") if "vendor" not in file.parts}
+    types_only = {STATIC / "types.js"}
+    scene_only = {STATIC / "scene_shim.js"}
+    assert modules - loaded() - types_only - scene_only == set()
+    long = {
+        file.name: lines for file in modules if (lines := len(file.read_text("utf-8").splitlines())) > LINES
+    }
+    assert long == {}
+
+
+def test_the_lock_names_no_registry():
+    lock = (ROOT / "package-lock.json").read_text("utf-8")
+    assert '"integrity"' in lock
+    assert "resolved" not in lock and "://" not in lock
