@@ -42,7 +42,7 @@ export class MetricsPanel {
   constructor(root) {
     this.cells = ROWS.map((row) => ['theta', 'psi'].map((axis) => h('td', { 'data-testid': `metric-${row.id}-${axis}` })));
     root.append(h('table', { class: 'metrics', 'data-testid': 'metrics' },
-      h('thead', {}, h('tr', {}, h('th', {}, ''), h('th', { scope: 'col' }, h('span', { class: 'shape pitch', 'aria-hidden': 'true' }), 'pitch step'), h('th', { scope: 'col' }, h('span', { class: 'shape yaw', 'aria-hidden': 'true' }), 'yaw step'))),
+      h('thead', {}, h('tr', {}, h('td'), h('th', { scope: 'col' }, h('span', { class: 'shape pitch', 'aria-hidden': 'true' }), 'pitch step'), h('th', { scope: 'col' }, h('span', { class: 'shape yaw', 'aria-hidden': 'true' }), 'yaw step'))),
       h('tbody', {}, ROWS.map((row, i) => h('tr', {}, h('th', { scope: 'row', title: row.title }, row.name()), this.cells[i])))));
   }
 

@@ -1,0 +1,47 @@
+"""axe-core's rules on the page as it opens, in its schemes and sizes, and with what only appears on demand."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page
+
+from tests.e2e.conftest import App, opened, settled
+
+AXE = Path(__file__).parents[2] / "node_modules" / "axe-core" / "axe.min.js"
+RUN = """async () => (await axe.run(document, { iframes: false })).violations.flatMap((rule) => rule.nodes.map((node) =>
+  `${rule.id} (${rule.impact}): ${node.target.join(' ')}: ${node.failureSummary.split('\\n').slice(1).join('; ')}`))"""
+
+
+def violations(page: Page) -> list[str]:
+    """What axe finds, one line per element."""
+    assert AXE.is_file(), "axe-core is fetched by `make node_modules/.installed` (npm ci)"
+    page.add_script_tag(path=AXE)
+    return page.evaluate(RUN)
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", [(1280, 800), (390, 844)])
+def test_no_violation(chromium: Browser, app: App, size: tuple[int, int], scheme: str):
+    context = chromium.new_context(
+        viewport={"width": size[0], "height": size[1]},
+        color_scheme="dark" if scheme == "dark" else "light",
+        reduced_motion="reduce",
+    )
+    page = context.new_page()
+    page.route("**/scene/*/", lambda route: route.fulfill(content_type="text/html", body=""))
+    opened(page, app.url)
+    assert violations(page) == []
+    page.get_by_test_id("require-settling").fill("0.4")
+    page.get_by_test_id("require-overshoot").fill("5")
+    page.get_by_test_id("mode-yaw-complex").click()
+    settled(page)
+    page.get_by_test_id("pole-1").focus()
+    assert page.evaluate(RUN) == []
+    context.close()
+
+
+def test_axe_would_find_something(page: Page):
+    page.evaluate("() => document.body.append(document.createElement('button'))")
+    assert any(line.startswith("button-name") for line in violations(page))
