@@ -13,7 +13,7 @@ export class Matrix {
     this.title = title;
     this.cells = rows.map((_r, i) => columns.map((_c, j) => h('td', { 'data-testid': `${testid}-${i}${j}` })));
     this.node = h('table', { class: 'matrix', 'data-testid': testid },
-      h('thead', {}, h('tr', {}, h('th', { class: 'name' }, name), columns.map((c) => h('th', { scope: 'col' }, c)))),
+      h('thead', {}, h('tr', {}, h('td', { class: 'name' }, name), columns.map((c) => h('th', { scope: 'col' }, c)))),
       h('tbody', {}, rows.map((r, i) => h('tr', {}, h('th', { scope: 'row' }, r), this.cells[i]))));
   }
 

@@ -62,7 +62,7 @@ export class FormulasPanel {
     const definitions = Object.entries(symbolic.definitions ?? {}).map(([name, d]) =>
       h('div', { class: 'definition' }, formula(marks.get(name)), h('span', {}, '='), formula(/** @type {any} */ (d).mathml)));
     const symbols = h('section', { class: 'card' }, h('h3', {}, 'Symbols'), h('table', { class: 'symbols' }, h('tbody', {},
-      (symbolic.symbols ?? []).map((/** @type {any} */ s) => h('tr', {}, h('th', { scope: 'row' }, s.mathml ? formula(s.mathml) : s.name), h('td', {}, s.meaning), h('td', {}, s.unit))))));
+      (symbolic.symbols ?? []).map((/** @type {any} */ s) => h('tr', {}, h('th', { scope: 'row' }, s.mathml ? [h('span', { class: 'sr' }, s.name), h('span', { 'aria-hidden': 'true' }, formula(s.mathml))] : s.name), h('td', {}, s.meaning), h('td', {}, s.unit))))));
     this.body.replaceChildren(h('section', { class: 'card gains' }, h('h3', {}, 'State feedback K, u = −Kx + v'), gains, h('div', { class: 'definitions' }, 'with', definitions)), ...cards, symbols);
     this.render(this.store.state);
   }
@@ -72,6 +72,6 @@ export class FormulasPanel {
     const [i, j] = [...(name.match(/\d/g) ?? ['1', '1'])].map((d) => Number(d));
     const cell = h('output', { class: 'value' });
     this.#values.push({ cell, i: i - 1, j: j - 1 });
-    return h('div', { class: 'entry' }, h('span', { class: 'sym' }, h('i', {}, 'k'), `${SUB[i]}${SUB[j]} =`), h('div', { class: 'scroll' }, formula(entry.mathml)), h('span', { class: 'equals' }, '= ', cell));
+    return h('div', { class: 'entry' }, h('span', { class: 'sym' }, h('i', {}, 'k'), `${SUB[i]}${SUB[j]} =`), h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': `k${SUB[i]}${SUB[j]}` }, formula(entry.mathml)), h('span', { class: 'equals' }, '= ', cell));
   }
 }

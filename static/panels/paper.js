@@ -89,7 +89,7 @@ export class PaperPanel {
       h('ol', {}, CHAPTERS.map(({ name, title }) => h('li', {}, link(`#paper-${name}`, title),
         h('div', { class: 'stops' }, paper.equations.filter((e) => e.chapter === name).map((e) => h('a', { class: e.status, href: `#${anchorOf(e.number)}`, title: `${e.number}: ${e.title}, ${e.status}` }, shortOf(e.number)))))),
       h('li', {}, link('#paper-numbers', 'Every printed number')), h('li', {}, link('#paper-errata', 'Errata')), h('li', {}, link('#paper-consequence', 'What the unequal digits mean'))),
-      h('div', { class: 'present-box' }, h('h4', {}, 'The present rig'), live.rig),
+      h('div', { class: 'present-box' }, h('h3', {}, 'The present rig'), live.rig),
       h('button', { type: 'button', class: 'print', onclick: print }, 'Print this section'));
   }
 }

@@ -44,7 +44,7 @@ export class PaperCurves {
       return h('li', {}, svg('svg', { class: `sample ${c.name}`, viewBox: '0 0 34 8', 'aria-hidden': 'true' }, svg('line', { x1: 1, y1: 4, x2: 33, y2: 4, 'stroke-width': width, 'stroke-dasharray': dash.join(' ') || undefined })), h('span', {}, rich(c.title)));
     }));
     const said = stop === undefined ? '' : ` The rig’s stop is at ${fixed(stop * DEGREE, 1)}°.`;
-    const figure = h('figure', { class: 'curves', 'data-testid': `fig-${number}-plot`, role: 'group', 'aria-label': `${greek} in degrees over time in seconds, for a step of 1 rad` }, legend, body,
+    const figure = h('figure', { class: 'curves', 'data-testid': `fig-${number}-plot`, 'aria-label': `${greek} in degrees over time in seconds, for a step of 1 rad` }, legend, body,
       h('figcaption', {}, `${greek} in degrees over seconds. ${CURVES}${said}`));
     const color = (/** @type {string} */ name) => () => this.#colors[name];
     const top = 5 * Math.ceil((DEGREE * Math.max(1, ...curves.flatMap((c) => c.angle))) / 5);

@@ -43,7 +43,7 @@ export class LiveNumbers {
 
   constructor() {
     this.machine = new Machine();
-    this.rig = h('dl', { class: 'present', 'data-testid': 'paper-rig' });
+    this.rig = h('ul', { class: 'present', 'data-testid': 'paper-rig' });
     this.loop = h('p', { class: 'loop-now', 'data-testid': 'paper-loop' });
   }
 
@@ -108,7 +108,7 @@ export class LiveNumbers {
     const changed = Object.keys(design.parameters).length;
     const facts = [preset?.title ?? design.preset, ...(changed ? [`${changed} value${changed > 1 ? 's' : ''} changed`] : []),
       `θ₀ = ${figure(design.theta0 * DEGREE, 4)}°`, `poles ${polesText(design.poles, 2)}`, nameOf(design)];
-    if (this.rig.textContent !== facts.join('')) this.rig.replaceChildren(...facts.map((text) => h('dd', {}, text)));
+    if (this.rig.textContent !== facts.join('')) this.rig.replaceChildren(...facts.map((text) => h('li', {}, text)));
     const controllers = Object.entries(design.loops).map(([axis, { kp, ti }]) => `${axis} ${figure(kp)} (1 + 1/(${figure(ti)} s))`).join(', ');
     setText(this.loop, design.outer === 'pi' ? `PI: ${controllers}. Poles of the whole loop: ${reply ? polesText(reply.loop_poles, 2) : '–'} rad/s.` : `No PI loops now. Poles of the loop: ${reply ? polesText(reply.loop_poles, 2) : '–'} rad/s.`);
   }

@@ -42,6 +42,17 @@ def test_no_violation(chromium: Browser, app: App, size: tuple[int, int], scheme
     context.close()
 
 
+def test_no_violation_below_the_instrument(page: Page):
+    for section, there in (
+        ("compare", "[data-testid=splits-table] td"),
+        ("formulas", ".symbols math"),
+        ("paper", "[data-testid=paper-K] td, [data-testid=paper-tally]"),
+    ):
+        page.locator(f"#{section}").scroll_into_view_if_needed()
+        page.locator(f"#{section}").locator(there).first.wait_for(state="attached")
+    assert violations(page) == []
+
+
 def test_axe_would_find_something(page: Page):
     page.evaluate("() => document.body.append(document.createElement('button'))")
     assert any(line.startswith("button-name") for line in violations(page))
