@@ -1,4 +1,4 @@
-"""What the page weighs: index.html and all that it and its modules name, as a server that compresses would send it."""
+"""What the page weighs: index.html and all that it and its modules name, as a compressing server would send it."""
 
 from __future__ import annotations
 

@@ -10,8 +10,11 @@ from playwright.sync_api import Browser, Page
 from tests.e2e.conftest import App, opened, settled
 
 AXE = Path(__file__).parents[2] / "node_modules" / "axe-core" / "axe.min.js"
-RUN = """async () => (await axe.run(document, { iframes: false })).violations.flatMap((rule) => rule.nodes.map((node) =>
-  `${rule.id} (${rule.impact}): ${node.target.join(' ')}: ${node.failureSummary.split('\\n').slice(1).join('; ')}`))"""
+RUN = """async () => {
+  const { violations } = await axe.run(document, { iframes: false });
+  const told = (node) => `${node.target.join(' ')}: ${node.failureSummary.split('\\n').slice(1).join('; ')}`;
+  return violations.flatMap((rule) => rule.nodes.map((node) => `${rule.id} (${rule.impact}): ${told(node)}`));
+}"""
 
 
 def violations(page: Page) -> list[str]:
