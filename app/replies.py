@@ -160,10 +160,9 @@ def walkthrough_reply(design: Design) -> Reply:
 def report_reply(report: Report, spec: Spec) -> Reply:
     """Everything at once: what the page needs after a drag."""
     loop = report.loop
-    open_loop = np.linalg.eigvals(report.design.plant.A).astype(complex)
     return {
         "gains": gains_reply(report.design),
-        "open_loop_poles": poles_reply(open_loop),
+        "open_loop_poles": poles_reply(report.design.plant.poles),
         "rga": rga_reply(report.design, report.interaction),
         "step": {model: step_reply(step, loop) for model, step in report.step.items()},
         "axis_steps": {

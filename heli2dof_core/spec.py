@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -168,9 +169,19 @@ class Scenario:
                 hint=f"At most {MOST_SAMPLE_TIMES} fit in the duration.",
             )
 
+    @property
+    def times(self) -> Floats:
+        """linspace(0, duration, samples), s."""
+        return _times(self.duration, self.samples).copy()
+
     def resolved(self, theta_0: float) -> tuple[Floats, Floats]:
         """References [θ, ψ] and start [θ, ψ, θ̇, ψ̇] with the operating point (θ₀, 0) filled in, rad."""
         rest = (theta_0, 0.0)
         reference = [r if v is None else v for v, r in zip((self.theta, self.psi), rest, strict=True)]
         angles = [r if v is None else v for v, r in zip(self.initial[:2], rest, strict=True)]
         return np.array(reference), np.array([*angles, *self.initial[2:]], dtype=float)
+
+
+@lru_cache(maxsize=64)  # hardly ever does it change from one update to the next
+def _times(duration: float, samples: int) -> Floats:
+    return np.linspace(0.0, duration, samples)

@@ -9,6 +9,7 @@ from scipy.linalg import expm
 
 from ..engine import engine
 from ..findings import Finding
+from ..layout import WORKSPACE
 from ..loop import Loop
 from ..signals import Floats
 from ..spec import Digital, Limits, Scenario
@@ -32,7 +33,7 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
     are sums (Euler), and an anti-windup acts at the samples.
     """
     system = NonlinearLoop.of(loop, limits, scenario)
-    t = np.linspace(0.0, scenario.duration, scenario.samples)
+    t = scenario.times
     states = np.full((scenario.samples, 6), np.nan)
     held = np.full((scenario.samples, 2), np.nan)
     count = int(np.ceil(scenario.duration / digital.sample_time)) + 2
@@ -49,10 +50,16 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
         scenario.rtol,
         ABSOLUTE_TOLERANCE * scenario.rtol,
         kernels.most_steps,
+        np.zeros(WORKSPACE),
+        np.empty_like(system.constants),
+        np.empty_like(system.modes),
+        np.empty(len(t) + 2),
+        np.empty((len(t) + 2, 6)),
         states,
         held,
     )
-    response = response_of(system, t, states, np.ascontiguousarray(held.T), outcome=outcome, impacts=impacts)
+    angles, voltages = np.ascontiguousarray(states[:, :2].T), np.ascontiguousarray(held.T)
+    response = response_of(system, t, angles, voltages, outcome=outcome, impacts=impacts)
     remarks = tuple(_remarks(loop, digital))
     return Response(**{**vars(response), "findings": (*response.findings, *remarks)})
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-
+from ..engine import engine
 from ..findings import Finding
 from ..signals import Floats
 
@@ -40,15 +39,10 @@ class Response:
     findings: tuple[Finding, ...] = ()
 
 
-def hold_when_diverged(t: Floats, angles: Floats, voltages: Floats) -> tuple[Floats, Floats, list[Finding]]:
-    """Freezes a response at its last finite sample, so that every number stays finite."""
-    with np.errstate(invalid="ignore", over="ignore"):
-        bad = ~(np.all(np.abs(angles) < DIVERGED, axis=0) & np.all(np.isfinite(voltages), axis=0))
-    if not bad.any():
-        return angles, voltages, []
-    first = max(int(np.argmax(bad)), 1)
-    angles, voltages = angles.copy(), voltages.copy()
-    angles[:, first:] = angles[:, [first - 1]]
-    voltages[:, first:] = voltages[:, [first - 1]]
+def hold_when_diverged(t: Floats, angles: Floats, voltages: Floats) -> list[Finding]:
+    """Freezes a response at its last finite sample, in place, so that every number stays finite."""
+    first = engine().hold(angles, voltages, DIVERGED)
+    if first == len(t):
+        return []
     message = f"The response grows without bound; it is shown until t = {t[first - 1]:.3g} s and held there."
-    return angles, voltages, [Finding("diverges", "error", message)]
+    return [Finding("diverges", "error", message)]

@@ -15,6 +15,7 @@ from heli2dof_core import Limits, OuterLoop, PIGains, PoleSet, Scenario, close_l
 from heli2dof_core.compiled import accelerations
 from heli2dof_core.engine import engine
 from heli2dof_core.kernels import rig as kernel
+from heli2dof_core.layout import GAIN, LIMIT, OFFSET, WANTED, WORKSPACE
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.simulation.nonlinear import NonlinearLoop, simulate_nonlinear
 from tests.reference import Reference
@@ -237,7 +238,7 @@ def test_a_later_start_of_the_grid_shifts_nothing(design):
     system = NonlinearLoop.of(loop, LIMITS, Scenario(theta=0.5, psi=1.0, rtol=1e-10))
     t = np.linspace(0, 2, 201)
     whole, first, second = (np.empty((n, 6)) for n in (201, 101, 101))
-    numbers = (1e-10, 1e-11, 100_000)
+    numbers = (1e-10, 1e-11, 100_000, np.empty(WORKSPACE))
     engine().integrate(system.start.copy(), t, system.constants, system.modes.copy(), *numbers, whole)
     y, modes = system.start.copy(), system.modes.copy()
     engine().integrate(y, t[:101], system.constants, modes, *numbers, first)
@@ -251,10 +252,19 @@ def test_clamping_slides_along_the_limit_instead_of_chattering(design):
     states = np.empty((2001, 6))
     t = np.linspace(0, 2, 2001)
     outcome, _, _, switches, _ = engine().integrate(
-        system.start.copy(), t, system.constants, system.modes.copy(), 1e-8, 1e-9, 100_000, states
+        system.start.copy(),
+        t,
+        system.constants,
+        system.modes.copy(),
+        1e-8,
+        1e-9,
+        100_000,
+        np.empty(WORKSPACE),
+        states,
     )
     assert outcome == 0 and switches < 10
-    asked = np.abs(system.gain @ states.T + system.offset[:, None]) / system.limits[:, None]
+    c = system.constants
+    asked = np.abs(c[GAIN:OFFSET].reshape(2, 6) @ states.T + c[OFFSET:LIMIT, None]) / c[LIMIT:WANTED, None]
     assert np.sum(np.abs(asked - 1) < 1e-7) > 20
 
 
@@ -284,9 +294,8 @@ def test_interpreted_and_compiled_kernels_agree_to_the_last_digit(design):
         courses = []
         for integrate in (engine().integrate, twin.integrate):
             states, t = np.empty((101, 6)), np.linspace(0, 3, 101)
-            integrate(
-                system.start.copy(), t, system.constants, system.modes.copy(), 1e-6, 1e-7, 10_000, states
-            )
+            numbers = (1e-6, 1e-7, 10_000, np.empty(WORKSPACE))
+            integrate(system.start.copy(), t, system.constants, system.modes.copy(), *numbers, states)
             courses.append(states)
         np.testing.assert_array_equal(*courses)
 
