@@ -48,7 +48,8 @@ Reply = dict[str, Any]
 
 def poles_reply(poles: Iterable[complex]) -> list[Reply]:
     """Complex numbers as ``{"re", "im"}``."""
-    return [{"re": float(p.real), "im": float(p.imag)} for p in poles]
+    values: Iterable[complex] = poles.tolist() if isinstance(poles, np.ndarray) else poles
+    return [{"re": p.real, "im": p.imag} for p in values]
 
 
 @lru_cache(maxsize=256)
@@ -60,7 +61,7 @@ def _indices(parameters: Parameters, theta_0: float) -> tuple[int, ...]:
 
 def findings_reply(findings: Iterable[Finding]) -> list[Reply]:
     """Findings as objects."""
-    return [asdict(finding) for finding in findings]
+    return [dict(vars(finding)) for finding in findings]
 
 
 def gains_reply(design: Design) -> Reply:
@@ -124,8 +125,8 @@ def step_reply(step: Step, loop: Loop) -> Reply:
 
 def metrics_reply(metrics: StepMetrics) -> Reply:
     """Metrics by axis and motor."""
-    motors = {name: asdict(motor) for name, motor in metrics.motors.items()}
-    axes = {name: present(asdict(axis)) for name, axis in metrics.axes.items()}
+    motors = {name: dict(vars(motor)) for name, motor in metrics.motors.items()}
+    axes = {name: present(vars(axis)) for name, axis in metrics.axes.items()}
     other = {} if metrics.coupling_peak is None else {"coupling_peak": metrics.coupling_peak}
     return {**axes, **other, **motors}
 

@@ -19,14 +19,24 @@ from heli2dof_core.placement.method import Weights
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.presets import DEFAULT
 from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
-from heli2dof_core.spec import AntiWindup, Digital, Disturbance, Model, Outer, Pairing, Rates, Scenario
+from heli2dof_core.spec import (
+    AntiWindup,
+    Digital,
+    Disturbance,
+    Limits,
+    Model,
+    Outer,
+    Pairing,
+    Rates,
+    Scenario,
+)
 from heli2dof_core.weights import bryson_weights
 
 
 class Strict(BaseModel):
     """Unknown fields, text for numbers, NaN and infinity are refused."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
 
 def _complex(value: Any) -> complex:
@@ -132,6 +142,8 @@ class WeightChanges(Strict):
             given = changes.model_dump().values()
             return tuple(b if g is None else g for g, b in zip(given, own, strict=True))
 
+        if not self.model_fields_set:
+            return base
         return Weights(
             merge(self.states, base.states),
             merge(self.inputs, base.inputs),
@@ -181,7 +193,7 @@ class DesignRequest(Strict):
         point = base.theta_0 if self.operating_point is None else self.operating_point.theta
         return Spec(
             parameters=base.parameters.replaced(self.parameters.model_dump(exclude_none=True)),
-            limits=replace(base.limits, **self._limits()),
+            limits=self._limits(base.limits),
             theta_0=point,
             poles=self._poles(base),
             structure=Structure(
@@ -199,9 +211,10 @@ class DesignRequest(Strict):
             return base.poles if self.poles is None else PoleSet(values)
         return PoleSet.dealt(values, self.split)
 
-    def _limits(self) -> dict[str, float | None]:
+    def _limits(self, base: Limits) -> Limits:
         given = self.limits.model_dump(exclude_unset=True)
-        return {name: value for name, value in given.items() if value is not None or name == "theta"}
+        changes = {name: value for name, value in given.items() if value is not None or name == "theta"}
+        return replace(base, **changes) if changes else base
 
     def _outer(self, base: Preset) -> OuterLoop:
         pi = {}

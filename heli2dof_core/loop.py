@@ -89,7 +89,7 @@ class Loop:
         """Whether every pole of the whole loop lies left of the imaginary axis."""
         return bool(np.max(self.poles.real) < 0)
 
-    @property
+    @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """Remarks on the whole loop."""
         return tuple(_remarks(self))

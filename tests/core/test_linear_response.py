@@ -14,6 +14,7 @@ from heli2dof_core.margins import loop_margins
 from heli2dof_core.metrics import step_metrics
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.tuning import DAMPING, EASED, suggest_pi
+from tests.core.test_nonlinear_response import random_loops
 from tests.strategies import operating_points, pole_sets, rigs, structures
 
 OUTERS = (
@@ -125,11 +126,24 @@ def test_metrics_are_those_of_step_info(spec, design, axis):
 @pytest.mark.parametrize("name", ["quanser-2dof-manual", "quanser-aero-2", "quanser-aero"])
 def test_margins_are_python_controls(name):
     p = preset(name)
-    loop = close_loop(design(plant(p.parameters), p.poles, p.structure), p.outer)
+    check_margins(close_loop(design(plant(p.parameters), p.poles, p.structure), p.outer))
+
+
+def test_margins_of_random_loops_are_python_controls():
+    """Conditionally stable ones and several crossings among them."""
+    loops = [loop for loop, _ in random_loops(80, seed=11) if loop.stable]
+    several = sum(m.gain_reduction_margin is not None for loop in loops for m in loop_margins(loop))
+    assert len(loops) > 60 and several > 5
+    for loop in loops:
+        check_margins(loop)
+
+
+def check_margins(loop):
     found = loop_margins(loop)
     assert found is not None
+    n = len(loop.A)
     for motor, margins in enumerate(found):
-        b = np.zeros((6, 1))
+        b = np.zeros((n, 1))
         b[:4, 0] = loop.design.plant.B[:, motor]
         c = -loop.voltage_from_state[[motor]]
         system = control.ss(loop.A + b @ c, b, c, 0)
