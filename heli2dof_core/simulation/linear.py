@@ -33,12 +33,10 @@ def simulate_linear(loop: Loop, scenario: Scenario) -> Response:
         states = propagate(np.asarray(expm(augmented * t[1]), dtype=np.float64), state, scenario.samples)
         voltages = loop.voltage_from_state @ states[:n]
         voltages += (loop.voltage_from_reference @ (reference - rest))[:, None]
-        angles = states[:2] + rest[:, None]
-    angles, voltages, findings = hold_when_diverged(t, angles, voltages)
-    ends = (float(reference[0]), float(reference[1]))
-    return Response(
-        "linear", t, angles, voltages, ends, (float(start[0]), float(start[1])), (0.0, 0.0), tuple(findings)
-    )
+        states[:2] += rest[:, None]
+    states, voltages, findings = hold_when_diverged(t, states[:n], voltages)
+    ends, begin = (float(reference[0]), float(reference[1])), (float(start[0]), float(start[1]))
+    return Response("linear", t, states[:2], voltages, ends, begin, (0.0, 0.0), tuple(findings), states)
 
 
 def propagate(step: Floats, state: Floats, samples: int) -> Floats:

@@ -35,6 +35,7 @@ class NonlinearLoop:
         limits: of the voltages, V; infinite without saturation.
         travel: of pitch, rad; infinite without stops.
         disturbed_from: when the disturbance within `constants` sets in, s; infinite without one.
+        order: how many of the states mean anything: 6, or 4 where nothing integrates.
     """
 
     constants: Floats
@@ -46,6 +47,7 @@ class NonlinearLoop:
     limits: Floats
     travel: float
     disturbed_from: float
+    order: int
 
     @classmethod
     def of(cls, loop: Loop, limits: Limits, scenario: Scenario) -> NonlinearLoop:
@@ -59,7 +61,7 @@ class NonlinearLoop:
         offset = trim + loop.voltage_from_reference @ (reference - rest) - gain[:, :2] @ rest
         ceilings = np.array([limits.V_p, limits.V_y]) if scenario.saturation else np.full(2, np.inf)
         travel = limits.theta if scenario.travel_stops and limits.theta is not None else np.inf
-        motors, tracking = _anti_windup(loop)
+        motors, tracking = _anti_windup(loop, scenario.tracking_time)
         disturbance = scenario.disturbance
         disturbed = [0.0, 0.0] if disturbance is None else [disturbance.V_p, disturbance.V_y]
         since = np.inf if disturbance is None else disturbance.time
@@ -70,7 +72,7 @@ class NonlinearLoop:
         windup = _WINDUP[scenario.anti_windup] if loop.has_integrators and scenario.saturation else 0
         modes = np.array([0, 0, 1, 1, 0, *motors, windup], dtype=np.int64)
         first = np.concatenate([start, np.zeros(2)])
-        return cls(constants, modes, gain, offset, first, reference, ceilings, travel, since)
+        return cls(constants, modes, gain, offset, first, reference, ceilings, travel, since, len(loop.A))
 
     def voltages(self, states: Floats) -> Floats:
         """What the motors get in `states`, (6, n): shape (2, n), V."""
@@ -84,11 +86,12 @@ def rig_constants(p: Any) -> list[Any]:
     return [p.K_pp, p.K_py, p.K_yp, p.K_yy, p.alpha, p.J_y, ml2, p.m * p.g * p.l, p.B_p, p.B_y, p.K_s]
 
 
-def _anti_windup(loop: Loop) -> tuple[list[int], Floats]:
+def _anti_windup(loop: Loop, tracking_time: float | None) -> tuple[list[int], Floats]:
     """Which motor each integrator drives, and the gains of back-calculation, 2×2.
 
-    Tracking time = T_i (Åström & Hägglund, Advanced PID Control, 2006, section 3.5): the integrals
-    follow so that their voltage makes up for what the limits cut off.
+    The integrals follow so that their voltage makes up for what the limits cut off, with `tracking_time`
+    as time constant, or else T_i (Åström & Hägglund, Advanced PID Control, 2006, section 3.5, who
+    advise between T_d and T_i; a PI controller has no T_d).
     """
     effect = loop.integral  # V/s of each motor per rad of each error
     if effect is None:
@@ -96,7 +99,8 @@ def _anti_windup(loop: Loop) -> tuple[list[int], Floats]:
     motors = [int(np.argmax(np.abs(effect[:, i]))) for i in range(2)]
     if not np.all(np.any(effect, axis=0)):
         return motors, np.zeros((2, 2))
-    return motors, np.asarray(np.linalg.pinv(effect) / loop.integral_times[:, None], dtype=np.float64)
+    times = loop.integral_times if tracking_time is None else np.full(2, tracking_time)
+    return motors, np.asarray(np.linalg.pinv(effect) / times[:, None], dtype=np.float64)
 
 
 def simulate_nonlinear(loop: Loop, limits: Limits, scenario: Scenario) -> Response:
@@ -144,7 +148,7 @@ def response_of(
     system: NonlinearLoop, t: Floats, states: Floats, voltages: Floats, *, outcome: int, impacts: int
 ) -> Response:
     """What a kernel has filled, as a response: states (n, 6), NaN where none was reached; voltages (2, n)."""
-    angles, voltages, findings = hold_when_diverged(t, np.ascontiguousarray(states[:, :2].T), voltages)
+    course, voltages, findings = hold_when_diverged(t, np.ascontiguousarray(states.T), voltages)
     saturated = _share_at_limit(voltages, system.limits)
     if outcome:
         words = f"The simulation was given up: {_OUTCOMES[outcome]}."
@@ -152,7 +156,17 @@ def response_of(
     findings += _remarks(system, saturated, impacts)
     reference = (float(system.reference[0]), float(system.reference[1]))
     start = (float(system.start[0]), float(system.start[1]))
-    return Response("nonlinear", t, angles, voltages, reference, start, saturated, tuple(findings))
+    return Response(
+        "nonlinear",
+        t,
+        course[:2],
+        voltages,
+        reference,
+        start,
+        saturated,
+        tuple(findings),
+        course[: system.order],
+    )
 
 
 def _share_at_limit(voltages: Floats, limits: Floats) -> tuple[float, float]:

@@ -28,6 +28,8 @@ class Response:
         start: θ, ψ at t = 0, rad.
         saturated: share of time that each motor spends at its limit.
         findings: remarks on this response.
+        states: θ, ψ absolute, θ̇, ψ̇, and z_p, z_y = ∫ error where anything integrates, shape
+            (4 or 6, samples), rad, rad/s, rad·s.
     """
 
     model: Literal["linear", "nonlinear"]
@@ -38,17 +40,21 @@ class Response:
     start: tuple[float, float]
     saturated: tuple[float, float]
     findings: tuple[Finding, ...] = ()
+    states: Floats | None = None
 
 
-def hold_when_diverged(t: Floats, angles: Floats, voltages: Floats) -> tuple[Floats, Floats, list[Finding]]:
-    """Freezes a response at its last finite sample, so that every number stays finite."""
+def hold_when_diverged(t: Floats, states: Floats, voltages: Floats) -> tuple[Floats, Floats, list[Finding]]:
+    """Freezes a response at its last finite sample, so that every number stays finite.
+
+    `states`, whose first two rows are the angles, and `voltages` are of shape (n, samples).
+    """
     with np.errstate(invalid="ignore", over="ignore"):
-        bad = ~(np.all(np.abs(angles) < DIVERGED, axis=0) & np.all(np.isfinite(voltages), axis=0))
+        bad = ~(np.all(np.abs(states[:2]) < DIVERGED, axis=0) & np.all(np.isfinite(voltages), axis=0))
     if not bad.any():
-        return angles, voltages, []
+        return states, voltages, []
     first = max(int(np.argmax(bad)), 1)
-    angles, voltages = angles.copy(), voltages.copy()
-    angles[:, first:] = angles[:, [first - 1]]
+    states, voltages = states.copy(), voltages.copy()
+    states[:, first:] = states[:, [first - 1]]
     voltages[:, first:] = voltages[:, [first - 1]]
     message = f"The response grows without bound; it is shown until t = {t[first - 1]:.3g} s and held there."
-    return angles, voltages, [Finding("diverges", "error", message)]
+    return states, voltages, [Finding("diverges", "error", message)]

@@ -67,6 +67,8 @@ def test_saturating_response_is_scipys(spec, design, reference):
     )
     assert max(response.saturated) > 0
     np.testing.assert_allclose(response.angles, expected.y[:2], atol=1e-6)
+    np.testing.assert_allclose(response.states[[0, 1, 4, 5]], expected.y[[0, 1, 4, 5]], atol=1e-6)
+    np.testing.assert_allclose(response.states[2:4], expected.y[2:4], atol=1e-5)  # rad/s
 
 
 def test_small_steps_tend_to_the_linear_response(design):
