@@ -1,6 +1,7 @@
 /** The verdict on the whole loop, and what else is to be said of the design, worst first, in a place that is always kept free for it. */
 import { h, setText } from '../dom.js';
 import { fixed } from '../format.js';
+import { limitsCost } from '../limits_cost.js';
 
 const ICON = { error: '✕', warning: '▲', info: 'i' };
 const WORD = { error: 'Error', warning: 'Warning', info: 'Note' };
@@ -10,7 +11,9 @@ const SHOWN = 2;
 /** @param {import('../types.js').State} state @returns {import('../types.js').Finding[]} */
 export function findingsOf({ reply, problem }) {
   if (problem) return [{ code: problem.code ?? 'refused', severity: 'error', message: [problem.detail ?? problem.title ?? 'The server refused this design.', problem.hint].filter(Boolean).join(' ') }];
-  return [...(reply?.findings ?? [])].sort((a, b) => (RANK[a.severity] ?? 3) - (RANK[b.severity] ?? 3));
+  const cost = limitsCost(reply);
+  const own = /** @type {import('../types.js').Finding[]} */ (cost ? [{ code: 'limits_cost', severity: 'warning', message: cost }] : []);
+  return [...own, ...(reply?.findings ?? [])].sort((a, b) => (RANK[a.severity] ?? 3) - (RANK[b.severity] ?? 3));
 }
 
 export class FindingsPanel {
