@@ -55,8 +55,5 @@ export const decibel = (ratio) => (ratio === undefined || !(ratio > 0) ? '–' :
 /** @param {number|undefined} rad */
 export const degrees = (rad, decimals = 1) => (rad === undefined ? '–' : `${fixed(rad * DEGREE, decimals)}°`);
 
-/** An angle's integral over time. @param {number|undefined} v rad·s, or rad·s² @param {''|'²'} power of the second */
-export const degreeSeconds = (v, power = '') => (v === undefined ? '–' : `${significant(v * DEGREE, 3)}°s${power}`);
-
 /** @param {number|undefined} s */
 export const seconds = (s) => (s === undefined ? '–' : s < 0.1 ? `${fixed(1000 * s, 0)} ms` : `${fixed(s, 2)} s`);

@@ -9,9 +9,9 @@ const RANK = { error: 0, warning: 1, info: 2 };
 const SHOWN = 2;
 
 /** @param {import('../types.js').State} state @returns {import('../types.js').Finding[]} */
-export function findingsOf({ reply, problem }) {
+export function findingsOf({ reply, problem, design }) {
   if (problem) return [{ code: problem.code ?? 'refused', severity: 'error', message: [problem.detail ?? problem.title ?? 'The server refused this design.', problem.hint].filter(Boolean).join(' ') }];
-  const cost = limitsCost(reply);
+  const cost = limitsCost(reply, design?.scenario);
   const own = /** @type {import('../types.js').Finding[]} */ (cost ? [{ code: 'limits_cost', severity: 'warning', message: cost }] : []);
   return [...own, ...(reply?.findings ?? [])].sort((a, b) => (RANK[a.severity] ?? 3) - (RANK[b.severity] ?? 3));
 }

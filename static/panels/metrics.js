@@ -1,6 +1,6 @@
 /** How well it does, in figures: one column for the step of each axis, from the nonlinear rig; the linear model's in parentheses where they differ. */
 import { h, setAttr, setText, symbol } from '../dom.js';
-import { decibel, degreeSeconds, degrees, fixed, percent, seconds, significant } from '../format.js';
+import { decibel, DEGREE, degrees, fixed, percent, seconds, significant } from '../format.js';
 import { differs } from '../limits_cost.js';
 import { recall, remember } from '../memory.js';
 
@@ -15,15 +15,24 @@ const OPEN = 'figures';
 const volts = (v) => (v === undefined ? '–' : `${fixed(v, 1)} V`);
 
 /** @param {number|undefined} v */
-const effort = (v) => (v === undefined ? '–' : `${significant(v, 3)} V²s`);
+const effort = (v) => significant(v, 3);
+
+/** @param {number|undefined} v an angle's integral over time */
+const angleTime = (v) => significant(v === undefined ? v : v * DEGREE, 3);
 
 /** Peaks may be plain numbers or carry their share of saturation. @param {any} m @param {Motor} motor */
 const motor = (m, motor) => (typeof m?.[motor] === 'object' ? m[motor] : { peak: undefined, saturated: undefined });
 
+/** The share of time at the limit. @param {any} m @param {Motor} name @returns {string|undefined} */
+function limitText(m, name) {
+  const { saturated } = motor(m, name);
+  return saturated > 0 ? `limit ${percent(saturated, saturated < 0.01 ? 1 : 0)}` : undefined;
+}
+
 /** The peak, or the share of time at the limit. @param {any} m @param {Motor} name */
 export function motorText(m, name) {
-  const { peak, saturated } = motor(m, name);
-  return saturated > 0 ? `at limit ${percent(saturated, saturated < 0.1 ? 1 : 0)}` : volts(peak);
+  const limit = limitText(m, name);
+  return limit ? `at ${limit}` : volts(motor(m, name).peak);
 }
 
 /** What the linear model asks of a motor, trim included. @param {import('../types.js').Step|undefined} step @param {Motor} name */
@@ -47,8 +56,8 @@ const GRAHAM = 'Graham and Lathrop, Trans. AIEE 72 (1953) 273';
 /** @param {Motor} name @returns {Figure[]} */
 const motorRows = (name) => [
   { id: name, group: 'motors', name: () => [symbol('V', name[2]), ' peak'], title: `Largest voltage of the ${name === 'V_p' ? 'pitch' : 'yaw'} motor, trim included; or the share of time at its limit. In parentheses what the linear model asks for.`,
-    text: volts, value: (m) => motor(m, name).peak, least: 0.5, linear: (step) => linearPeak(step, name), most: (m) => (motor(m, name).saturated > 0 ? motorText(m, name) : undefined) },
-  { id: `effort-${name}`, group: 'motors', more: true, name: () => [symbol('V', name[2]), ' effort'], title: '∫ (V − V_trim)² dt over the time shown: what control costs beyond holding still; the inputs’ part of the quadratic cost (Anderson and Moore, Optimal Control, 1990)',
+    text: volts, value: (m) => motor(m, name).peak, least: 0.5, linear: (step) => linearPeak(step, name), most: (m) => limitText(m, name) },
+  { id: `effort-${name}`, group: 'motors', more: true, name: () => [symbol('V', name[2]), ' effort, V²s'], title: '∫ (V − V_trim)² dt over the time shown: what control costs beyond holding still; the inputs’ part of the quadratic cost (Anderson and Moore, Optimal Control, 1990)',
     text: effort, value: (m) => motor(m, name).effort, least: 0.05 },
 ];
 
@@ -59,8 +68,8 @@ const FIGURES = [
   { id: 'overshoot', group: 'response', name: () => ['Overshoot'], title: `Largest excess beyond the reference, in percent of the step (${OGATA})`, text: (v) => (v === undefined ? '–' : `${fixed(v, 1)} %`), value: (m, a) => m?.[a]?.overshoot, least: 1 },
   { id: 'error', group: 'response', name: () => ['Error at the end'], title: 'Reference minus the last angle shown', text: (v) => degrees(v, 2), value: (m, a) => m?.[a]?.steady_state_error, least: 1e-3 },
   { id: 'coupling', group: 'response', name: () => ['Other axis moves'], title: 'Largest deviation of the axis that is not stepped', text: (v) => degrees(v, 2), value: (m) => m?.coupling_peak, least: 1e-3 },
-  { id: 'iae', group: 'response', more: true, name: () => ['IAE'], title: `∫ |e| dt, integral of the absolute error over the time shown (${GRAHAM})`, text: (v) => degreeSeconds(v), value: (m, a) => m?.[a]?.iae, least: 1e-4 },
-  { id: 'itae', group: 'response', more: true, name: () => ['ITAE'], title: `∫ t |e| dt, the absolute error weighted with time, over the time shown (${GRAHAM})`, text: (v) => degreeSeconds(v, '²'), value: (m, a) => m?.[a]?.itae, least: 1e-4 },
+  { id: 'iae', group: 'response', more: true, name: () => ['IAE, °s'], title: `∫ |e| dt, integral of the absolute error over the time shown (${GRAHAM})`, text: angleTime, value: (m, a) => m?.[a]?.iae, least: 1e-4 },
+  { id: 'itae', group: 'response', more: true, name: () => ['ITAE, °s²'], title: `∫ t |e| dt, the absolute error weighted with time, over the time shown (${GRAHAM})`, text: angleTime, value: (m, a) => m?.[a]?.itae, least: 1e-4 },
   ...motorRows('V_p'), ...motorRows('V_y'),
 ];
 
@@ -69,10 +78,10 @@ const ROBUSTNESS = [
   { id: 'margin', group: 'robustness', name: () => ['Gain · phase margin'], title: 'Smallest factor on this axis’ own motor, and smallest phase change there, that make the loop unstable, everything else closed (Ogata, Modern Control Engineering, 2010, section 7.7)',
     margin: (g) => (g?.gain_margin === undefined && g?.phase_margin === undefined ? '–' : `${g.gain_margin === undefined ? '∞' : decibel(g.gain_margin)} · ${degrees(g.phase_margin, 0)}`) },
   { id: 'delay', group: 'robustness', name: () => ['Delay margin'], title: 'Smallest dead time at this axis’ own motor that makes the loop unstable: phase margin over crossover frequency', margin: (g) => seconds(g?.delay_margin) },
-  { id: 'disk', group: 'robustness', more: true, name: () => ['Disk margin, both motors'], title: 'Size α of the disks of gain and phase changes, at both motors at once and independent of each other, that the loop bears (Seiler, Packard and Gahinet, IEEE Control Systems 40 (2020) 78)',
+  { id: 'disk', group: 'robustness', more: true, name: () => ['Disk margin'], title: 'Size α of the disks of gain and phase changes, at both motors at once and independent of each other, that the loop bears (Seiler, Packard and Gahinet, IEEE Control Systems 40 (2020) 78)',
     both: (s) => `${fixed(s.disk_margin)}: × ${fixed(s.gain_low)} to ${s.gain_high === undefined ? '∞' : fixed(s.gain_high)}, ± ${degrees(s.phase, 0)}` },
-  { id: 'sensitivity', group: 'robustness', more: true, name: () => ['Sensitivity peak, both motors'], title: 'Largest singular value of S(jω) over all frequencies, at the motors: its inverse is the distance to instability by an additive change of the loop (Skogestad and Postlethwaite, Multivariable Feedback Control, 2005, section 2.4.3)',
-    both: (s) => `${fixed(s.peak)} at ${significant(s.peak_frequency, 3)} rad/s` },
+  { id: 'sensitivity', group: 'robustness', more: true, name: () => ['Sensitivity peak'], title: 'Largest singular value of S(jω) over all frequencies, at the motors: its inverse is the distance to instability by an additive change of the loop (Skogestad and Postlethwaite, Multivariable Feedback Control, 2005, section 2.4.3)',
+    both: (s) => (s.peak < 1.005 ? fixed(s.peak) : `${fixed(s.peak)} at ${significant(s.peak_frequency, 3)} rad/s`) },
 ];
 
 /** The disk margin in words. @param {Reply['sensitivity']} s */
@@ -91,10 +100,11 @@ export class MetricsPanel {
       return { own, linear, cell: h('td', {}, linear, own) };
     }));
     this.robustness = ROBUSTNESS.map((row) => (row.both ? [h('td', { colspan: 2, 'data-testid': `metric-${row.id}` })] : AXES.map((axis) => h('td', { 'data-testid': `metric-${row.id}-${axis}` }))));
+    this.key = h('span', { class: 'linear', title: 'in parentheses: the linear model, where it differs by more than 5 %' }, '(linear)');
     this.more = h('button', { type: 'button', class: 'quiet', 'data-testid': 'more-figures', onclick: () => this.#show(!this.root.classList.contains('all-figures')) });
     const rows = [...FIGURES.map((row, i) => ({ row, cells: this.figures[i].map((f) => f.cell) })), ...ROBUSTNESS.map((row, i) => ({ row, cells: this.robustness[i] }))];
     root.append(h('table', { class: 'metrics', 'data-testid': 'metrics' },
-      h('thead', {}, h('tr', {}, h('td', {}, this.more), h('th', { scope: 'col' }, h('span', { class: 'shape pitch', 'aria-hidden': 'true' }), 'pitch step'), h('th', { scope: 'col' }, h('span', { class: 'shape yaw', 'aria-hidden': 'true' }), 'yaw step'))),
+      h('thead', {}, h('tr', {}, h('td', {}, this.more, ' ', this.key), h('th', { scope: 'col' }, h('span', { class: 'shape pitch', 'aria-hidden': 'true' }), 'pitch step'), h('th', { scope: 'col' }, h('span', { class: 'shape yaw', 'aria-hidden': 'true' }), 'yaw step'))),
       [...new Set(rows.map(({ row }) => row.group))].map((group) => h('tbody', {}, rows.filter(({ row }) => row.group === group).map(({ row, cells }) => tableRow(row, cells))))));
     this.#show(recall(OPEN) === 'all');
   }
@@ -110,6 +120,7 @@ export class MetricsPanel {
   /** @param {import('../types.js').State} state */
   render({ reply, showLinear }) {
     if (!reply) return;
+    this.key.hidden = !showLinear;
     AXES.forEach((axis, j) => {
       const pair = reply.axis_steps?.[axis];
       const metrics = pair?.nonlinear.metrics;
@@ -120,7 +131,7 @@ export class MetricsPanel {
         const most = row.most?.(metrics);
         setText(own, most ?? row.text(value));
         const beside = showLinear && ideal !== undefined && (most !== undefined || differs(value, ideal, row.least));
-        setText(linear, beside ? `(${row.text(ideal)})` : '');
+        setText(linear, beside ? `(${row.text(ideal).replace(/ [V%s]$/, '')})` : '');
         cell.classList.toggle('warn', most !== undefined);
       });
       const margin = reply.margins?.[axis === 'theta' ? 'pitch' : 'yaw'];
