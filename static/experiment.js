@@ -27,8 +27,11 @@ export const standard = ({ reference, duration }) => ({ reference, duration });
 /** @param {Scenario} scenario */
 export const isStandard = (scenario) => Object.keys(scenario).every((name) => name === 'reference' || name === 'duration');
 
-/** @param {Scenario} scenario @param {Partial<Scenario>} part undefined: standard @returns {Scenario} */
-export const withOption = (scenario, part) => differing({ ...scenario, ...part }, STANDARD);
+/** A tracking time belongs to back-calculation and goes with it. @param {Scenario} scenario @param {Partial<Scenario>} part undefined: standard @returns {Scenario} */
+export function withOption(scenario, part) {
+  const after = differing({ ...scenario, ...part }, STANDARD);
+  return after.anti_windup === 'back-calculation' ? after : differing({ ...after, tracking_time: undefined }, {});
+}
 
 /** @param {Scenario} scenario @param {Partial<Digital>|null} part of the digital controller; null: continuous @returns {Scenario} */
 export const withDigital = (scenario, part) => withOption(scenario, { digital: part ? differing({ ...scenario.digital, ...part }, DIGITAL) : undefined });
