@@ -57,10 +57,11 @@ export class FindingsPanel {
     setText(this.detail, !reply || problem ? '' : `${reply.stable ? 'slowest' : 'worst'} of ${reply.loop_poles.length} poles at Re ${fixed(worst)}`);
 
     const findings = findingsOf(state);
-    const key = JSON.stringify([kind, findings]);
+    const calm = state.design?.scenario.saturation === false ? 'Nothing to object; but here the motors know no limits.' : 'Nothing to object: the motors stay within their limits.';
+    const key = JSON.stringify([kind, findings, calm]);
     if (key === this.#key) return;
     this.#key = key;
-    const none = h('li', { class: 'none' }, h('span', { class: 'message' }, reply ? 'Nothing to object: the motors stay within their limits.' : ''));
+    const none = h('li', { class: 'none' }, h('span', { class: 'message' }, reply ? calm : ''));
     this.list.replaceChildren(...(findings.length ? findings.slice(0, SHOWN).map((f) => this.#item(f)) : [none]));
     this.all.replaceChildren(...findings.map((f) => this.#item(f)));
     const cut = [...this.list.querySelectorAll('.message')].some((m) => m.scrollHeight > m.clientHeight + 1 || m.scrollWidth > m.clientWidth + 1);
