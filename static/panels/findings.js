@@ -7,13 +7,16 @@ const ICON = { error: '✕', warning: '▲', info: 'i' };
 const WORD = { error: 'Error', warning: 'Warning', info: 'Note' };
 const RANK = { error: 0, warning: 1, info: 2 };
 const SHOWN = 2;
+/** What is chosen in the experiment and explains others of its severity. */
+const CAUSES = ['slow_sampling', 'fast_tracking'];
 
 /** @param {import('../types.js').State} state @returns {import('../types.js').Finding[]} */
 export function findingsOf({ reply, problem, design }) {
   if (problem) return [{ code: problem.code ?? 'refused', severity: 'error', message: [problem.detail ?? problem.title ?? 'The server refused this design.', problem.hint].filter(Boolean).join(' ') }];
   const cost = limitsCost(reply, design?.scenario);
   const own = /** @type {import('../types.js').Finding[]} */ (cost ? [{ code: 'limits_cost', severity: 'warning', message: cost }] : []);
-  return [...own, ...(reply?.findings ?? [])].sort((a, b) => (RANK[a.severity] ?? 3) - (RANK[b.severity] ?? 3));
+  const rank = (/** @type {import('../types.js').Finding} */ f) => (RANK[f.severity] ?? 3) - (CAUSES.includes(f.code) ? 0.5 : 0);
+  return [...own, ...(reply?.findings ?? [])].sort((a, b) => rank(a) - rank(b));
 }
 
 export class FindingsPanel {
