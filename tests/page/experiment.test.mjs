@@ -4,6 +4,7 @@ import { test } from 'node:test';
 import { cloudRequest, cloudWords } from '../../static/cloud.js';
 import { cloudCaveat, cloudScenario, experimentWords, isStandard, scenarioBody, standard, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../../static/experiment.js';
 import { differs, limitsCost } from '../../static/limits_cost.js';
+import { findingsOf } from '../../static/panels/findings.js';
 import { linearPeak, motorText } from '../../static/panels/metrics.js';
 import { designOf, requestOf } from '../../static/store.js';
 
@@ -103,4 +104,12 @@ test('the linear model’s peak has the trim, and a limit its share of time', ()
   assert.equal(linearPeak(undefined, 'V_p'), undefined);
   assert.equal(motorText({ V_p: { peak: 24, saturated: 0.004 } }, 'V_p'), 'at limit 0.4 %');
   assert.equal(motorText({ V_p: { peak: 12.34, saturated: 0 } }, 'V_p'), '12.3 V');
+});
+
+test('the cost of limits and the causes come first among warnings, errors before all', () => {
+  const codes = ['saturation_V_p', 'slow_sampling', 'loop_unstable'];
+  const findings = codes.map((code, i) => ({ code, severity: i === 2 ? 'error' : 'warning', message: code }));
+  const order = (part) => findingsOf({ reply: { ...reply(1.2, 0.7), ...part }, problem: null, design: designOf(preset) }).map((f) => f.code);
+  assert.deepEqual(order({ findings }), ['loop_unstable', 'slow_sampling', 'limits_cost', 'saturation_V_p']);
+  assert.deepEqual(order({ findings: [] }), ['limits_cost']);
 });
