@@ -35,7 +35,7 @@ from heli2dof_core.margins import Margins
 from heli2dof_core.metrics import StepMetrics
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.sensitivity import Sensitivity
-from heli2dof_core.signals import AXES, INPUTS, OUTPUTS, Floats
+from heli2dof_core.signals import AXES, INPUTS, INTEGRALS, OUTPUTS, STATES, Floats
 from heli2dof_core.spec import Limits
 from heli2dof_core.tuning import Suggestion
 from heli2dof_core.walkthrough import walk_through
@@ -121,6 +121,16 @@ def step_reply(step: Step, loop: Loop) -> Reply:
         "stable": loop.stable,
         "findings": findings_reply(merged(loop.design.findings, loop.findings, response.findings)),
     }
+
+
+def states_reply(step: Step) -> Reply:
+    """The states that are no outputs, under ``states``; the integrals where anything integrates."""
+    states = step.response.states
+    if states is None:
+        return {}
+    hidden = (*STATES[len(OUTPUTS) :], *INTEGRALS)
+    rows = states[len(OUTPUTS) :]
+    return {"states": {signal.name: row for signal, row in zip(hidden, rows, strict=False)}}
 
 
 def metrics_reply(metrics: StepMetrics) -> Reply:

@@ -291,6 +291,10 @@ class ScenarioChanges(Strict):
     initial: Initial = Initial()
     saturation: bool = True
     anti_windup: AntiWindup = "clamping"
+    tracking_time: float | None = Field(
+        default=None,
+        description="of back-calculation, s, 1e-4 to 1e4; each loop's integral time where left out",
+    )
     travel_stops: bool = True
     trim_feedforward: bool = True
     rtol: float = Field(default=1e-8, description="tolerance of the nonlinear integration")
@@ -314,6 +318,7 @@ class ScenarioChanges(Strict):
             initial=(self.initial.theta, self.initial.psi, self.initial.theta_dot, self.initial.psi_dot),
             saturation=self.saturation,
             anti_windup=self.anti_windup,
+            tracking_time=self.tracking_time,
             travel_stops=self.travel_stops,
             trim_feedforward=self.trim_feedforward,
             rtol=self.rtol,
@@ -339,6 +344,12 @@ class StepRequest(DesignRequest):
         spec = super().to_spec()
         scenario = self.scenario.to_scenario(spec.scenario, preset(self.preset).encoders)
         return replace(spec, scenario=scenario)
+
+
+class ResponseRequest(StepRequest):
+    """As a step request, and what the reply shall hold besides."""
+
+    states: bool = Field(default=False, description="also reply the rates, and the integrals of the errors")
 
 
 class EvaluateRequest(StepRequest):

@@ -129,6 +129,8 @@ class Scenario:
         initial: θ, ψ, θ̇, ψ̇ at t = 0; an angle None is at rest at the operating point.
         saturation: voltages are limited to `Limits`.
         anti_windup: what the PI integrators do at a limit.
+        tracking_time: of back-calculation, s: how fast the integrals follow what the limits leave; None
+            is each loop's integral time.
         travel_stops: pitch is stopped at ±`Limits.theta`, without rebound.
         trim_feedforward: the constant trim voltages are added, so that the rig starts at rest.
         rtol: tolerance of the adaptive integration, relative and (in rad, rad/s) absolute.
@@ -143,6 +145,7 @@ class Scenario:
     initial: tuple[float | None, float | None, float, float] = field(default=(None, None, 0.0, 0.0))
     saturation: bool = True
     anti_windup: AntiWindup = "clamping"
+    tracking_time: float | None = None
     travel_stops: bool = True
     trim_feedforward: bool = True
     rtol: float = 1e-8
@@ -160,6 +163,8 @@ class Scenario:
         require_within(self.duration, "scenario.duration", "s", 1e-3, LONGEST)
         require_within(self.samples, "scenario.samples", "", 2, MOST_SAMPLES)
         require_one_of(self.anti_windup, AntiWindup, "scenario.anti_windup")
+        if self.tracking_time is not None:
+            require_within(self.tracking_time, "scenario.tracking_time", "s", 1e-4, 1e4)
         require_within(self.rtol, "scenario.rtol", "", 1e-12, 1e-2)
         if self.digital is not None and self.duration / self.digital.sample_time > MOST_SAMPLE_TIMES:
             raise InvalidInputError(

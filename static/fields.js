@@ -13,6 +13,8 @@ import { forField, parseNumber, significant } from './format.js';
  * @property {number} min
  * @property {number} max
  * @property {boolean} [positive]  zero is refused
+ * @property {boolean} [integer]
+ * @property {() => void} [onBlank]  what an emptied field means; without it empty is refused
  * @property {string} testid
  * @property {string} [field]  the path under which the server names it
  * @property {{min: number, max: number, log?: boolean}} [slider]
@@ -42,17 +44,28 @@ export class NumberField {
 
   /** @type {number} */ value = NaN;
   #typing = false;
+  #start = 0;
 
-  /** @param {number} v */
+  #text() {
+    return Number.isNaN(this.value) ? '' : forField(this.value);
+  }
+
+  /** What stands in the empty field, and where the arrow keys start from it. @param {string} text @param {number} start */
+  setBlank(text, start) {
+    setAttr(this.input, 'placeholder', text);
+    this.#start = start;
+  }
+
+  /** @param {number} v NaN: empty */
   set(v) {
-    const changed = v !== this.value;
+    const changed = !Object.is(v, this.value);
     this.value = v;
     // Who types must not be corrected meanwhile; what comes from elsewhere (undo, another preset) replaces the text.
     const own = document.activeElement === this.input && (this.#typing || !changed);
     if (changed) this.#typing = false;
     if (!own && (changed || this.input.getAttribute('aria-invalid') !== 'true')) {
       this.complain('');
-      const text = forField(v);
+      const text = this.#text();
       if (this.input.value !== text) this.input.value = text;
     }
     if (this.slider && document.activeElement !== this.slider) this.#toSlider(v);
@@ -82,8 +95,14 @@ export class NumberField {
   /** @param {number} stamp */
   #typed(stamp) {
     const v = parseNumber(this.input.value);
-    const { min, max, positive } = this.options;
+    const { min, max, positive, integer, onBlank } = this.options;
+    if (onBlank && this.input.value.trim() === '') {
+      this.complain('');
+      this.#typing = true;
+      return onBlank();
+    }
     if (!Number.isFinite(v)) return this.complain('a number, please');
+    if (integer && !Number.isInteger(v)) return this.complain('a whole number, please');
     if (positive && v <= 0) return this.complain('must be positive');
     if (v < min || v > max) return this.complain(`${significant(min, 3)} to ${significant(max, 3)}`);
     this.complain('');
@@ -95,7 +114,7 @@ export class NumberField {
   #done() {
     this.#typing = false;
     this.complain('');
-    this.input.value = forField(this.value);
+    this.input.value = this.#text();
     this.options.onCommit();
   }
 
@@ -104,9 +123,10 @@ export class NumberField {
     if (e.key === 'Enter') this.#done();
     if (e.key !== 'ArrowUp' && e.key !== 'ArrowDown') return;
     e.preventDefault();
-    const size = 10 ** Math.floor(Math.log10(Math.max(Math.abs(this.value), 1e-3)) + 1e-9) * (e.shiftKey ? 0.01 : 0.1);
-    const { min, max } = this.options;
-    const v = Math.max(min, Math.min(max, this.value + (e.key === 'ArrowUp' ? size : -size)));
+    const { min, max, integer } = this.options;
+    const from = Number.isNaN(this.value) ? this.#start : this.value;
+    const size = integer ? 1 : 10 ** Math.floor(Math.log10(Math.max(Math.abs(from), 1e-3)) + 1e-9) * (e.shiftKey ? 0.01 : 0.1);
+    const v = Math.max(min, Math.min(max, from + (e.key === 'ArrowUp' ? size : -size)));
     this.input.value = forField(Number(v.toPrecision(9)));
     this.#typed(e.timeStamp);
   }

@@ -8,6 +8,7 @@ import { SPlane } from './splane.js';
 import { Stats } from './stats.js';
 import { designOf, requestOf, Store } from './store.js';
 import { ComparePanel } from './panels/compare.js';
+import { ExperimentPanel } from './panels/experiment.js';
 import { FieldProblems } from './panels/problems.js';
 import { FindingsPanel } from './panels/findings.js';
 import { FormulasPanel } from './panels/formulas.js';
@@ -26,7 +27,7 @@ const scene = new SceneView(byId('scene'), store, { onTime: (t) => plots.setTime
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t) });
 const views = [
   new HeaderPanel(byId('header'), store), new FindingsPanel(byId('strip')), new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store),
-  new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
+  new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new ExperimentPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
   new ComparePanel(byId('compare'), store), new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene, new CloudFeed(store),
 ];
 

@@ -268,7 +268,7 @@ export class SPlane {
     this.#marks(this.open, reply?.open_loop_poles ?? [], () => svg('path', { d: OPEN_MARK }));
     this.#marks(this.loop, design.outer === 'pi' || unused ? reply?.loop_poles ?? [] : [], () => svg('path', { d: LOOP_MARK }));
     drawCloud(this.cloud, this.#view, state.spread ? state.cloud : null);
-    setText(this.cloudText, state.spread ? cloudWords(state.cloud) : '');
+    setText(this.cloudText, state.spread ? cloudWords(state.cloud, state.design?.scenario) : '');
     this.#drawReadout();
   }
 

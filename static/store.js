@@ -7,6 +7,7 @@
  * @typedef {import('./types.js').Design} Design
  * @typedef {import('./types.js').Preset} Preset
  */
+import { scenarioBody } from './experiment.js';
 import { fromWire } from './poles.js';
 
 const DEPTH = 200;
@@ -57,7 +58,7 @@ export function bodyOf(design) {
 }
 
 /** The experiment, sampled for the screen. @param {Design} design */
-export const scenarioOf = ({ scenario: { reference, duration } }) => ({ reference, duration, samples: 501, rtol: 1e-5 });
+export const scenarioOf = ({ scenario }) => ({ ...scenarioBody(scenario), samples: 501 });
 
 /** The message to the server. @param {Design} design @param {number} seq */
 export const requestOf = (design, seq) => ({ seq, ...bodyOf(design), scenario: scenarioOf(design), each_axis: true });

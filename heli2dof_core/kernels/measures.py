@@ -25,10 +25,11 @@ SETTLED = 0.02
 
 
 @kernel
-def trajectories(states, c, angles, voltages):
-    """θ, ψ and what the motors get, each (2, samples), of states (samples, 6)."""
+def trajectories(states, c, course, voltages):
+    """The states, (samples, 6), by rows, (6, samples), and what the motors get in them, (2, samples)."""
     for k in range(len(states)):
-        angles[0, k], angles[1, k] = states[k, 0], states[k, 1]
+        for i in range(6):
+            course[i, k] = states[k, i]
         for motor in range(2):
             u, limit = asked(states[k], motor, c), c[LIMIT + motor]
             voltages[motor, k] = u if isnan(u) else min(max(u, -limit), limit)
@@ -45,20 +46,22 @@ def share_at_limit(voltage, limit):
 
 
 @kernel
-def hold(angles, voltages, bound):
-    """Freezes a response where an angle leaves ±bound or a number is not finite any more.
+def hold(states, voltages, bound):
+    """Freezes a response where an angle, states[:2], leaves ±bound or a number is not finite any more.
 
     Returns the first sample that is held, or the number of samples.
     """
-    samples = angles.shape[1]
+    rows, samples = states.shape
     for k in range(samples):
-        good = abs(angles[0, k]) < bound and abs(angles[1, k]) < bound
+        good = abs(states[0, k]) < bound and abs(states[1, k]) < bound
         if good and abs(voltages[0, k]) < inf and abs(voltages[1, k]) < inf:
             continue
         first = max(k, 1)
-        for i in range(2):
-            for j in range(first, samples):
-                angles[i, j], voltages[i, j] = angles[i, first - 1], voltages[i, first - 1]
+        for j in range(first, samples):
+            for i in range(rows):
+                states[i, j] = states[i, first - 1]
+            for i in range(2):
+                voltages[i, j] = voltages[i, first - 1]
         return first
     return samples
 

@@ -58,9 +58,9 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
         states,
         held,
     )
-    angles, voltages = np.ascontiguousarray(states[:, :2].T), np.ascontiguousarray(held.T)
-    response = response_of(system, t, angles, voltages, outcome=outcome, impacts=impacts)
-    remarks = tuple(_remarks(loop, digital))
+    course, voltages = np.ascontiguousarray(states.T), np.ascontiguousarray(held.T)
+    response = response_of(system, t, course, voltages, outcome=outcome, impacts=impacts)
+    remarks = tuple(_remarks(loop, scenario, digital))
     return Response(**{**vars(response), "findings": (*response.findings, *remarks)})
 
 
@@ -75,7 +75,7 @@ def _settings(digital: Digital) -> Floats:
     return np.array([digital.sample_time, *steps, filtered, *F, *b, w**2, float(digital.delay)])
 
 
-def _remarks(loop: Loop, digital: Digital) -> Iterator[Finding]:
+def _remarks(loop: Loop, scenario: Scenario, digital: Digital) -> Iterator[Finding]:
     fastest = float(np.max(np.abs(loop.poles)))
     if digital.sample_time * fastest > SLOW_SAMPLING:
         yield Finding(
@@ -84,3 +84,12 @@ def _remarks(loop: Loop, digital: Digital) -> Iterator[Finding]:
             f"A sample time of {1e3 * digital.sample_time:g} ms is slow for a pole {fastest:.3g} rad/s out: the "
             f"digital loop is not like the continuous one. Below {1e3 * SLOW_SAMPLING / fastest:.2g} ms it would be.",
         )
+    if scenario.anti_windup == "back-calculation" and loop.has_integrators and scenario.saturation:
+        tracking = scenario.tracking_time or float(np.min(loop.integral_times))
+        if tracking < digital.sample_time:
+            yield Finding(
+                "fast_tracking",
+                "warning",
+                f"A tracking time of {1e3 * tracking:.3g} ms is shorter than the sample time of "
+                f"{1e3 * digital.sample_time:g} ms: at a limit the integral overshoots with every sample.",
+            )

@@ -23,22 +23,19 @@ def simulate_linear(loop: Loop, scenario: Scenario) -> Response:
     wanted = reference - rest
 
     n, samples = len(loop.A), scenario.samples
-    augmented, outputs = np.zeros((AUGMENTED, AUGMENTED)), np.zeros((4, AUGMENTED))
+    augmented, outputs = np.zeros((AUGMENTED, AUGMENTED)), np.zeros((2, AUGMENTED))
     augmented[:n, :n] = loop.A
     augmented[:n, -1] = loop.B @ wanted
-    outputs[0, 0] = outputs[1, 1] = 1.0
-    outputs[:2, -1] = rest
-    outputs[2:, :n] = loop.voltage_from_state
-    outputs[2:, -1] = loop.voltage_from_reference @ wanted
+    outputs[:, :n] = loop.voltage_from_state
+    outputs[:, -1] = loop.voltage_from_reference @ wanted
 
     t = scenario.times
-    states, traces = np.zeros((AUGMENTED, samples)), np.empty((4, samples))
+    states, voltages = np.zeros((AUGMENTED, samples)), np.empty((2, samples))
     states[:2, 0], states[2:4, 0], states[-1, 0] = start[:2] - rest, start[2:], 1.0
     with np.errstate(over="ignore", invalid="ignore"):
-        engine().respond(augmented, t[1], outputs, np.empty((3 * AUGMENTED, AUGMENTED)), states, traces)
-    angles, voltages = traces[:2], traces[2:]
-    findings = hold_when_diverged(t, angles, voltages)
-    ends = (float(reference[0]), float(reference[1]))
-    return Response(
-        "linear", t, angles, voltages, ends, (float(start[0]), float(start[1])), (0.0, 0.0), tuple(findings)
-    )
+        engine().respond(augmented, t[1], outputs, np.empty((3 * AUGMENTED, AUGMENTED)), states, voltages)
+        states[:2] += rest[:, None]
+    states = states[:n]
+    findings = hold_when_diverged(t, states, voltages)
+    ends, begin = (float(reference[0]), float(reference[1])), (float(start[0]), float(start[1]))
+    return Response("linear", t, states[:2], voltages, ends, begin, (0.0, 0.0), tuple(findings), states)

@@ -43,18 +43,18 @@ class NonlinearLoop:
         constants, modes: laid out as `kernels.rig` says.
         start: θ, ψ, θ̇, ψ̇, z_p, z_y at t = 0.
         reference: θ_ref, ψ_ref, absolute, rad.
-        limits: of the voltages, V; infinite without saturation.
         travel: of pitch, rad; infinite without stops.
         disturbed_from: when the disturbance within `constants` sets in, s; infinite without one.
+        order: how many of the states mean anything: 6, or 4 where nothing integrates.
     """
 
     constants: Floats
     modes: NDArray[np.int64]
     start: Floats
     reference: Floats
-    limits: tuple[float, float]
     travel: float
     disturbed_from: float
+    order: int
 
     @classmethod
     def of(cls, loop: Loop, limits: Limits, scenario: Scenario) -> NonlinearLoop:
@@ -70,12 +70,11 @@ class NonlinearLoop:
         constants[OFFSET:LIMIT] = loop.voltage_from_reference @ (reference - rest) - law[:, :2] @ rest
         if scenario.trim_feedforward:
             constants[OFFSET:LIMIT] += plant.trim
-        ceilings = (limits.V_p, limits.V_y) if scenario.saturation else (np.inf, np.inf)
-        constants[LIMIT:WANTED] = ceilings
+        constants[LIMIT:WANTED] = (limits.V_p, limits.V_y) if scenario.saturation else np.inf
         constants[WANTED:TRACKING] = reference
         windup = _WINDUP[scenario.anti_windup] if loop.has_integrators and scenario.saturation else 0
         if windup == BACK_CALCULATION:
-            constants[TRACKING:TRAVEL] = _tracking(loop).ravel()
+            constants[TRACKING:TRAVEL] = _tracking(loop, scenario.tracking_time).ravel()
         travel = limits.theta if scenario.travel_stops and limits.theta is not None else np.inf
         constants[TRAVEL] = travel
         since = np.inf
@@ -83,7 +82,22 @@ class NonlinearLoop:
             constants[DISTURBANCE:] = scenario.disturbance.V_p, scenario.disturbance.V_y
             since = scenario.disturbance.time
         modes = np.array([0, 0, 1, 1, 0, *_motors(loop), windup], dtype=np.int64)
-        return cls(constants, modes, first, reference, ceilings, travel, since)
+        return cls(constants, modes, first, reference, travel, since, len(loop.A))
+
+    @property
+    def gain(self) -> Floats:
+        """∂u/∂y, 2×6: u = `gain` y + `offset`, V."""
+        return self.constants[GAIN:OFFSET].reshape(2, 6)
+
+    @property
+    def offset(self) -> Floats:
+        """Voltages at y = 0, shape (2,), V."""
+        return self.constants[OFFSET:LIMIT]
+
+    @property
+    def limits(self) -> Floats:
+        """Of the voltages, shape (2,), V; infinite without saturation."""
+        return self.constants[LIMIT:WANTED]
 
 
 def rig_constants(p: Any) -> list[Any]:
@@ -100,15 +114,17 @@ def _motors(loop: Loop) -> tuple[int, int]:
     return int(abs(c) > abs(a)), int(abs(d) > abs(b))
 
 
-def _tracking(loop: Loop) -> Floats:
+def _tracking(loop: Loop, tracking_time: float | None) -> Floats:
     """The gains of back-calculation, 2×2, rad/(V·s).
 
-    Tracking time = T_i (Åström & Hägglund, Advanced PID Control, 2006, section 3.5): the integrals
-    follow so that their voltage makes up for what the limits cut off.
+    The integrals follow so that their voltage makes up for what the limits cut off, with `tracking_time`
+    as time constant, or else T_i (Åström & Hägglund, Advanced PID Control, 2006, section 3.5, who
+    advise between T_d and T_i; a PI controller has no T_d).
     """
     if loop.integral is None or not np.all(np.any(loop.integral, axis=0)):
         return np.zeros((2, 2))
-    return np.asarray(np.linalg.pinv(loop.integral) / loop.integral_times[:, None], dtype=np.float64)
+    times = loop.integral_times if tracking_time is None else np.full(2, tracking_time)
+    return np.asarray(np.linalg.pinv(loop.integral) / times[:, None], dtype=np.float64)
 
 
 def simulate_nonlinear(loop: Loop, limits: Limits, scenario: Scenario) -> Response:
@@ -122,9 +138,9 @@ def simulate_nonlinear(loop: Loop, limits: Limits, scenario: Scenario) -> Respon
     t = scenario.times
     states = np.full((scenario.samples, 6), np.nan)
     outcome, impacts = _integrate(system, scenario.rtol, t, states)
-    angles, voltages = np.empty((2, len(t))), np.empty((2, len(t)))
-    engine().trajectories(states, system.constants, angles, voltages)
-    return response_of(system, t, angles, voltages, outcome=outcome, impacts=impacts)
+    course, voltages = np.empty((6, len(t))), np.empty((2, len(t)))
+    engine().trajectories(states, system.constants, course, voltages)
+    return response_of(system, t, course, voltages, outcome=outcome, impacts=impacts)
 
 
 def _integrate(system: NonlinearLoop, rtol: float, t: Floats, states: Floats) -> tuple[int, int]:
@@ -154,10 +170,10 @@ def _integrate(system: NonlinearLoop, rtol: float, t: Floats, states: Floats) ->
 
 
 def response_of(
-    system: NonlinearLoop, t: Floats, angles: Floats, voltages: Floats, *, outcome: int, impacts: int
+    system: NonlinearLoop, t: Floats, states: Floats, voltages: Floats, *, outcome: int, impacts: int
 ) -> Response:
-    """What a kernel has filled, as a response: angles and voltages, (2, n), NaN where none was reached."""
-    findings = hold_when_diverged(t, angles, voltages)
+    """What a kernel has filled, as a response: states (6, n) and voltages (2, n), NaN where none was reached."""
+    findings = hold_when_diverged(t, states, voltages)
     at_limit = engine().share_at_limit
     saturated = at_limit(voltages[0], system.limits[0]), at_limit(voltages[1], system.limits[1])
     if outcome:
@@ -166,7 +182,8 @@ def response_of(
     findings += _remarks(system, saturated, impacts)
     reference = (float(system.reference[0]), float(system.reference[1]))
     start = (float(system.start[0]), float(system.start[1]))
-    return Response("nonlinear", t, angles, voltages, reference, start, saturated, tuple(findings))
+    own = states[: system.order]
+    return Response("nonlinear", t, own[:2], voltages, reference, start, saturated, tuple(findings), own)
 
 
 def _remarks(system: NonlinearLoop, saturated: tuple[float, float], impacts: int) -> Iterator[Finding]:

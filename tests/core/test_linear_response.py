@@ -25,10 +25,13 @@ OUTERS = (
 )
 
 
-def whole_loop(placed, outer):
-    """Reference → (θ, ψ, V_p, V_y), its blocks connected by python-control by the names of their signals."""
+MOTORS, STATES = ("V_p", "V_y"), ("theta", "psi", "theta_dot", "psi_dot")
+
+
+def whole_loop(placed, outer, outputs=("theta", "psi", *MOTORS)):
+    """Reference → outputs, its blocks connected by python-control by the names of their signals."""
     K, A, B = placed.K, placed.plant.A, placed.plant.B
-    states, motors = ["theta", "psi", "theta_dot", "psi_dot"], ["V_p", "V_y"]
+    states, motors = list(STATES), list(MOTORS)
     G_0 = np.eye(2, 4) @ np.linalg.solve(-(A - B @ K), B)
     paired = [G_0[0, 0], G_0[1, 1]] if outer.pairing == "diagonal" else [G_0[0, 1], G_0[1, 0]]
     if outer.outer == "none":
@@ -56,9 +59,12 @@ def whole_loop(placed, outer):
         control.ss([], [], [], K, inputs=states, outputs=["f_p", "f_y"], name="feedback"),
         control.ss(controllers, inputs=["e_theta", "e_psi"], outputs=["v_p", "v_y"], name="controllers"),
     ]
-    return control.interconnect(
-        [*blocks, *errors, *sums], inputs=["r_theta", "r_psi"], outputs=["theta", "psi", *motors]
-    )
+    blocks += [
+        control.ss(0, 1, 1, 0, inputs=error, outputs=z)
+        for error, z in (("e_theta", "z_p"), ("e_psi", "z_y"))
+        if z in outputs
+    ]
+    return control.interconnect([*blocks, *errors, *sums], inputs=["r_theta", "r_psi"], outputs=list(outputs))
 
 
 @pytest.mark.parametrize("outer", OUTERS, ids=str)
@@ -90,6 +96,19 @@ def test_response_from_an_initial_state_is_python_controls(spec, design):
     system = control.ss(loop.A, loop.B, np.eye(6), 0)
     expected = control.initial_response(system, response.t, [*start, 0.0, 0.0])
     np.testing.assert_allclose(response.angles, expected.outputs[:2], atol=1e-10)
+
+
+@pytest.mark.parametrize("outer", OUTERS, ids=str)
+def test_states_are_python_controls(spec, outer):
+    placed = design(plant(spec.parameters), spec.poles)
+    step = np.array([0.1, -0.3])
+    response = simulate_linear(close_loop(placed, outer), Scenario(*step, duration=2.0))
+    names = STATES if outer.outer == "none" else (*STATES, "z_p", "z_y")
+    reference = np.repeat(step[:, None], len(response.t), axis=1)
+    expected = control.forced_response(whole_loop(placed, outer, names), response.t, reference).outputs
+    assert response.states.shape == expected.shape
+    np.testing.assert_allclose(response.states, expected, atol=1e-10)
+    np.testing.assert_array_equal(response.states[:2], response.angles)
 
 
 def test_response_does_not_depend_on_its_grid(spec, design):

@@ -15,7 +15,7 @@ from heli2dof_core import Limits, OuterLoop, PIGains, PoleSet, Scenario, close_l
 from heli2dof_core.compiled import accelerations
 from heli2dof_core.engine import engine
 from heli2dof_core.kernels import rig as kernel
-from heli2dof_core.layout import GAIN, LIMIT, OFFSET, WANTED, WORKSPACE
+from heli2dof_core.layout import WORKSPACE
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.simulation.nonlinear import NonlinearLoop, simulate_nonlinear
 from tests.reference import Reference
@@ -68,6 +68,8 @@ def test_saturating_response_is_scipys(spec, design, reference):
     )
     assert max(response.saturated) > 0
     np.testing.assert_allclose(response.angles, expected.y[:2], atol=1e-6)
+    np.testing.assert_allclose(response.states[[0, 1, 4, 5]], expected.y[[0, 1, 4, 5]], atol=1e-6)
+    np.testing.assert_allclose(response.states[2:4], expected.y[2:4], atol=1e-5)  # rad/s
 
 
 def test_small_steps_tend_to_the_linear_response(design):
@@ -263,8 +265,7 @@ def test_clamping_slides_along_the_limit_instead_of_chattering(design):
         states,
     )
     assert outcome == 0 and switches < 10
-    c = system.constants
-    asked = np.abs(c[GAIN:OFFSET].reshape(2, 6) @ states.T + c[OFFSET:LIMIT, None]) / c[LIMIT:WANTED, None]
+    asked = np.abs(system.gain @ states.T + system.offset[:, None]) / system.limits[:, None]
     assert np.sum(np.abs(asked - 1) < 1e-7) > 20
 
 
