@@ -2,7 +2,7 @@
 import { copyText } from './clipboard.js';
 import { allOf, FORMATS, textOf } from './copy_formats.js';
 import { h, setText } from './dom.js';
-import { popupButton } from './popup.js';
+import { icon, popupButton } from './popup.js';
 
 /** @typedef {import('./copy_formats.js').Item} Item @typedef {import('./copy_formats.js').Format} Format */
 const TITLES = { LaTeX: 'for a document', Python: 'NumPy or SymPy', MATLAB: 'MATLAB or Octave', Text: 'plain text' };
@@ -10,7 +10,7 @@ const SHOWN_MS = 1400;
 
 /** @param {string} testid @param {() => Item[]} items what there is at the moment it opens @param {string} [label] */
 export function copyButton(testid, items, label = 'Copy as LaTeX, Python, MATLAB or text') {
-  return popupButton({ label, text: '⧉', testid: `copy-${testid}`, content: () => menu(items()) });
+  return popupButton({ label, text: icon('copy'), testid: `copy-${testid}`, content: () => menu(items()) });
 }
 
 /** @param {Item[]} items */

@@ -3,6 +3,7 @@ import { copyButton } from './copy_menu.js';
 import { h, setAttr, setText, symbol } from './dom.js';
 import { significant } from './format.js';
 
+/** @typedef {{name: string, note?: string}|(() => import('./copy_formats.js').Item[])} Copied  the name under which a matrix is copied, or all that its button copies */
 const dotted = (/** @type {string} */ s) => h('span', { class: 'sym' }, h('i', {}, `${s}\u0307`));
 const STATES = [{ name: 'θ', unit: 'V/rad' }, { name: 'ψ', unit: 'V/rad' }, { name: 'θ̇', unit: 'V·s/rad' }, { name: 'ψ̇', unit: 'V·s/rad' }];
 const MOTORS = ['V_p', 'V_y'];
@@ -13,11 +14,12 @@ export class Matrix {
 
   /**
    * @param {string} testid @param {Node} name @param {Node[]} rows @param {Node[]} columns @param {(i: number, j: number) => string} title
-   * @param {{name: string, note?: string}} [copied]  under what name it is copied; without, there is no button for it
+   * @param {Copied} [copied]  without it there is no button
    */
   constructor(testid, name, rows, columns, title, copied) {
     this.title = title;
-    const tool = copied ? copyButton(testid, () => (this.values ? [{ ...copied, matrix: this.values }] : [])) : null;
+    const items = typeof copied === 'function' ? copied : () => (copied && this.values ? [{ ...copied, matrix: this.values }] : []);
+    const tool = copied ? copyButton(testid, items) : null;
     this.cells = rows.map((_r, i) => columns.map((_c, j) => h('td', { 'data-testid': `${testid}-${i}${j}` })));
     this.node = h('table', { class: 'matrix', 'data-testid': testid },
       h('thead', {}, h('tr', {}, h('th', { class: 'name' }, name, tool), columns.map((c) => h('th', { scope: 'col' }, c)))),
@@ -34,7 +36,7 @@ export class Matrix {
   }
 }
 
-/** The state feedback, u = −Kx + v. @param {string} testid @param {{name: string, note?: string}} [copied] */
+/** The state feedback, u = −Kx + v. @param {string} testid @param {Copied} [copied] */
 export const gainMatrix = (testid, copied) => new Matrix(testid, h('b', {}, 'K'), motors(), [symbol('θ'), symbol('ψ'), dotted('θ'), dotted('ψ')],
   (i, j) => `k${'₁₂'[i]}${'₁₂₃₄'[j]}: ${STATES[j].unit}, what ${MOTORS[i]} gets back of ${STATES[j].name}`, copied);
 

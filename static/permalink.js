@@ -56,7 +56,7 @@ export function linkOf(state, { presets, requirements = {} }, place = null, most
   if (motion !== 'both') parts.push(['motion', motion]);
   if (!showLinear) parts.push(['linear', 'false']);
   if (spread) parts.push(['spread', String(spread)]);
-  for (const [path, text] of differences(state.requirements ?? {}, requirements)) parts.push([`req.${path}`, text]);
+  for (const [path, text] of state.requirements ? differences(state.requirements, requirements) : []) parts.push([`req.${path}`, text]);
   if (locks.length) parts.push(['lock', locks.join()]);
   if (place) parts.push(['at', place]);
   const link = `#v${VERSION}&${joined(parts, '&')}`;
@@ -169,7 +169,7 @@ const READERS = { 1: readFirst };
 export function readLink(hash, known) {
   const text = hash.replace(/^#/, '');
   const whole = /^v\d+%26/i.test(text) ? unescaped(text) : text; // some programs escape every ampersand
-  const found = /^v(\d+)(?:&|$)/.exec(whole);
+  const found = /^v(\d+)(?:&(?:amp;)?|$)/.exec(whole);
   if (!found) return { place: placeIn(hash), trouble: [] };
   const version = Number(found[1]);
   if (READERS[version]) return READERS[version](whole.slice(found[0].length), known);

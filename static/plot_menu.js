@@ -5,7 +5,7 @@ import { h } from './dom.js';
 import { nameOf } from './methods.js';
 import { csvOf, linesOf } from './plot_export.js';
 import { drawPlot, fileName } from './plot_image.js';
-import { popupButton } from './popup.js';
+import { icon, popupButton } from './popup.js';
 
 /** @typedef {import('./traces.js').Signal} Signal @typedef {{x: [number, number], y: [number, number], rules: {value: number, label: string, danger: boolean}[]}} Seen */
 
@@ -26,5 +26,5 @@ export function plotMenu(store, signal, title, seen) {
   const words = { PNG: 'Picture: what is seen, with title, axes and legend, on white', CSV: 'Numbers: time and every line, units in the header' };
   const content = () => [h('div', { class: 'row' }, h('span', { class: 'caption' }, `Save ${title}`), .../** @type {('PNG'|'CSV')[]} */ (['PNG', 'CSV']).map((kind) =>
     h('button', { type: 'button', title: words[kind], 'data-testid': `save-${signal}-${kind}`, onclick: save[kind] }, kind)))];
-  return popupButton({ label: `Save ${title} as picture or numbers`, text: '⤓', testid: `save-${signal}`, content });
+  return popupButton({ label: `Save ${title} as picture or numbers`, text: icon('save'), testid: `save-${signal}`, content });
 }

@@ -1,7 +1,7 @@
 /**
  * One panel that opens beside the button that asked for it: light dismissal, Escape and the focus's return are the browser's (`popover`), the arrow keys are ours.
  */
-import { h } from './dom.js';
+import { h, svg } from './dom.js';
 
 const MARGIN = 8; // px to the window's edge
 
@@ -64,8 +64,12 @@ export function togglePopup(anchor, label, content) {
   /** @type {HTMLElement|null} */ (panel.querySelector('button, input'))?.focus({ preventScroll: true });
 }
 
-/** A button that opens a popup. @param {{label: string, text: string, testid?: string, kind?: string, content: () => (Node|string)[]}} how */
+/** A button that opens a popup. @param {{label: string, text: string|Node, testid?: string, kind?: string, content: () => (Node|string)[]}} how */
 export function popupButton({ label, text, testid, kind = 'small-tool', content }) {
   const button = h('button', { type: 'button', class: kind, title: label, 'aria-label': label, 'aria-haspopup': 'dialog', 'aria-expanded': 'false', 'data-testid': testid, onclick: () => togglePopup(button, label, content) }, text);
   return button;
 }
+
+/** Two sheets, or an arrow into a tray. @param {'copy'|'save'} kind */
+export const icon = (kind) => svg('svg', { class: 'icon-tool', viewBox: '0 0 12 12', 'aria-hidden': 'true' },
+  svg('path', { d: kind === 'copy' ? 'M 4.5 4.5 H 10.5 V 10.5 H 4.5 Z M 2.5 7.5 H 1.5 V 1.5 H 7.5 V 2.5' : 'M 6 1 V 7.5 M 3.2 4.8 L 6 7.6 L 8.8 4.8 M 1.5 10.5 H 10.5' }));

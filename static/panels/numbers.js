@@ -1,6 +1,5 @@
 /** K and the RGA as matrices, what the RGA says, in words, and the one step that heeds it. */
 import { suggestLoops } from '../api.js';
-import { copyButton } from '../copy_menu.js';
 import { h, setAttr, setText } from '../dom.js';
 import { fixed, significant } from '../format.js';
 import { GAIN, gainMatrix, relativeGains } from '../matrix.js';
@@ -45,12 +44,12 @@ export class NumbersPanel {
   /** @param {HTMLElement} root @param {import('../store.js').Store} store */
   constructor(root, store) {
     this.store = store;
-    this.k = gainMatrix('k-matrix');
+    this.k = gainMatrix('k-matrix', () => copied(store.state));
     this.rga = relativeGains('rga-matrix');
     this.words = h('span', { class: 'pairing-words', 'data-testid': 'pairing-words' });
     this.pair = h('button', { type: 'button', class: 'pair-advised', hidden: true, 'data-testid': 'pair-advised', title: 'Pairs as the RGA advises, with PI values that suit the new pairs', onclick: () => this.#pair() });
     this.note = h('p', { class: 'note', 'data-testid': 'pairing-note', role: 'status' });
-    root.append(h('div', { class: 'matrices' }, this.k.node, this.rga.node, copyButton('numbers', () => copied(store.state), 'Copy K, RGA, A, B and poles as LaTeX, Python, MATLAB or text')), h('p', { class: 'advice' }, this.words, ' ', this.pair), this.note);
+    root.append(h('div', { class: 'matrices' }, this.k.node, this.rga.node), h('p', { class: 'advice' }, this.words, ' ', this.pair), this.note);
   }
 
   /** The PI values belong to the pairing, so both change in one step; where none are found, the pairing alone. */

@@ -28,7 +28,7 @@ export class PinsPanel {
     const cell = (/** @type {import('../pins.js').Figure} */ f) => h('th', { scope: 'col', title: f.title, rowspan: f.axis ? 1 : 2 }, heading(f));
     const [first, last] = [FIGURES.findIndex((f) => f.axis), FIGURES.findLastIndex((f) => f.axis)];
     const table = h('table', { class: 'compare-table pins-table', 'data-testid': 'pins-table' }, h('thead', {},
-      h('tr', {}, h('th', { scope: 'col', rowspan: 2, class: 'method-name' }, 'Design'), FIGURES.slice(0, first).map(cell), group('theta'), group('psi'), FIGURES.slice(last + 1).map(cell), h('th', { rowspan: 2 }, h('span', { class: 'sr' }, 'Use, rename, unpin'))),
+      h('tr', {}, h('th', { scope: 'col', rowspan: 2, class: 'method-name' }, 'Design'), FIGURES.slice(0, first).map(cell), group('theta'), group('psi'), FIGURES.slice(last + 1).map(cell)),
       h('tr', {}, FIGURES.slice(first, last + 1).map(cell))), this.rows);
     root.append(h('p', { class: 'caption' }, 'Below each figure, how far it is from the present design’s: ▲ better, ▼ worse. The best of a column is in bold.'),
       h('div', { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Table of the pinned designs' }, table));
@@ -47,7 +47,7 @@ export class PinsPanel {
     this.#seen = now;
     const focused = document.activeElement?.getAttribute('data-testid');
     const table = differenceTable([reply, ...pins.map((p) => p.reply)]);
-    const present = h('tr', { class: 'current', 'data-testid': 'pin-row-present' }, h('th', { scope: 'row', class: 'method-name' }, h('span', {}, 'Present design')), this.#cells(table[0], 'present'), h('td', {}));
+    const present = h('tr', { class: 'current', 'data-testid': 'pin-row-present' }, h('th', { scope: 'row', class: 'method-name' }, h('span', {}, 'Present design')), this.#cells(table[0], 'present'));
     this.rows.replaceChildren(present, ...pins.map((pin, i) => this.#row(pin, table[i + 1])));
     if (focused && this.root.contains(this.rows)) /** @type {HTMLElement|null} */ (this.rows.querySelector(`[data-testid="${CSS.escape(focused)}"]`))?.focus({ preventScroll: true });
   }
@@ -62,9 +62,9 @@ export class PinsPanel {
   #row(pin, cells) {
     const tool = (/** @type {string} */ id, /** @type {string} */ text, /** @type {string} */ label, /** @type {() => void} */ act) => h('button', { type: 'button', 'data-testid': `pin-${id}-${pin.index}`, 'aria-label': label, title: label, onclick: act }, text);
     const name = h('span', { class: 'pin-name' }, pin.name);
-    const head = h('th', { scope: 'row', class: 'method-name', title: described(pin.design) }, badge(pin.index), ' ', name, h('small', {}, pin.refused ? `Not computed: ${pin.refused}` : described(pin.design)));
-    return h('tr', { 'data-testid': `pin-row-${pin.index}` }, head, this.#cells(cells, String(pin.index)),
-      h('td', { class: 'tools' }, tool('use', 'Use', `Make ${pin.name} the present design`, () => this.store.usePin(pin.id)), tool('rename', 'Rename', `Rename ${pin.name}`, () => this.#rename(pin, name)), tool('delete', 'Unpin', `Unpin ${pin.name}`, () => this.store.unpin(pin.id))));
+    const head = h('th', { scope: 'row', class: 'method-name', title: described(pin.design) }, badge(pin.index), ' ', name, h('small', {}, pin.refused ? `Not computed: ${pin.refused}` : described(pin.design)),
+      h('span', { class: 'tools' }, tool('use', 'Use', `Make ${pin.name} the present design`, () => this.store.usePin(pin.id)), tool('rename', 'Rename', `Rename ${pin.name}`, () => this.#rename(pin, name)), tool('delete', 'Unpin', `Unpin ${pin.name}`, () => this.store.unpin(pin.id))));
+    return h('tr', { 'data-testid': `pin-row-${pin.index}` }, head, this.#cells(cells, String(pin.index)));
   }
 
   /** @param {Pin} pin @param {HTMLElement} name */
