@@ -4,7 +4,7 @@ import { lockNames } from '../locks.js';
 import { designOf } from '../store.js';
 import { ShareButtons } from './share.js';
 
-const STATUS = { connecting: 'connecting…', open: 'live', lost: 'connection lost: your changes are kept and sent when it returns' };
+const STATUS = { connecting: 'connecting…', open: 'live', lost: 'connection lost, your changes are kept' };
 
 export class HeaderPanel {
   /** @param {HTMLElement} root @param {import('../store.js').Store} store @param {import('../address.js').Address} address */
