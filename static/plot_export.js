@@ -17,15 +17,15 @@ const STEPS = { theta: 'pitch step', psi: 'yaw step', both: 'both steps' };
 /** @param {Signal} signal */
 export const unitOf = (signal) => (isVoltage(signal) ? 'V' : 'deg');
 
-/** Every line of a plot, the lowest first. @param {State} state @param {Signal} signal @returns {Line[]} */
+/** Every line of a plot in the order of the legend, which is that of drawing from the top down. @param {State} state @param {Signal} signal @returns {Line[]} */
 export function linesOf({ reply, motion, showLinear, pins }, signal) {
   if (!reply) return [];
   const { t, plots } = tracesOf(reply, motion, showLinear);
   const [played, linearPitch, linearYaw, yaw, pitch] = plots[signal];
   const line = (/** @type {string} */ name, /** @type {Kind} */ kind, /** @type {Series|undefined} */ values, linear = false) => (values ? [{ name, kind, linear, t, values }] : []);
   const ghosts = ghostsOf(pins, signal).map(({ pin, axis, t: own, values }) => /** @type {Line} */ ({ name: `${letterOf(pin.index)} ${pin.name}, ${STEPS[axis]}`, kind: 'pin', index: pin.index, axis, t: own, values }));
-  return [...(motion === 'both' ? line(STEPS.both, 'played', played) : []), ...ghosts, ...line('pitch step, linear', 'pitch', linearPitch, true), ...line('yaw step, linear', 'yaw', linearYaw, true),
-    ...line(STEPS.psi, 'yaw', yaw), ...line(STEPS.theta, 'pitch', pitch)];
+  return [...line(STEPS.theta, 'pitch', pitch), ...line(STEPS.psi, 'yaw', yaw), ...line('pitch step, linear', 'pitch', linearPitch, true), ...line('yaw step, linear', 'yaw', linearYaw, true),
+    ...ghosts, ...(motion === 'both' ? line(STEPS.both, 'played', played) : [])];
 }
 
 /** Single precision has no more digits than this. @param {number|undefined} v */
@@ -41,7 +41,7 @@ const alike = (a, b) => a === b || (a.length === b.length && Math.abs(a[a.length
 export function csvOf(signal, lines) {
   /** @type {{name: string, values: Series}[]} */ const columns = [];
   /** @type {Series|null} */ let t = null;
-  for (const line of [...lines].reverse()) { // what is on top comes first
+  for (const line of lines) {
     if (!t || !alike(t, line.t)) columns.push({ name: 't [s]', values: line.t });
     t = line.t;
     columns.push({ name: `${NAMES[signal]}, ${line.name} [${unitOf(signal)}]`, values: line.values });

@@ -60,11 +60,11 @@ export class PlotGhosts {
     if (!ctx) return;
     ctx.clearRect(0, 0, w, t);
     if (!this.ghosts.length) return;
-    drawGhosts(ctx, this.ghosts, (v) => chart.valToPos(v, 'x', true) - left, (v) => chart.valToPos(v, 'y', true) - top, { width: w, ratio, color });
+    drawGhosts(ctx, this.ghosts, (v) => chart.valToPos(v, 'x', true) - left, (v) => chart.valToPos(v, 'y', true) - top, { width: w, ratio, color })();
   }
 }
 
-/** @param {CanvasRenderingContext2D} ctx @param {Ghost[]} ghosts @param {(t: number) => number} px @param {(v: number) => number} py @param {{width: number, ratio: number, color: (name: string) => string}} how */
+/** @param {CanvasRenderingContext2D} ctx @param {Ghost[]} ghosts @param {(t: number) => number} px @param {(v: number) => number} py @param {{width: number, ratio: number, color: (name: string) => string}} how @returns {() => void} draws their letters, over what may come between */
 export function drawGhosts(ctx, ghosts, px, py, { width, ratio, color }) {
   ctx.lineJoin = 'round';
   const badges = ghosts.map(({ pin, axis, t, values }, k) => {
@@ -74,24 +74,26 @@ export function drawGhosts(ctx, ghosts, px, py, { width, ratio, color }) {
     ctx.beginPath();
     for (let i = 0; i < t.length; i++) ctx.lineTo(px(t[i]), py(values[i]));
     ctx.stroke();
-    const aim = width * (0.08 + 0.84 * ((k * 0.381966 + 0.2) % 1)); // letters of several lines stand apart
+    const aim = width * (0.06 + 0.4 * ((k * 0.381966 + 0.2) % 1)); // apart from one another, and early, where responses differ
     let i = 0;
     while (i < t.length - 1 && px(t[i]) < aim) i += 1;
     return { x: px(t[i]), y: py(values[i]), round: axis === 'theta', letter: letterOf(pin.index), ink: ctx.strokeStyle };
   });
   ctx.globalAlpha = 1;
-  ctx.font = `700 ${9 * ratio}px system-ui, sans-serif`;
-  ctx.textAlign = 'center';
-  ctx.textBaseline = 'middle';
+  return () => drawBadges(ctx, badges, ratio, color('panel'));
+}
+
+/** @param {CanvasRenderingContext2D} ctx @param {{x: number, y: number, round: boolean, letter: string, ink: string|CanvasGradient|CanvasPattern}[]} badges @param {number} ratio @param {string} paper */
+function drawBadges(ctx, badges, ratio, paper) {
+  Object.assign(ctx, { font: `700 ${9 * ratio}px system-ui, sans-serif`, textAlign: 'center', textBaseline: 'middle', lineWidth: 1.2 * ratio });
+  const r = BADGE * ratio;
   for (const { x, y, round, letter, ink } of badges) {
-    const r = BADGE * ratio;
     ctx.beginPath();
     if (round) ctx.arc(x, y, r, 0, 2 * Math.PI);
     else ctx.rect(x - r, y - r, 2 * r, 2 * r);
-    ctx.fillStyle = color('panel');
+    ctx.fillStyle = paper;
     ctx.fill();
     ctx.strokeStyle = ctx.fillStyle = ink;
-    ctx.lineWidth = 1.2 * ratio;
     ctx.stroke();
     ctx.fillText(letter, x, y + 0.5 * ratio);
   }

@@ -64,16 +64,18 @@ export function drawPlot(signal, lines, pins, { x, y, subtitle, rules }) {
   const ghosts = lines.filter((l) => l.kind === 'pin').map((l) => ({ pin: pins.find((p) => p.index === l.index), axis: /** @type {'theta'|'psi'} */ (l.axis), t: l.t, values: l.values })).filter((g) => g.pin);
   ctx.save();
   ctx.translate(box.left, 0);
-  if (ghosts.length) drawGhosts(ctx, ghosts, (t) => px(t) - box.left, py, { width: box.right - box.left, ratio: 1, color: (name) => LIGHT[name] });
+  const badges = drawGhosts(ctx, ghosts, (t) => px(t) - box.left, py, { width: box.right - box.left, ratio: 1, color: (name) => LIGHT[name] });
   ctx.restore();
-  for (const line of lines.filter((l) => l.kind !== 'pin' && l.kind !== 'played')) stroke(ctx, line, px, py);
+  for (const line of lines.filter((l) => l.kind !== 'pin' && l.kind !== 'played').reverse()) stroke(ctx, line, px, py);
+  ctx.translate(box.left, 0);
+  badges();
   ctx.restore();
   for (const { value, label, danger } of rules) {
     if (value < y[0] || value > y[1]) continue;
     stroke(ctx, { t: x, values: [value, value], style: { color: danger ? LIGHT.danger : LIGHT.ink, width: 1.2, dash: danger ? [] : [1, 4] } }, px, py);
     text(label, box.right - 4, py(value) + (value > 0 ? 9 : -9), 'right', '11px', danger ? LIGHT.danger : LIGHT.ink);
   }
-  lines.slice().reverse().forEach((line, i) => {
+  lines.forEach((line, i) => {
     const [left, top] = [box.left + (i % 3) * ((box.right - box.left) / 3), HEIGHT + 4 + 20 * Math.floor(i / 3)];
     stroke(ctx, { t: [0, 1], values: [0, 0], style: styleOf(line) }, (t) => left + 26 * t, () => top);
     text(line.name, left + 33, top, 'left', '12px', LIGHT.ink);

@@ -40,7 +40,9 @@ export class Plots {
     this.store = store;
     this.onSeek = onSeek;
     this.root = root;
-    this.when = h('span', { class: 'when', 'data-testid': 'plot-time' });
+    this.at = h('span');
+    this.played = h('span', { class: 'played' });
+    this.when = h('span', { class: 'when', 'data-testid': 'plot-time' }, this.at, this.played);
     this.unzoom = h('button', { type: 'button', class: 'unzoom', hidden: true, 'data-testid': 'unzoom', title: 'Show the whole time again (Escape)', onclick: () => this.#zoomTo(null) }, 'Whole time');
     this.#readColors();
     this.plots = SIGNALS.map((signal) => this.#build(signal));
@@ -282,7 +284,8 @@ export class Plots {
     const steps = this.store.state.reply?.axis_steps;
     if (!this.#data || !steps) return;
     const i = indexAt(this.#data.t, this.#hover ?? this.#playhead);
-    setText(this.when, `at ${fixed(this.#data.t[i], 2)} s, ${PLAYED[this.store.state.motion]} played`);
+    setText(this.at, `at ${fixed(this.#data.t[i], 2)} s`);
+    setText(this.played, `, ${PLAYED[this.store.state.motion]} played`);
     for (const { signal, values } of this.plots) {
       ['theta', 'psi'].forEach((axis, k) => {
         const v = this.#data?.plots[signal][k === 0 ? 4 : 3]?.[i];

@@ -127,8 +127,8 @@ test("a plot's numbers: units in the header, a column for each line, another tim
   store.changePin(pin.id, { reply: slow, name: 'a "slow", one' });
   const csv = csvOf("theta", linesOf({ ...store.state, showLinear: false }, "theta"));
   const rows = csv.trimEnd().split("\r\n");
-  assert.equal(rows[0], 't [s],"theta, pitch step [deg]","theta, yaw step [deg]","theta, A a ""slow"", one, yaw step [deg]",t [s],"theta, A a ""slow"", one, pitch step [deg]",t [s],"theta, both steps [deg]"');
+  assert.equal(rows[0], 't [s],"theta, pitch step [deg]","theta, yaw step [deg]",t [s],"theta, A a ""slow"", one, pitch step [deg]",t [s],"theta, A a ""slow"", one, yaw step [deg]","theta, both steps [deg]"');
   assert.equal(rows.length, 4);
-  assert.deepEqual(rows[2].split(",").map(Number), [0.5, 5.7295780, 5.7295780, 5.7295780, 1, 5.7295780, 0.5, 5.7295780]);
+  assert.deepEqual(rows[2].split(",").map(Number), [0.5, 5.729578, 5.729578, 1, 5.729578, 0.5, 5.729578, 5.729578]);
   assert.match(csvOf("V_p", linesOf(store.state, "V_p")), /^t \[s\],"V_p, pitch step \[V\]"/);
 });
