@@ -7,7 +7,7 @@
 import { linkOf, placeIn, readLink, troubleWords } from './permalink.js';
 import { initialState } from './store.js';
 
-const WITHIN_MS = 500; // between two writes of one gesture
+const WITHIN_MS = 1000; // between two writes of one gesture
 const BURST = 20; // calls that may follow each other at once
 const REFILL_MS = 400; // for each call after these: at most 20 + 75 in half a minute
 

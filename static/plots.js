@@ -274,7 +274,7 @@ export class Plots {
   #movePlayhead() {
     for (const { chart, head } of this.plots) {
       const x = chart.valToPos(this.#playhead, 'x');
-      const inside = Number.isFinite(x) && x >= 0 && x <= chart.over.clientWidth;
+      const inside = Number.isFinite(x) && x >= 0 && x <= chart.bbox.width / devicePixelRatio; // asking the element would lay out the page
       head.hidden = !inside;
       if (inside) head.style.transform = `translateX(${x.toFixed(1)}px)`;
     }

@@ -1,5 +1,5 @@
 /** The table of the pinned designs: their figures, how far each is from the present design's, and the best of each column. */
-import { h, setText, symbol } from '../dom.js';
+import { h, setAttr, setText, symbol } from '../dom.js';
 import { complex } from '../format.js';
 import { nameOf } from '../methods.js';
 import { differenceTable, FIGURES } from '../pins.js';
@@ -14,8 +14,35 @@ const described = (design) => [design.poles.filter((p) => p.im >= 0).map((p) => 
 /** @param {import('../pins.js').Figure} f */
 const heading = (f) => (f.sub ? f.name === '‖K‖' ? h('span', { class: 'sym' }, '‖', h('i', {}, 'K'), '‖', h('sub', {}, f.sub)) : h('span', {}, symbol(f.name, f.sub), ' peak') : f.name);
 
+/** A figure and its difference, written in place while a pole moves. */
+class Cell {
+  /** @param {string} testid */
+  constructor(testid) {
+    this.text = h('span');
+    this.best = h('span', { class: 'sr' });
+    this.mark = h('span', { 'aria-hidden': 'true' });
+    this.shift = h('span');
+    this.verdict = h('span', { class: 'sr' });
+    this.small = h('small', {}, this.mark, this.shift, this.verdict);
+    this.node = h('td', { 'data-testid': testid }, this.text, this.best, this.small);
+  }
+
+  /** @param {ReturnType<typeof differenceTable>[number][number]} c */
+  show({ text, shift, best, better }) {
+    setAttr(this.node, 'class', best ? 'best' : '');
+    setAttr(this.small, 'class', !shift ? '' : better ? 'better' : 'worse');
+    setText(this.text, text);
+    setText(this.best, best ? ', best' : '');
+    setText(this.mark, !shift ? '' : better ? '▲ ' : '▼ ');
+    setText(this.shift, shift);
+    setText(this.verdict, !shift ? '' : better ? ', better' : ', worse');
+  }
+}
+
 export class PinsPanel {
   /** @type {any[]} */ #seen = [];
+  /** @type {Pin[]} */ #pins = [];
+  /** @type {Cell[][]} */ #cells = [];
   #visible = false;
   /** @type {number|null} */ #naming = null;
 
@@ -35,36 +62,37 @@ export class PinsPanel {
     new IntersectionObserver((entries) => {
       this.#visible = entries[entries.length - 1].isIntersecting;
       this.render(store.state);
-    }).observe(root);
+    }).observe(table);
   }
 
   /** @param {import('../types.js').State} state */
-  render({ pins, reply, design }) {
+  render({ pins, reply }) {
     this.root.hidden = !pins.length;
     if (!this.#visible || !pins.length || this.#naming !== null) return;
-    const now = [pins, reply, design];
+    const now = [pins, reply];
     if (now.every((v, i) => v === this.#seen[i])) return;
     this.#seen = now;
+    if (pins !== this.#pins) this.#build(pins);
+    differenceTable([reply, ...pins.map((p) => p.reply)]).forEach((row, i) => row.forEach((c, j) => this.#cells[i][j].show(c)));
+  }
+
+  /** @param {Pin[]} pins */
+  #build(pins) {
+    this.#pins = pins;
     const focused = document.activeElement?.getAttribute('data-testid');
-    const table = differenceTable([reply, ...pins.map((p) => p.reply)]);
-    const present = h('tr', { class: 'current', 'data-testid': 'pin-row-present' }, h('th', { scope: 'row', class: 'method-name' }, h('span', {}, 'Present design')), this.#cells(table[0], 'present'));
-    this.rows.replaceChildren(present, ...pins.map((pin, i) => this.#row(pin, table[i + 1])));
-    if (focused && this.root.contains(this.rows)) /** @type {HTMLElement|null} */ (this.rows.querySelector(`[data-testid="${CSS.escape(focused)}"]`))?.focus({ preventScroll: true });
+    this.#cells = ['present', ...pins.map((p) => String(p.index))].map((id) => FIGURES.map((f) => new Cell(`pin-${id}-${f.id}`)));
+    const nodes = (/** @type {number} */ i) => this.#cells[i].map((c) => c.node);
+    this.rows.replaceChildren(h('tr', { class: 'current', 'data-testid': 'pin-row-present' }, h('th', { scope: 'row', class: 'method-name' }, h('span', {}, 'Present design')), nodes(0)), ...pins.map((pin, i) => this.#row(pin, nodes(i + 1))));
+    if (focused) /** @type {HTMLElement|null} */ (this.rows.querySelector(`[data-testid="${CSS.escape(focused)}"]`))?.focus({ preventScroll: true });
   }
 
-  /** @param {ReturnType<typeof differenceTable>[number]} cells @param {string} id */
-  #cells(cells, id) {
-    return cells.map((c, j) => h('td', { class: c.best ? 'best' : null, 'data-testid': `pin-${id}-${FIGURES[j].id}` }, c.text, c.best ? h('span', { class: 'sr' }, ', best') : null,
-      c.shift ? h('small', { class: c.better ? 'better' : 'worse' }, h('span', { 'aria-hidden': 'true' }, c.better ? '▲ ' : '▼ '), c.shift, h('span', { class: 'sr' }, c.better ? ', better' : ', worse')) : null));
-  }
-
-  /** @param {Pin} pin @param {ReturnType<typeof differenceTable>[number]} cells */
+  /** @param {Pin} pin @param {HTMLElement[]} cells */
   #row(pin, cells) {
     const tool = (/** @type {string} */ id, /** @type {string} */ text, /** @type {string} */ label, /** @type {() => void} */ act) => h('button', { type: 'button', 'data-testid': `pin-${id}-${pin.index}`, 'aria-label': label, title: label, onclick: act }, text);
     const name = h('span', { class: 'pin-name' }, pin.name);
     const head = h('th', { scope: 'row', class: 'method-name', title: described(pin.design) }, badge(pin.index), ' ', name, h('small', {}, pin.refused ? `Not computed: ${pin.refused}` : described(pin.design)),
       h('span', { class: 'tools' }, tool('use', 'Use', `Make ${pin.name} the present design`, () => this.store.usePin(pin.id)), tool('rename', 'Rename', `Rename ${pin.name}`, () => this.#rename(pin, name)), tool('delete', 'Unpin', `Unpin ${pin.name}`, () => this.store.unpin(pin.id))));
-    return h('tr', { 'data-testid': `pin-row-${pin.index}` }, head, this.#cells(cells, String(pin.index)));
+    return h('tr', { 'data-testid': `pin-row-${pin.index}` }, head, cells);
   }
 
   /** @param {Pin} pin @param {HTMLElement} name */
@@ -76,6 +104,7 @@ export class PinsPanel {
       if (this.#naming !== pin.id) return;
       this.#naming = null;
       this.#seen = [];
+      this.#pins = [];
       setText(name, pin.name);
       const text = input.value.trim();
       if (keep && text && text !== pin.name) this.store.changePin(pin.id, { name: text });
