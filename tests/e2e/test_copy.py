@@ -36,6 +36,23 @@ def test_matrices_are_copied_at_full_precision(page: Page, app: App):
     assert "RGA = [ ..." in copied(page, "k-matrix", "RGA-MATLAB")
 
 
+def test_copying_works_where_the_browser_gives_no_clipboard(page: Page, app: App):
+    """As on plain HTTP in a laboratory."""
+    clipboard(page, app)
+    page.evaluate(
+        """() => {
+          window.kept = navigator.clipboard;
+          Object.defineProperty(navigator, "clipboard", { value: undefined });
+        }"""
+    )
+    page.get_by_test_id("copy-k-matrix").click()
+    page.get_by_test_id("copy-K-Text").click()
+    expect(page.get_by_test_id("copied")).to_have_text("K copied as Text.")
+    expect(page.get_by_test_id("copy-K-Text")).to_be_focused()
+    text = page.evaluate("() => window.kept.readText()")
+    assert [float(v) for v in text.split("\n")[1].split()] == state(page)["K"][0]
+
+
 def test_formulas_are_copied(page: Page, app: App):
     clipboard(page, app)
     page.get_by_role("link", name="Formulas").click()
