@@ -30,7 +30,7 @@ export class PlotGhosts {
     this.chart = chart;
     this.signal = signal;
     this.canvas = h('canvas', { class: 'ghosts', 'aria-hidden': 'true' });
-    chart.root.querySelector('.u-wrap').prepend(this.canvas);
+    chart.root.querySelector('.u-wrap').append(this.canvas);
   }
 
   /** @param {Pin[]} pins @returns {boolean} whether they are others than before */
