@@ -41,9 +41,13 @@ export class CloudFeed {
   }
 
   /** @param {State} state */
-  render({ design, spread, motion, dragging }) {
+  render({ design, spread, motion, dragging, connection, cloud }) {
     if (!design || !spread) {
-      if (this.#socket || this.#key) this.#stop();
+      if (this.#socket || this.#key || cloud) this.#stop();
+      return;
+    }
+    if (connection === 'lost') {
+      this.#key = ''; // asked again when it is back
       return;
     }
     const names = Object.keys(this.store.preset?.parameters ?? {});

@@ -11,6 +11,7 @@ import { placesPoles } from './methods.js';
 import { character, drag, isComplex, nudge, pairOf, partner, tidy } from './poles.js';
 import { drawCloud } from './splane_cloud.js';
 import { drawGrid } from './splane_grid.js';
+import { drawPins } from './splane_pins.js';
 import { bounds, fit, keyStep, outgrown, toPixel, toPlane, zoom } from './splane_math.js';
 
 const REACH = 26; // px: how near a press must be to take a pole
@@ -267,6 +268,7 @@ export class SPlane {
     }
     this.#marks(this.open, reply?.open_loop_poles ?? [], () => svg('path', { d: OPEN_MARK }));
     this.#marks(this.loop, design.outer === 'pi' || unused ? reply?.loop_poles ?? [] : [], () => svg('path', { d: LOOP_MARK }));
+    drawPins(this.svg, this.#view, state.pins);
     drawCloud(this.cloud, this.#view, state.spread ? state.cloud : null);
     setText(this.cloudText, state.spread ? cloudWords(state.cloud, state.design?.scenario) : '');
     this.#drawReadout();

@@ -94,7 +94,7 @@
  *
  * @typedef {object} Reply
  * @property {number} seq
- * @property {{K: number[][], closed_loop_poles: Complex[], pole_error?: number, norm: number}} gains
+ * @property {{K: number[][], A?: number[][], B?: number[][], closed_loop_poles: Complex[], pole_error?: number, norm: number}} gains
  * @property {Complex[]} open_loop_poles
  * @property {{rga?: number[][], pairing?: string[][], reason?: string, niederlinski?: number, niederlinski_cross?: number}} [rga]
  * @property {StepPair} step
@@ -114,6 +114,9 @@
  * @typedef {{theta: number[][], psi: number[][]}} Envelopes  a row per percentile
  * @typedef {{done: number, samples: number, loop_poles: Complex[][], t: number[], envelopes: Envelopes, share_stable: number, share_within_limits: number}} Cloud
  *
+ * A design that is kept for comparison; its reply is missing until the server has given one.
+ * @typedef {{id: number, index: number, name: string, design: Design, reply: Reply|null, refused?: string}} Pin  index: its letter, colour and mark
+ *
  * @typedef {object} State
  * @property {number} spread  relative uncertainty of the rigs in the cloud; 0: no cloud
  * @property {Cloud|null} cloud
@@ -121,6 +124,7 @@
  * @property {Method[]} methods
  * @property {Design|null} design
  * @property {Reply|null} reply
+ * @property {Design|null} answered  the design that `reply` belongs to
  * @property {Problem|null} problem
  * @property {Connection} connection
  * @property {Motion} motion
@@ -128,5 +132,9 @@
  * @property {boolean} dragging
  * @property {boolean} canUndo
  * @property {boolean} canRedo
+ * @property {Pin[]} pins
+ * @property {string[]} locks  names in locks.js
+ * @property {string|null} notice  what is to be said of the link that was opened
+ * @property {Record<string, any>} [requirements]
  */
 export {};
