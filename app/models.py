@@ -122,14 +122,27 @@ class Metrics(Model):
     V_y: MotorMetrics
 
 
+class States(Model):
+    """What the outputs do not show, rad/s and rad·s; the integrals are left out where nothing integrates."""
+
+    theta_dot: list[float]
+    psi_dot: list[float]
+    z_p: list[float] | None = None
+    z_y: list[float] | None = None
+
+
 class Step(Model):
-    """A step response; s, rad, V. Linear voltages are deviations from the trim."""
+    """A step response; s, rad, V. Linear voltages are deviations from the trim.
+
+    `states` are there where they are asked for.
+    """
 
     t: list[float]
     theta: list[float]
     psi: list[float]
     V_p: list[float]
     V_y: list[float]
+    states: States | None = None
     reference: Angles
     trim: Voltages
     metrics: Metrics

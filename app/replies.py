@@ -35,7 +35,7 @@ from heli2dof_core.margins import Margins
 from heli2dof_core.metrics import StepMetrics
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.sensitivity import Sensitivity
-from heli2dof_core.signals import AXES, INPUTS, OUTPUTS, Floats
+from heli2dof_core.signals import AXES, INPUTS, INTEGRALS, OUTPUTS, STATES, Floats
 from heli2dof_core.spec import Limits
 from heli2dof_core.tuning import Suggestion
 from heli2dof_core.walkthrough import walk_through
@@ -48,7 +48,8 @@ Reply = dict[str, Any]
 
 def poles_reply(poles: Iterable[complex]) -> list[Reply]:
     """Complex numbers as ``{"re", "im"}``."""
-    return [{"re": float(p.real), "im": float(p.imag)} for p in poles]
+    values: Iterable[complex] = poles.tolist() if isinstance(poles, np.ndarray) else poles
+    return [{"re": p.real, "im": p.imag} for p in values]
 
 
 @lru_cache(maxsize=256)
@@ -60,7 +61,7 @@ def _indices(parameters: Parameters, theta_0: float) -> tuple[int, ...]:
 
 def findings_reply(findings: Iterable[Finding]) -> list[Reply]:
     """Findings as objects."""
-    return [asdict(finding) for finding in findings]
+    return [dict(vars(finding)) for finding in findings]
 
 
 def gains_reply(design: Design) -> Reply:
@@ -122,10 +123,20 @@ def step_reply(step: Step, loop: Loop) -> Reply:
     }
 
 
+def states_reply(step: Step) -> Reply:
+    """The states that are no outputs, under ``states``; the integrals where anything integrates."""
+    states = step.response.states
+    if states is None:
+        return {}
+    hidden = (*STATES[len(OUTPUTS) :], *INTEGRALS)
+    rows = states[len(OUTPUTS) :]
+    return {"states": {signal.name: row for signal, row in zip(hidden, rows, strict=False)}}
+
+
 def metrics_reply(metrics: StepMetrics) -> Reply:
     """Metrics by axis and motor."""
-    motors = {name: asdict(motor) for name, motor in metrics.motors.items()}
-    axes = {name: present(asdict(axis)) for name, axis in metrics.axes.items()}
+    motors = {name: dict(vars(motor)) for name, motor in metrics.motors.items()}
+    axes = {name: present(vars(axis)) for name, axis in metrics.axes.items()}
     other = {} if metrics.coupling_peak is None else {"coupling_peak": metrics.coupling_peak}
     return {**axes, **other, **motors}
 
@@ -160,10 +171,9 @@ def walkthrough_reply(design: Design) -> Reply:
 def report_reply(report: Report, spec: Spec) -> Reply:
     """Everything at once: what the page needs after a drag."""
     loop = report.loop
-    open_loop = np.linalg.eigvals(report.design.plant.A).astype(complex)
     return {
         "gains": gains_reply(report.design),
-        "open_loop_poles": poles_reply(open_loop),
+        "open_loop_poles": poles_reply(report.design.plant.poles),
         "rga": rga_reply(report.design, report.interaction),
         "step": {model: step_reply(step, loop) for model, step in report.step.items()},
         "axis_steps": {

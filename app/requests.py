@@ -19,14 +19,24 @@ from heli2dof_core.placement.method import Weights
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.presets import DEFAULT
 from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
-from heli2dof_core.spec import AntiWindup, Digital, Disturbance, Model, Outer, Pairing, Rates, Scenario
+from heli2dof_core.spec import (
+    AntiWindup,
+    Digital,
+    Disturbance,
+    Limits,
+    Model,
+    Outer,
+    Pairing,
+    Rates,
+    Scenario,
+)
 from heli2dof_core.weights import bryson_weights
 
 
 class Strict(BaseModel):
     """Unknown fields, text for numbers, NaN and infinity are refused."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
 
 def _complex(value: Any) -> complex:
@@ -132,6 +142,8 @@ class WeightChanges(Strict):
             given = changes.model_dump().values()
             return tuple(b if g is None else g for g, b in zip(given, own, strict=True))
 
+        if not self.model_fields_set:
+            return base
         return Weights(
             merge(self.states, base.states),
             merge(self.inputs, base.inputs),
@@ -181,7 +193,7 @@ class DesignRequest(Strict):
         point = base.theta_0 if self.operating_point is None else self.operating_point.theta
         return Spec(
             parameters=base.parameters.replaced(self.parameters.model_dump(exclude_none=True)),
-            limits=replace(base.limits, **self._limits()),
+            limits=self._limits(base.limits),
             theta_0=point,
             poles=self._poles(base),
             structure=Structure(
@@ -199,9 +211,10 @@ class DesignRequest(Strict):
             return base.poles if self.poles is None else PoleSet(values)
         return PoleSet.dealt(values, self.split)
 
-    def _limits(self) -> dict[str, float | None]:
+    def _limits(self, base: Limits) -> Limits:
         given = self.limits.model_dump(exclude_unset=True)
-        return {name: value for name, value in given.items() if value is not None or name == "theta"}
+        changes = {name: value for name, value in given.items() if value is not None or name == "theta"}
+        return replace(base, **changes) if changes else base
 
     def _outer(self, base: Preset) -> OuterLoop:
         pi = {}
@@ -278,6 +291,10 @@ class ScenarioChanges(Strict):
     initial: Initial = Initial()
     saturation: bool = True
     anti_windup: AntiWindup = "clamping"
+    tracking_time: float | None = Field(
+        default=None,
+        description="of back-calculation, s, 1e-4 to 1e4; each loop's integral time where left out",
+    )
     travel_stops: bool = True
     trim_feedforward: bool = True
     rtol: float = Field(default=1e-8, description="tolerance of the nonlinear integration")
@@ -301,6 +318,7 @@ class ScenarioChanges(Strict):
             initial=(self.initial.theta, self.initial.psi, self.initial.theta_dot, self.initial.psi_dot),
             saturation=self.saturation,
             anti_windup=self.anti_windup,
+            tracking_time=self.tracking_time,
             travel_stops=self.travel_stops,
             trim_feedforward=self.trim_feedforward,
             rtol=self.rtol,
@@ -326,6 +344,12 @@ class StepRequest(DesignRequest):
         spec = super().to_spec()
         scenario = self.scenario.to_scenario(spec.scenario, preset(self.preset).encoders)
         return replace(spec, scenario=scenario)
+
+
+class ResponseRequest(StepRequest):
+    """As a step request, and what the reply shall hold besides."""
+
+    states: bool = Field(default=False, description="also reply the rates, and the integrals of the errors")
 
 
 class EvaluateRequest(StepRequest):

@@ -65,7 +65,7 @@ class Design:
         """κ₂ of the closed loop's eigenvectors; None where there are too few (see `placement.assess`)."""
         return eigenvector_condition(self.A_closed)
 
-    @property
+    @cached_property
     def steady_state_inverse(self) -> Floats:
         """Ĝ(0)⁻¹, 2×2, V/rad: the voltages v that hold one radian on either axis.
 

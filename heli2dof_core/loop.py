@@ -81,15 +81,15 @@ class Loop:
     @cached_property
     def poles(self) -> Complexes:
         """Poles of the whole loop, rad/s: six with PI, four without; slowest first."""
-        values: Complexes = np.linalg.eigvals(self.A).astype(np.complex128)
-        return values[np.lexsort((-np.imag(values), -np.real(values)))]
+        values = np.linalg.eigvals(self.A).tolist()
+        return np.array(sorted(values, key=lambda p: (-p.real, -p.imag)), dtype=np.complex128)
 
-    @property
+    @cached_property
     def stable(self) -> bool:
         """Whether every pole of the whole loop lies left of the imaginary axis."""
         return bool(np.max(self.poles.real) < 0)
 
-    @property
+    @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """Remarks on the whole loop."""
         return tuple(_remarks(self))
@@ -151,7 +151,7 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
         for name, gains in zip(AXES, (loop.outer.pitch, loop.outer.yaw), strict=True):
             if gains.kp == 0:
                 yield Finding(f"{name}_loop_open", "warning", f"The {name} loop is open: its gain is 0.")
-    damping = min((-p.real / abs(p) for p in loop.poles if abs(p) > 0), default=1.0)
+    damping = min((-p.real / abs(p) for p in loop.poles.tolist() if p != 0), default=1.0)
     if loop.stable and damping < 0.2:
         yield Finding(
             "poorly_damped",

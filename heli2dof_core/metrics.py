@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isnan
 
 import numpy as np
 
+from .engine import engine
+from .layout import AXIS_METRICS, MOTOR_METRICS
 from .signals import INPUTS, OUTPUTS, Floats
 from .simulation.response import Response
-
-RISE = (0.1, 0.9)
-SETTLED = 0.02
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,12 @@ class AxisMetrics:
     steady_state_error: float
     iae: float
     itae: float
+
+    @classmethod
+    def of(cls, numbers: list[float]) -> AxisMetrics:
+        """From the kernel's row, in this order; NaN is what did not happen."""
+        rise, settling, *others = numbers
+        return cls(None if isnan(rise) else rise, None if isnan(settling) else settling, *others)
 
 
 @dataclass(frozen=True)
@@ -75,60 +81,20 @@ def step_metrics(response: Response, trim: Floats) -> StepMetrics:
         response: linear or nonlinear.
         trim: the voltages that count as rest, shape (2,), V; zeros where they are deviations already.
     """
-    steps = [r - s for r, s in zip(response.reference, response.start, strict=True)]
-    stepped = [i for i, step in enumerate(steps) if step != 0.0]
-    axes = {OUTPUTS[i].name: _axis(response.t, response.angles[i], response, i) for i in stepped}
-    coupling = None
-    if len(stepped) == 1:
-        other = 1 - stepped[0]
-        coupling = float(np.max(np.abs(response.angles[other] - response.start[other])))
-    motors = {
-        signal.name: MotorMetrics(
-            float(np.max(np.abs(response.voltages[i]))),
-            response.saturated[i],
-            float(np.trapezoid((response.voltages[i] - trim[i]) ** 2, response.t)),
-        )
-        for i, signal in enumerate(INPUTS)
-    }
-    return StepMetrics(axes, coupling, motors)
-
-
-def _axis(t: Floats, angle: Floats, response: Response, index: int) -> AxisMetrics:
-    start, reference = response.start[index], response.reference[index]
-    share = (angle - start) / (reference - start)
-    low, high = (_first_crossing(t, share, level) for level in RISE)
-    at = int(np.argmax(np.abs(angle - start)))
-    return AxisMetrics(
-        rise_time=None if low is None or high is None else high - low,
-        settling_time=_settling(t, share),
-        overshoot=100.0 * max(float(np.max(share)) - 1.0, 0.0),
-        peak=float(angle[at]),
-        peak_time=float(t[at]),
-        steady_state_error=float(reference - angle[-1]),
-        iae=float(np.trapezoid(np.abs(reference - angle), t)),
-        itae=float(np.trapezoid(t * np.abs(reference - angle), t)),
+    start, reference = response.start, response.reference
+    angles, voltages = np.ascontiguousarray(response.angles), np.ascontiguousarray(response.voltages)
+    axes, motors = np.empty((2, AXIS_METRICS)), np.empty((2, MOTOR_METRICS))
+    deviations = engine().measure(
+        response.t, angles, voltages, start, reference, np.array(trim), axes, motors
     )
-
-
-def _first_crossing(t: Floats, share: Floats, level: float) -> float | None:
-    """When `share` first reaches `level`, between samples by straight line."""
-    above = share >= level
-    if not above.any():
-        return None
-    i = int(np.argmax(above))
-    if i == 0:
-        return float(t[0])
-    fraction = (level - share[i - 1]) / (share[i] - share[i - 1])
-    return float(t[i - 1] + fraction * (t[i] - t[i - 1]))
-
-
-def _settling(t: Floats, share: Floats) -> float | None:
-    error = np.abs(share - 1.0)
-    outside = np.flatnonzero(error > SETTLED)
-    if not len(outside):
-        return float(t[0])
-    last = int(outside[-1])
-    if last == len(t) - 1:
-        return None
-    fraction = (error[last] - SETTLED) / (error[last] - error[last + 1])
-    return float(t[last] + fraction * (t[last + 1] - t[last]))
+    stepped = [i for i in range(2) if reference[i] != start[i]]
+    return StepMetrics(
+        {OUTPUTS[i].name: AxisMetrics.of(axes[i].tolist()) for i in stepped},
+        float(deviations[1 - stepped[0]]) if len(stepped) == 1 else None,
+        {
+            signal.name: MotorMetrics(peak, saturated, effort)
+            for signal, saturated, (peak, effort) in zip(
+                INPUTS, response.saturated, motors.tolist(), strict=True
+            )
+        },
+    )

@@ -79,7 +79,7 @@ class Parameters:
                     value=changes[name],
                     hint="Known are " + ", ".join(PARAMETER_INFO) + ".",
                 )
-        return replace(self, **dict(changes))
+        return replace(self, **dict(changes)) if changes else self
 
     def as_dict(self) -> dict[str, float]:
         """Name → value in SI units."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from .checks import require_within
 from .compiled import linear_matrices
 from .couplings import require_controllable
 from .parameters import Parameters
-from .signals import Floats
+from .signals import Complexes, Floats
 
 STEEPEST = 1.5
 """Largest operating angle, rad: beyond it yaw's lever arm vanishes."""
@@ -33,7 +34,13 @@ class Plant:
     B: Floats
     trim: Floats
 
+    @cached_property
+    def poles(self) -> Complexes:
+        """Poles of the rig without feedback, rad/s, shape (4,)."""
+        return np.linalg.eigvals(self.A).astype(np.complex128)
 
+
+@lru_cache(maxsize=256)  # every change of a design asks for the same rig
 def plant(parameters: Parameters, theta_0: float = 0.0) -> Plant:
     """The rig's numbers at rest at `theta_0` (rad).
 
@@ -44,4 +51,7 @@ def plant(parameters: Parameters, theta_0: float = 0.0) -> Plant:
     require_controllable(parameters)
     angle = require_within(theta_0, "operating_point.theta", "rad", -STEEPEST, STEEPEST)
     A, B, trim = linear_matrices()(*parameters.as_dict().values(), angle)
-    return Plant(parameters, angle, np.array(A, dtype=float), np.array(B, dtype=float), np.array(trim))
+    arrays = [np.array(values, dtype=float) for values in (A, B, trim)]
+    for array in arrays:
+        array.flags.writeable = False
+    return Plant(parameters, angle, *arrays)

@@ -124,6 +124,9 @@ def match_poles(wanted: Sequence[complex] | Complexes, found: Sequence[complex] 
     if a.shape != b.shape or a.ndim != 1:
         raise ValueError(f"pole sets of shapes {a.shape} and {b.shape} cannot be matched")
     distance = np.abs(a[:, None] - b[None, :])
+    nearest = distance.argmin(axis=1).tolist()
+    if len(set(nearest)) == len(nearest):  # each has its nearest: no matching can do better
+        return nearest
     levels = np.unique(distance)
     low, high = 0, len(levels) - 1
     while low < high:

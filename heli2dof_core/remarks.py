@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 import numpy as np
@@ -28,8 +28,8 @@ def design_remarks(
     Where the method chose its own poles (error None), the remarks are on those.
     """
     if error is None:
-        return (_OWN_POLES, *_on_stability(found), *_on_plant(plant))
-    wanted = poles.array
+        return (_OWN_POLES, *_on_stability(found.tolist()), *_on_plant(plant))
+    wanted = poles.values
     return (
         *_on_stability(wanted),
         *_on_choice(plant, wanted, K),
@@ -45,21 +45,21 @@ _OWN_POLES = Finding(
 )
 
 
-def _on_stability(poles: Complexes) -> Iterator[Finding]:
-    if np.any(poles.real > 0):
+def _on_stability(poles: Sequence[complex]) -> Iterator[Finding]:
+    if any(p.real > 0 for p in poles):
         yield Finding(
             "right_half_plane",
             "error",
             "A pole lies in the right half plane: without an outer loop the helicopter runs away. "
             "Drag it left of the imaginary axis.",
         )
-    elif np.any(poles.real == 0):
+    elif any(p.real == 0 for p in poles):
         yield Finding(
             "imaginary_axis",
             "warning",
             "A pole lies on the imaginary axis: its motion neither grows nor dies out.",
         )
-    if np.any(poles == 0):
+    if any(p == 0 for p in poles):
         yield Finding(
             "no_steady_state",
             "warning",
@@ -67,8 +67,8 @@ def _on_stability(poles: Complexes) -> Iterator[Finding]:
         )
 
 
-def _on_choice(plant: Plant, poles: Complexes, K: Floats) -> Iterator[Finding]:
-    largest = float(np.max(np.abs(poles)))
+def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Finding]:
+    largest = max(map(abs, poles))
     repeated = [p for p, q in combinations(poles, 2) if abs(p - q) <= COINCIDENT * max(largest, 1.0)]
     if repeated:
         yield Finding(
@@ -77,8 +77,8 @@ def _on_choice(plant: Plant, poles: Complexes, K: Floats) -> Iterator[Finding]:
             f"Two poles coincide at {_words(repeated[0])} rad/s. That is allowed; but the computed, and the real, "
             "double pole splits with the square root of any small error.",
         )
-    open_loop = np.linalg.eigvals(plant.A)
-    at_open = [p for p in poles if np.min(np.abs(open_loop - p)) <= COINCIDENT * max(abs(p), 1.0) and p != 0]
+    own = plant.poles.tolist()
+    at_open = [p for p in poles if p != 0 and min(abs(q - p) for q in own) <= COINCIDENT * max(abs(p), 1.0)]
     if at_open:
         yield Finding(
             "open_loop_pole",
@@ -107,8 +107,8 @@ def _on_plant(plant: Plant) -> Iterator[Finding]:
         )
 
 
-def _on_accuracy(poles: Complexes, error: float) -> Iterator[Finding]:
-    if error > 1e-6 * max(float(np.max(np.abs(poles))), 1.0):
+def _on_accuracy(poles: Sequence[complex], error: float) -> Iterator[Finding]:
+    if error > 1e-6 * max(1.0, *map(abs, poles)):
         yield Finding(
             "pole_error",
             "warning",

@@ -15,6 +15,7 @@ from .compiled import linear_matrices
 from .engine import engine
 from .errors import InvalidInputError
 from .evaluate import Spec, place
+from .layout import WORKSPACE
 from .loop import Loop, close_loop
 from .parameters import PARAMETER_INFO, Parameters
 from .signals import Complexes, Floats
@@ -119,7 +120,9 @@ def cloud_in_parts(spec: Spec, uncertainty: Uncertainty) -> Iterator[Cloud]:
     def respond(first: int, last: int) -> None:
         part = slice(first, last)
         numbers = (RTOL, ABSOLUTE_TOLERANCE * RTOL, kernels.most_steps)
-        arguments = (system.start, t, system.constants, system.modes, *numbers)
+        own = np.empty_like(system.start), np.empty_like(system.constants), np.empty_like(system.modes)
+        scratch = (np.empty(WORKSPACE), *own, np.empty((GRID, 6)))
+        arguments = (system.start, t, system.constants, system.modes, *numbers, *scratch)
         kernels.run_cloud(constants[part], *arguments, angles[part], within[part])
 
     with ThreadPoolExecutor(2) as pool:

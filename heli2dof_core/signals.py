@@ -34,6 +34,10 @@ INPUTS = (
     Signal("V_y", "V_y", "V", "voltage of the yaw motor (tail rotor)"),
 )
 OUTPUTS = STATES[:2]
+INTEGRALS = (
+    Signal("z_p", "z_p", "rad·s", "integral of the pitch error"),
+    Signal("z_y", "z_y", "rad·s", "integral of the yaw error"),
+)
 AXES = ("pitch", "yaw")
 """Names of the two axes and of their loops, in the order of the outputs."""
 

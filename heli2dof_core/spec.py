@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -128,6 +129,8 @@ class Scenario:
         initial: θ, ψ, θ̇, ψ̇ at t = 0; an angle None is at rest at the operating point.
         saturation: voltages are limited to `Limits`.
         anti_windup: what the PI integrators do at a limit.
+        tracking_time: of back-calculation, s: how fast the integrals follow what the limits leave; None
+            is each loop's integral time.
         travel_stops: pitch is stopped at ±`Limits.theta`, without rebound.
         trim_feedforward: the constant trim voltages are added, so that the rig starts at rest.
         rtol: tolerance of the adaptive integration, relative and (in rad, rad/s) absolute.
@@ -142,6 +145,7 @@ class Scenario:
     initial: tuple[float | None, float | None, float, float] = field(default=(None, None, 0.0, 0.0))
     saturation: bool = True
     anti_windup: AntiWindup = "clamping"
+    tracking_time: float | None = None
     travel_stops: bool = True
     trim_feedforward: bool = True
     rtol: float = 1e-8
@@ -159,6 +163,8 @@ class Scenario:
         require_within(self.duration, "scenario.duration", "s", 1e-3, LONGEST)
         require_within(self.samples, "scenario.samples", "", 2, MOST_SAMPLES)
         require_one_of(self.anti_windup, AntiWindup, "scenario.anti_windup")
+        if self.tracking_time is not None:
+            require_within(self.tracking_time, "scenario.tracking_time", "s", 1e-4, 1e4)
         require_within(self.rtol, "scenario.rtol", "", 1e-12, 1e-2)
         if self.digital is not None and self.duration / self.digital.sample_time > MOST_SAMPLE_TIMES:
             raise InvalidInputError(
@@ -168,9 +174,19 @@ class Scenario:
                 hint=f"At most {MOST_SAMPLE_TIMES} fit in the duration.",
             )
 
+    @property
+    def times(self) -> Floats:
+        """linspace(0, duration, samples), s."""
+        return _times(self.duration, self.samples).copy()
+
     def resolved(self, theta_0: float) -> tuple[Floats, Floats]:
         """References [θ, ψ] and start [θ, ψ, θ̇, ψ̇] with the operating point (θ₀, 0) filled in, rad."""
         rest = (theta_0, 0.0)
         reference = [r if v is None else v for v, r in zip((self.theta, self.psi), rest, strict=True)]
         angles = [r if v is None else v for v, r in zip(self.initial[:2], rest, strict=True)]
         return np.array(reference), np.array([*angles, *self.initial[2:]], dtype=float)
+
+
+@lru_cache(maxsize=64)  # hardly ever does it change from one update to the next
+def _times(duration: float, samples: int) -> Floats:
+    return np.linspace(0.0, duration, samples)

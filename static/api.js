@@ -35,6 +35,8 @@ export const getMethods = () => call('api/v1/methods');
 export const getSymbolic = (coupling, lead) => call(`api/v1/symbolic?${new URLSearchParams({ coupling, lead })}`);
 /** @param {unknown} design */
 export const suggestLoops = (design) => call('api/v1/suggest', { method: 'POST', body: design });
+/** All that the page shows of a design. @param {unknown} request */
+export const evaluateDesign = (request) => call('api/v1/evaluate', { method: 'POST', body: request });
 /** The design's poles through every method. @param {unknown} design with scenario */
 export const compareMethods = (design) => call('api/v1/compare', { method: 'POST', body: design });
 /** All ways to deal the poles to the two pairs. @param {unknown} design */

@@ -4,6 +4,7 @@
  * @typedef {import('./types.js').Design} Design
  */
 import { cloudAddress } from './api.js';
+import { cloudCaveat, cloudScenario } from './experiment.js';
 import { bodyOf } from './store.js';
 
 export const SPREADS = [0, 0.05, 0.1, 0.2];
@@ -13,16 +14,17 @@ const REST_MS = 500;
 
 /** What is asked of the server. @param {Design} design @param {number} spread @param {import('./types.js').Motion} motion @param {string[]} names of the parameters @param {number} samples */
 export function cloudRequest(design, spread, motion, names, samples) {
-  const { reference, duration } = design.scenario;
-  const played = motion === 'both' ? reference : { [motion]: reference[motion] };
-  return { ...bodyOf(design), scenario: { reference: played, duration }, uncertainty: Object.fromEntries(names.filter((n) => n !== 'g').map((n) => [n, spread])), samples };
+  const scenario = cloudScenario(design.scenario);
+  const played = motion === 'both' ? scenario.reference : { [motion]: scenario.reference[motion] };
+  return { ...bodyOf(design), scenario: { ...scenario, reference: played }, uncertainty: Object.fromEntries(names.filter((n) => n !== 'g').map((n) => [n, spread])), samples };
 }
 
-/** The cloud in words. @param {import('./types.js').Cloud|null} cloud */
-export function cloudWords(cloud) {
+/** The cloud in words. @param {import('./types.js').Cloud|null} cloud @param {import('./types.js').Scenario} [scenario] */
+export function cloudWords(cloud, scenario) {
   if (!cloud) return '';
   const percent = (/** @type {number} */ share) => `${Math.floor(100 * share)} %`; // 99.9 % is not all
-  return `${cloud.done} rigs: ${percent(cloud.share_stable)} stable, ${percent(cloud.share_within_limits)} within limits`;
+  const caveat = cloudCaveat(scenario);
+  return `${cloud.done} rigs${caveat && ` (${caveat})`}: ${percent(cloud.share_stable)} stable, ${percent(cloud.share_within_limits)} within limits`;
 }
 
 export class CloudFeed {
@@ -39,9 +41,13 @@ export class CloudFeed {
   }
 
   /** @param {State} state */
-  render({ design, spread, motion, dragging }) {
+  render({ design, spread, motion, dragging, connection, cloud }) {
     if (!design || !spread) {
-      if (this.#socket || this.#key) this.#stop();
+      if (this.#socket || this.#key || cloud) this.#stop();
+      return;
+    }
+    if (connection === 'lost') {
+      this.#key = ''; // asked again when it is back
       return;
     }
     const names = Object.keys(this.store.preset?.parameters ?? {});

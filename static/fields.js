@@ -13,7 +13,8 @@ import { forField, parseNumber, significant } from './format.js';
  * @property {number} min
  * @property {number} max
  * @property {boolean} [positive]  zero is refused
- * @property {number} [optional]  the field may be empty, which reads as NaN; the arrow keys then begin with this
+ * @property {boolean} [integer]
+ * @property {boolean} [optional]  the field may be empty, which reads as NaN
  * @property {string} testid
  * @property {string} [field]  the path under which the server names it
  * @property {{min: number, max: number, log?: boolean}} [slider]
@@ -43,8 +44,19 @@ export class NumberField {
 
   /** @type {number} */ value = NaN;
   #typing = false;
+  #start = 0;
 
-  /** @param {number} v */
+  #text() {
+    return Number.isNaN(this.value) ? '' : forField(this.value);
+  }
+
+  /** What stands in the empty field, and where the arrow keys start from it. @param {string} text @param {number} start */
+  setBlank(text, start) {
+    setAttr(this.input, 'placeholder', text);
+    this.#start = start;
+  }
+
+  /** @param {number} v NaN: empty */
   set(v) {
     const changed = !Object.is(v, this.value);
     this.value = v;
@@ -53,7 +65,7 @@ export class NumberField {
     if (changed) this.#typing = false;
     if (!own && (changed || this.input.getAttribute('aria-invalid') !== 'true')) {
       this.complain('');
-      const text = this.#text(v);
+      const text = this.#text();
       if (this.input.value !== text) this.input.value = text;
     }
     if (this.slider && document.activeElement !== this.slider) this.#toSlider(v);
@@ -83,43 +95,41 @@ export class NumberField {
   /** @param {number} stamp */
   #typed(stamp) {
     const v = parseNumber(this.input.value);
-    const { min, max, positive, optional } = this.options;
-    const empty = optional !== undefined && !this.input.value.trim();
-    if (!Number.isFinite(v) && !empty) return this.complain('a number, please');
-    if (positive && v <= 0) return this.complain('must be positive');
-    if (v < min || v > max) return this.complain(`${significant(min, 3)} to ${significant(max, 3)}`);
-    this.complain('');
+    const wrong = this.options.optional && !this.input.value.trim() ? '' : this.#objection(v);
+    this.complain(wrong);
+    if (wrong) return;
     this.#typing = true;
-    return this.options.onInput(v, stamp);
+    this.options.onInput(v, stamp);
+  }
+
+  /** @param {number} v @returns {string} empty where it can be taken */
+  #objection(v) {
+    const { min, max, positive, integer } = this.options;
+    if (!Number.isFinite(v)) return 'a number, please';
+    if (integer && !Number.isInteger(v)) return 'a whole number, please';
+    if (positive && v <= 0) return 'must be positive';
+    return v < min || v > max ? `${significant(min, 3)} to ${significant(max, 3)}` : '';
   }
 
   /** Leaving a field that holds nonsense puts the last good value back. */
   #done() {
     this.#typing = false;
     this.complain('');
-    this.input.value = this.#text(this.value);
+    this.input.value = this.#text();
     this.options.onCommit();
   }
 
   /** @param {KeyboardEvent} e */
   #key(e) {
     if (e.key === 'Enter') this.#done();
-    if (e.key !== 'ArrowUp' && e.key !== 'ArrowDown') return undefined;
+    if (e.key !== 'ArrowUp' && e.key !== 'ArrowDown') return;
     e.preventDefault();
-    const { min, max, optional } = this.options;
-    if (optional !== undefined && !Number.isFinite(this.value)) {
-      this.input.value = forField(optional);
-      return this.#typed(e.timeStamp);
-    }
-    const size = 10 ** Math.floor(Math.log10(Math.max(Math.abs(this.value), 1e-3)) + 1e-9) * (e.shiftKey ? 0.01 : 0.1);
-    const v = Math.max(min, Math.min(max, this.value + (e.key === 'ArrowUp' ? size : -size)));
+    const { min, max, integer } = this.options;
+    const from = Number.isNaN(this.value) ? this.#start : this.value;
+    const size = integer ? 1 : 10 ** Math.floor(Math.log10(Math.max(Math.abs(from), 1e-3)) + 1e-9) * (e.shiftKey ? 0.01 : 0.1);
+    const v = Math.max(min, Math.min(max, from + (e.key === 'ArrowUp' ? size : -size)));
     this.input.value = forField(Number(v.toPrecision(9)));
-    return this.#typed(e.timeStamp);
-  }
-
-  /** @param {number} v */
-  #text(v) {
-    return Number.isFinite(v) ? forField(v) : '';
+    this.#typed(e.timeStamp);
   }
 
   #fromSlider() {

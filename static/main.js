@@ -1,53 +1,68 @@
 /** Wires only: state to views, views to state, and the design to the server. What each part does is written in its module. */
+import { Address } from './address.js';
 import { getMethods, getPresets, Live } from './api.js';
 import { CloudFeed } from './cloud.js';
 import { byId } from './dom.js';
+import { LockedControls } from './locked_controls.js';
+import { PinKeeper } from './pin_keeper.js';
 import { Plots } from './plots.js';
 import { SceneView } from './scene_view.js';
 import { SPlane } from './splane.js';
 import { Stats } from './stats.js';
-import { designOf, requestOf, Store } from './store.js';
+import { requestOf, Store } from './store.js';
 import { watched } from './watch.js';
 import { ComparePanel } from './panels/compare.js';
+import { ExperimentPanel } from './panels/experiment.js';
 import { FieldProblems } from './panels/problems.js';
 import { FindingsPanel } from './panels/findings.js';
 import { FormulasPanel } from './panels/formulas.js';
 import { HeaderPanel } from './panels/header.js';
 import { LoopsPanel } from './panels/loops.js';
 import { MetricsPanel } from './panels/metrics.js';
+import { Notice } from './panels/notice.js';
 import { NumbersPanel } from './panels/numbers.js';
 import { PaperPanel } from './panels/paper.js';
+import { PinBar } from './panels/pin_bar.js';
+import { PinsPanel } from './panels/pins.js';
 import { PolesPanel } from './panels/poles.js';
 import { ScenarioPanel } from './panels/scenario.js';
 
 const store = new Store();
 const stats = new Stats();
+const address = new Address(store);
+const pins = new PinKeeper(store);
 
 const scene = new SceneView(byId('scene'), store, { onTime: (t) => plots.setTime(t) });
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t) });
-const views = [
-  new HeaderPanel(byId('header'), store), new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store),
-  new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
+const panels = [
+  new HeaderPanel(byId('header'), store, address), new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store),
+  new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new ExperimentPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
+  new PinBar(byId('pin-bar'), store), new PinsPanel(byId('pins'), store),
   new ComparePanel(byId('compare'), store), new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene, new CloudFeed(store),
+  new Notice(byId('notice'), store),
   new FindingsPanel(byId('strip')), // last, as it measures what it has written
-].map(watched);
+];
+let views = panels.map(watched);
+const locked = new LockedControls(document.body);
 
-/** @type {Map<number, number|undefined>} */
-const stamps = new Map();
+/** @type {Map<number, {stamp: number|undefined, design: import('./types.js').Design}>} */
+const asked = new Map();
 let seq = 0;
 
 const live = new Live({
-  onReply: (reply) => store.set({ reply, problem: null }),
+  onReply: (reply) => store.set({ reply, answered: asked.get(reply.seq)?.design ?? null, problem: null }),
   onProblem: (problem) => store.set({ problem }),
   onStatus: (connection) => store.set({ connection }),
 });
 addEventListener('online', () => live.reconnect());
+addEventListener('hashchange', () => address.navigated());
+addEventListener('pagehide', () => address.flush());
 
 store.addEventListener('design', (event) => {
   const { design } = store.state;
   if (!design) return;
   seq += 1;
-  stamps.set(seq, /** @type {CustomEvent} */ (event).detail.stamp);
+  asked.set(seq, { stamp: /** @type {CustomEvent} */ (event).detail.stamp, design });
   live.send(requestOf(design, seq));
 });
 
@@ -62,23 +77,26 @@ function render() {
   scheduled = false;
   const begin = performance.now();
   const { state } = store;
+  if (locked.release(state)) views = panels.map(watched); // each says again which of its controls can be used
   for (const view of views) view(state);
+  for (const always of [pins, address, locked]) always.render(state); // they look at more than the state
   if (plots.render(state)) {
     const now = performance.now();
     const answered = state.reply?.seq ?? 0;
-    stats.drawn(now, stamps.get(answered), now - begin);
-    for (const old of stamps.keys()) if (old <= answered) stamps.delete(old);
+    stats.drawn(now, asked.get(answered)?.stamp, now - begin);
+    for (const old of asked.keys()) if (old <= answered) asked.delete(old);
   }
   publish();
 }
 
 /** The design and its key results in one attribute, for tests and scripts. */
 function publish() {
-  const { design, reply, problem, connection, motion, dragging } = store.state;
+  const { design, reply, problem, connection, motion, dragging, locks, notice } = store.state;
   document.documentElement.dataset.state = JSON.stringify({
     ...design, connection, motion, dragging, seq, answered: reply?.seq ?? null, settled: reply?.seq === seq && !problem,
     K: reply?.gains.K ?? null, rga: reply?.rga?.rga ?? null, stable: reply?.stable ?? null, loopPoles: reply?.loop_poles ?? null,
     findings: reply?.findings?.map((f) => f.code) ?? [], problem: problem?.code ?? null,
+    locks, notice, pins: store.state.pins.map(({ name, reply: own }) => ({ name, K: own?.gains.K ?? null })),
   });
 }
 
@@ -90,7 +108,9 @@ async function start() {
     try {
       const [presets, methods] = await Promise.all([getPresets(), getMethods()]);
       store.set({ presets, methods });
-      store.load(designOf(presets[0]));
+      const place = address.open();
+      pins.open();
+      if (place) document.getElementById(place)?.scrollIntoView();
       return;
     } catch {
       store.set({ connection: 'lost' });

@@ -7,6 +7,9 @@
 import uPlot from './vendor/uplot/uPlot.esm.js';
 import { h, setText, symbol } from './dom.js';
 import { DEGREE, fixed } from './format.js';
+import { COLORS, colorOf } from './pins.js';
+import { PlotGhosts } from './plot_ghosts.js';
+import { plotMenu } from './plot_menu.js';
 import { extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from './traces.js';
 
 /** @type {Record<Signal, {base: string, sub?: string, title: string, unit: string}>} */
@@ -19,6 +22,7 @@ const ABOUT = {
 const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const FONT = '11px system-ui, sans-serif';
 const AXIS_WIDTH = 42;
+const PLAYED = { theta: 'pitch step', psi: 'yaw step', both: 'both steps' };
 
 export class Plots {
   /** @type {Record<string, string>} */ #colors = {};
@@ -36,6 +40,10 @@ export class Plots {
     this.store = store;
     this.onSeek = onSeek;
     this.root = root;
+    this.at = h('span');
+    this.played = h('span', { class: 'played' });
+    this.when = h('span', { class: 'when', 'data-testid': 'plot-time' }, this.at, this.played);
+    this.unzoom = h('button', { type: 'button', class: 'unzoom', hidden: true, 'data-testid': 'unzoom', title: 'Show the whole time again (Escape)', onclick: () => this.#zoomTo(null) }, 'Whole time');
     this.#readColors();
     this.plots = SIGNALS.map((signal) => this.#build(signal));
     for (const query of ['(prefers-color-scheme: dark)', '(prefers-contrast: more)']) {
@@ -48,20 +56,24 @@ export class Plots {
 
   #readColors() {
     const style = getComputedStyle(document.documentElement);
-    for (const name of ['pitch', 'yaw', 'ink', 'muted', 'grid', 'halo', 'danger', 'limit-fill']) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
+    const pins = Array.from({ length: COLORS }, (_, i) => colorOf(i));
+    for (const name of ['panel', 'pitch', 'yaw', 'ink', 'muted', 'grid', 'halo', 'danger', 'limit-fill', ...pins]) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
   }
 
   /** @param {Signal} signal */
   #build(signal) {
     const about = ABOUT[signal];
     const values = ['theta', 'psi'].map((axis) => h('span', { class: `at ${axis === 'theta' ? 'pitch' : 'yaw'}`, title: `${axis === 'theta' ? 'pitch' : 'yaw'} step` }));
-    const body = h('div', { class: 'plot-body' });
+    const body = h('div', { class: 'plot-body', tabindex: 0, role: 'group', 'aria-label': `${about.title}: left and right move the time, plus and minus zoom, Escape shows the whole time`, onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e) });
+    const first = signal === SIGNALS[0] ? [this.when, this.unzoom] : [];
+    const menu = plotMenu(this.store, signal, `${about.title} over time`, () => ({ x: this.#zoom ?? this.#time, y: this.#ranges[signal] ?? [0, 1], rules: this.#rules(signal) }));
     const figure = h('figure', { class: `plot ${isVoltage(signal) ? 'volts' : 'angle'}`, 'data-testid': `plot-${signal}`, 'data-signal': signal },
-      h('figcaption', {}, symbol(about.base, about.sub), h('span', { class: 'what' }, `${about.title}, ${about.unit.trim() === '°' ? 'deg' : 'V'}`), h('span', { class: 'values' }, values)), body);
+      h('figcaption', {}, symbol(about.base, about.sub), h('span', { class: 'what' }, `${about.title}, ${about.unit.trim() === '°' ? 'deg' : 'V'}`), first, h('span', { class: 'values' }, values), menu), body);
     this.root.append(figure);
     const color = (/** @type {string} */ name) => () => this.#colors[name];
     const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({ stroke: color(name), width, dash, auto: false, points: { show: false } });
     const last = () => signal === 'V_y' || (signal === 'V_p' && this.root.classList.contains('two-columns'));
+    /** @type {PlotGhosts|undefined} */ let ghosts;
     // auto: false, as the ranges are ours: no trace is searched for its extremes a second time.
     const chart = new Chart({
       width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [6, 10, 2, 0],
@@ -78,11 +90,12 @@ export class Plots {
         bind: { dblclick: () => () => this.#zoomTo(null) } },
       hooks: {
         drawClear: [(/** @type {any} */ u) => this.#drawLimits(u, signal), (/** @type {any} */ u) => this.#drawBand(u, signal)],
-        draw: [(/** @type {any} */ u) => this.#drawReference(u, signal)],
+        draw: [(/** @type {any} */ u) => this.#drawReference(u, signal), () => ghosts?.draw((name) => this.#colors[name])],
         setCursor: [(/** @type {any} */ u) => this.#hovered(u)],
         setSelect: [(/** @type {any} */ u) => this.#selected(u)],
       },
     }, [[0, 1], ...Array(5).fill([null, null])], body);
+    ghosts = new PlotGhosts(chart, signal);
     const head = h('div', { class: 'playhead' });
     chart.over.append(head);
     chart.over.addEventListener('click', () => {
@@ -93,7 +106,7 @@ export class Plots {
       if (width > 60 && height > 40) chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
       this.#movePlayhead();
     }).observe(body);
-    return { signal, chart, values, head };
+    return { signal, chart, values, head, ghosts };
   }
 
   /** @param {State} state @returns {boolean} whether anything was drawn */
@@ -102,20 +115,22 @@ export class Plots {
       this.#cloud = state.cloud;
       for (const { signal, chart } of this.plots) if (!isVoltage(signal)) chart.redraw(false);
     }
-    const seen = [state.reply, state.motion, state.showLinear];
+    const seen = [state.reply, state.motion, state.showLinear, state.pins];
     if (!state.reply || seen.every((v, i) => v === this.#seen[i])) return false;
     this.#seen = seen;
     const fresh = this.#data === null;
     const data = (this.#data = tracesOf(state.reply, state.motion, state.showLinear));
     const end = data.t[data.t.length - 1];
-    if (end !== this.#time[1]) this.#zoom = null;
+    const whole = end !== this.#time[1];
     this.#time = [0, end];
+    if (whole && this.#zoom) this.#zoomTo(null);
     const empty = Array(data.t.length).fill(null);
-    for (const { signal, chart } of this.plots) {
+    for (const { signal, chart, ghosts } of this.plots) {
+      ghosts.take(state.pins);
       const [played, dashPitch, dashYaw, yaw, pitch] = data.plots[signal];
       this.#ranges[signal] = rangeOf({
-        solid: extent([played, yaw, pitch]), dashed: extent([dashPitch, dashYaw]), include: [0, this.#reference(signal) ?? 0],
-        limit: isVoltage(signal) ? state.reply.limits?.[/** @type {'V_p'|'V_y'} */ (signal)] : undefined,
+        solid: extent([played, yaw, pitch]), dashed: extent([dashPitch, dashYaw, ghosts.extent]), include: [0, this.#reference(signal) ?? 0],
+        limit: this.#limit(signal),
         previous: fresh ? undefined : this.#ranges[signal],
       });
       const columns = /** @type {any} */ ([data.t, ...data.plots[signal].map((v) => v ?? empty)]);
@@ -132,19 +147,32 @@ export class Plots {
     return isVoltage(signal) || !reference ? undefined : reference[/** @type {'theta'|'psi'} */ (signal)] * DEGREE;
   }
 
+  /** How far the motor goes, in volts, or pitch between its stops, in degrees. @param {Signal} signal @returns {number|undefined} */
+  #limit(signal) {
+    const limits = this.store.state.reply?.limits;
+    if (signal === 'theta') return limits?.theta === undefined ? undefined : limits.theta * DEGREE;
+    return signal === 'psi' ? undefined : limits?.[signal];
+  }
+
+  /** The lines across a plot, with what they say. @param {Signal} signal */
+  #rules(signal) {
+    const [limit, reference] = [this.#limit(signal), this.#reference(signal)];
+    const minus = (/** @type {number} */ v) => (v < 0 ? '\u2212' : '');
+    const rules = [limit, limit && -limit].filter((v) => v !== undefined).map((v) => ({ value: v, label: signal === 'theta' ? `stop ${fixed(v, 1)}°` : `limit ${minus(v)}${Math.abs(v)} V`, danger: true }));
+    return reference ? [...rules, { value: reference, label: `reference ${fixed(reference, 1)}°`, danger: false }] : rules;
+  }
+
   /** @param {any} u @param {Signal} signal */
   #drawLimits(u, signal) {
-    const limit = isVoltage(signal) ? this.store.state.reply?.limits?.[/** @type {'V_p'|'V_y'} */ (signal)] : undefined;
-    if (limit === undefined) return;
     const { ctx, bbox } = u;
     ctx.save();
-    for (const v of [limit, -limit]) {
+    for (const { value: v, label } of this.#rules(signal).filter((rule) => rule.danger)) {
       if (v > u.scales.y.max || v < u.scales.y.min) continue;
       const y = Math.round(u.valToPos(v, 'y', true));
       ctx.fillStyle = this.#colors['limit-fill'];
       if (v > 0) ctx.fillRect(bbox.left, bbox.top, bbox.width, y - bbox.top);
       else ctx.fillRect(bbox.left, y, bbox.width, bbox.top + bbox.height - y);
-      this.#rule(u, y, this.#colors.danger, [], `limit ${v < 0 ? '\u2212' : ''}${Math.abs(v)} V`, v > 0 ? 1 : -1);
+      this.#rule(u, y, this.#colors.danger, [], label, v > 0 ? 1 : -1);
     }
     ctx.restore();
   }
@@ -172,10 +200,10 @@ export class Plots {
 
   /** @param {any} u @param {Signal} signal */
   #drawReference(u, signal) {
-    const r = this.#reference(signal);
-    if (r === undefined || r === 0) return;
+    const rule = this.#rules(signal).find(({ danger }) => !danger);
+    if (!rule) return;
     u.ctx.save();
-    this.#rule(u, Math.round(u.valToPos(r, 'y', true)), this.#colors.ink, [1, 5], `reference ${fixed(r, 1)}°`, r > 0 ? 1 : -1);
+    this.#rule(u, Math.round(u.valToPos(rule.value, 'y', true)), this.#colors.ink, [1, 5], rule.label, rule.value > 0 ? 1 : -1);
     u.ctx.restore();
   }
 
@@ -216,8 +244,25 @@ export class Plots {
   #zoomTo(range) {
     this.#zoom = range;
     const [min, max] = range ?? this.#time;
+    this.unzoom.hidden = !range;
     for (const { chart } of this.plots) chart.setScale('x', { min, max });
     this.#movePlayhead();
+  }
+
+  /** @param {KeyboardEvent} e */
+  #key(e) {
+    const [from, to] = this.#zoom ?? this.#time;
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[e.key];
+    const factor = { '+': 0.5, '=': 0.5, '-': 2 }[e.key];
+    if (e.ctrlKey || e.metaKey || e.altKey) return;
+    if (step) this.onSeek(Math.max(0, Math.min(this.#time[1], this.#playhead + (step * (to - from)) / (e.shiftKey ? 200 : 50))));
+    else if (factor) {
+      const width = Math.min(this.#time[1], factor * (to - from));
+      const left = Math.max(0, Math.min(this.#time[1] - width, this.#playhead - width / 2));
+      this.#zoomTo(width >= this.#time[1] ? null : [left, left + width]);
+    } else if (e.key === 'Escape' && this.#zoom) this.#zoomTo(null);
+    else return;
+    e.preventDefault();
   }
 
   /** The scene's time. @param {number} t */
@@ -240,6 +285,8 @@ export class Plots {
     const steps = this.store.state.reply?.axis_steps;
     if (!this.#data || !steps) return;
     const i = indexAt(this.#data.t, this.#hover ?? this.#playhead);
+    setText(this.at, `at ${fixed(this.#data.t[i], 2)} s`);
+    setText(this.played, `, ${PLAYED[this.store.state.motion]} played`);
     for (const { signal, values } of this.plots) {
       ['theta', 'psi'].forEach((axis, k) => {
         const v = this.#data?.plots[signal][k === 0 ? 4 : 3]?.[i];

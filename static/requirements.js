@@ -11,6 +11,17 @@ const SLACK = 1 + 1e-9; // a pole on the border itself is allowed
 /** @type {Requirements} */
 export const NONE = { settling: null, overshoot: null };
 
+/** What can be asked: s, %. @type {Record<keyof Requirements, {min: number, max: number, positive: boolean}>} */
+export const RANGES = { settling: { min: 0, max: 1e3, positive: true }, overshoot: { min: 0, max: 100, positive: false } };
+
+/** With one of them changed. @param {Requirements} r @param {string} name @param {unknown} value @returns {Requirements|null} null where that cannot be asked */
+export function asking(r, name, value) {
+  if (name !== 'settling' && name !== 'overshoot') return null;
+  const { min, max, positive } = RANGES[name];
+  if (value === null) return { ...r, [name]: null };
+  return typeof value === 'number' && value >= min && value <= max && !(positive && value === 0) ? { ...r, [name]: value } : null;
+}
+
 /** @param {Requirements} r */
 export const isAsked = (r) => r.settling !== null || r.overshoot !== null;
 

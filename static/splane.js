@@ -1,6 +1,6 @@
 /**
  * The s-plane: four poles to drag, by mouse, finger or key, over the open loop's poles and those of the whole loop. It draws the store's design at once,
- * without waiting for the server. Its parts: splane_gestures (input), _marks, _grid, _cloud and _requirements (drawing), _readout (words), _math (pure).
+ * without waiting for the server. Its parts: splane_gestures (input), _marks, _grid, _pins, _cloud and _requirements (drawing), _readout (words), _math (pure).
  * @typedef {import('./types.js').State} State
  */
 import { cloudWords, SPREADS } from './cloud.js';
@@ -11,6 +11,7 @@ import { Gestures } from './splane_gestures.js';
 import { drawGrid } from './splane_grid.js';
 import { Marks, sample } from './splane_marks.js';
 import { fit, outgrown, zoom } from './splane_math.js';
+import { drawPins } from './splane_pins.js';
 import { Readout } from './splane_readout.js';
 import { drawForbidden, hatchings, RequirementsBar } from './splane_requirements.js';
 
@@ -68,12 +69,12 @@ export class SPlane {
     this.#draw(this.store.state);
   };
 
-  fit = () => {
-    const { design, reply } = this.store.state;
+  fit = (state = this.store.state) => {
+    const { design, reply } = state;
     if (!design || !this.view.width) return;
     this.#manual = false;
     this.view = fit(design.poles, [...(reply?.loop_poles ?? []), ...(reply?.open_loop_poles ?? [])], this.view);
-    this.#draw(this.store.state);
+    this.#draw(state);
   };
 
   /** @param {number} width @param {number} height */
@@ -95,13 +96,13 @@ export class SPlane {
     const fresh = design.preset !== this.#preset;
     this.#preset = design.preset;
     const watched = [...design.poles, ...(reply?.loop_poles ?? []).filter((p) => p.re >= 0)];
-    if (!dragging && (fresh || (!this.#manual && outgrown(this.view, watched)))) this.fit();
+    if (!dragging && (fresh || (!this.#manual && outgrown(this.view, watched)))) this.fit(state);
     else this.#draw(state);
   }
 
   /** @param {State} state */
   #draw(state) {
-    const { design, requirements, spread, cloud } = state;
+    const { design, requirements, spread, cloud, pins } = state;
     if (!design) return;
     const fresh = this.view !== this.#drawn;
     this.#drawn = this.view;
@@ -112,8 +113,9 @@ export class SPlane {
     this.root.classList.toggle('unused', unused);
     setText(this.loopName, unused ? 'whole loop' : 'with PI');
     this.marks.draw(state, this.view, fresh);
+    drawPins(this.svg, this.view, pins);
     drawCloud(this.cloud, this.view, spread ? cloud : null);
-    setText(this.cloudText, spread ? cloudWords(cloud) : '');
+    setText(this.cloudText, spread ? cloudWords(cloud, design.scenario) : '');
     this.readout.draw(state, this.#active, this.view);
     this.bar.render(state);
   }

@@ -2,7 +2,7 @@
 import { h, setText, svg } from './dom.js';
 import { NumberField } from './fields.js';
 import { forField } from './format.js';
-import { forbidden, isAsked, leastDamping, missedWords, NONE } from './requirements.js';
+import { forbidden, isAsked, leastDamping, missedWords, NONE, RANGES } from './requirements.js';
 import { bounds, toPixel } from './splane_math.js';
 
 /** @typedef {import('./types.js').Requirements} Requirements */
@@ -47,15 +47,15 @@ export class RequirementsBar {
 
   /** @param {import('./store.js').Store} store */
   constructor(store) {
-    const field = (/** @type {'settling'|'overshoot'} */ key, /** @type {string} */ unit, /** @type {number} */ max, /** @type {number} */ start, /** @type {string} */ title) => {
+    const field = (/** @type {'settling'|'overshoot'} */ key, /** @type {string} */ unit, /** @type {number} */ start, /** @type {string} */ title) => {
       const made = new NumberField({ label: `${key} at most, ${unit === 's' ? 'seconds' : 'percent'}; empty: not asked`, mark: h('span', { title }, `${key} ≤`), unit, testid: `require-${key}`,
-        min: 0, max, positive: key === 'settling', optional: start,
+        ...RANGES[key], optional: true,
         onInput: (v) => store.set({ requirements: { ...store.state.requirements, [key]: Number.isFinite(v) ? v : null } }), onCommit: () => {} });
-      made.input.placeholder = 'off';
+      made.setBlank('off', start);
       return made;
     };
-    this.settling = field('settling', 's', 1e3, 1, 'No placed pole may take longer to settle to 2 %: 4/σ. Empty: not asked');
-    this.overshoot = field('overshoot', '%', 100, 10, 'No placed pair may overshoot by more, by itself: e^(−πζ/√(1 − ζ²)). Empty: not asked');
+    this.settling = field('settling', 's', 1, 'No placed pole may take longer to settle to 2 %: 4/σ. Empty: not asked');
+    this.overshoot = field('overshoot', '%', 10, 'No placed pair may overshoot by more, by itself: e^(−πζ/√(1 − ζ²)). Empty: not asked');
     this.verdict = h('span', { class: 'asked-verdict', 'data-testid': 'requirements-verdict', role: 'status' });
     this.node = h('div', { class: 'asked', role: 'group', 'aria-label': 'Requirements on the placed poles' }, this.settling.node, this.overshoot.node, this.verdict);
   }

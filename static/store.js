@@ -6,7 +6,11 @@
  * @typedef {import('./types.js').State} State
  * @typedef {import('./types.js').Design} Design
  * @typedef {import('./types.js').Preset} Preset
+ * @typedef {import('./types.js').Pin} Pin
  */
+import { scenarioBody } from './experiment.js';
+import { guarded } from './locks.js';
+import { letterOf } from './pins.js';
 import { fromWire } from './poles.js';
 import { NONE } from './requirements.js';
 
@@ -14,8 +18,8 @@ const DEPTH = 200;
 
 /** @returns {State} */
 export const initialState = () => ({
-  presets: [], methods: [], design: null, reply: null, problem: null, connection: 'connecting', motion: 'both', showLinear: true, dragging: false, spread: 0, cloud: null,
-  requirements: NONE, canUndo: false, canRedo: false,
+  presets: [], methods: [], design: null, reply: null, answered: null, problem: null, connection: 'connecting', motion: 'both', showLinear: true, dragging: false, spread: 0, cloud: null,
+  requirements: NONE, canUndo: false, canRedo: false, pins: [], locks: [], notice: null,
 });
 
 /** What a preset proposes. @param {Preset} preset @param {Partial<Design>} [keep] @returns {Design} */
@@ -58,16 +62,25 @@ export function bodyOf(design) {
 }
 
 /** The experiment, sampled for the screen. @param {Design} design */
-export const scenarioOf = ({ scenario: { reference, duration } }) => ({ reference, duration, samples: 501, rtol: 1e-5 });
+export const scenarioOf = ({ scenario }) => ({ ...scenarioBody(scenario), samples: 501 });
 
-/** The message to the server. @param {Design} design @param {number} seq */
-export const requestOf = (design, seq) => ({ seq, ...bodyOf(design), scenario: scenarioOf(design), each_axis: true });
+/** All that the page shows of a design, asked of the server. @param {Design} design */
+export const evaluationOf = (design) => ({ ...bodyOf(design), scenario: scenarioOf(design), each_axis: true });
+
+/** The message to the live socket. @param {Design} design @param {number} seq */
+export const requestOf = (design, seq) => ({ seq, ...evaluationOf(design) });
+
+/** @param {Pick<State, 'presets'|'design'>} state @returns {Preset|undefined} */
+export const presetOf = ({ presets, design }) => presets.find((p) => p.name === design?.preset);
 
 export class Store extends EventTarget {
   /** @type {State} */ state = initialState();
   /** @type {Design[]} */ #past = [];
   /** @type {Design[]} */ #future = [];
   /** @type {string|null} */ #gesture = null;
+  #pinned = 0;
+  /** Counts the steps of undo: the edits of one gesture share a number. */
+  step = 0;
 
   /** Changes what is not the design. @param {Partial<State>} part */
   set(part) {
@@ -82,9 +95,10 @@ export class Store extends EventTarget {
   edit(change, { gesture, stamp } = {}) {
     const before = this.state.design;
     if (!before) return;
-    const after = change(before);
+    const after = guarded(before, change(before), this.state.locks);
     if (after === before) return;
     if (!gesture || gesture !== this.#gesture) {
+      this.step += 1;
       this.#past.push(before);
       if (this.#past.length > DEPTH) this.#past.shift();
     }
@@ -98,12 +112,28 @@ export class Store extends EventTarget {
     this.#gesture = null;
   }
 
+  /** Whether a gesture goes on. */
+  get busy() {
+    return this.#gesture !== null || this.state.dragging;
+  }
+
   /** Starts afresh, without history. @param {Design} design */
   load(design) {
     this.#past = [];
     this.#future = [];
     this.#gesture = null;
+    this.step += 1;
     this.#put(design);
+  }
+
+  /** Takes a design as it is, whatever is locked; it can be undone. @param {Design} design */
+  restore(design) {
+    if (!this.state.design) return this.load(design);
+    this.#past.push(this.state.design);
+    this.#future = [];
+    this.#gesture = null;
+    this.step += 1;
+    return this.#put(design);
   }
 
   undo() {
@@ -120,6 +150,7 @@ export class Store extends EventTarget {
     if (!design || !this.state.design) return;
     to.push(this.state.design);
     this.#gesture = null;
+    this.step += 1;
     this.#put(design);
   }
 
@@ -130,8 +161,37 @@ export class Store extends EventTarget {
     this.dispatchEvent(new Event('change'));
   }
 
+  /** Keeps the present design beside those that follow. */
+  pin() {
+    const { design, reply, answered, pins } = this.state;
+    if (!design) return;
+    const index = [...pins.keys(), pins.length].find((i) => pins.every((p) => p.index !== i)) ?? pins.length;
+    this.addPins([{ index, name: `Design ${letterOf(index)}`, design, reply: answered === design ? reply : null }]);
+  }
+
+  /** @param {Omit<Pin, 'id'>[]} pins */
+  addPins(pins) {
+    if (pins.length) this.set({ pins: [...this.state.pins, ...pins.map((pin) => ({ ...pin, id: ++this.#pinned }))] });
+  }
+
+  /** @param {number} id @param {Partial<Pin>} part */
+  changePin(id, part) {
+    this.set({ pins: this.state.pins.map((p) => (p.id === id ? { ...p, ...part } : p)) });
+  }
+
+  /** @param {number} id */
+  unpin(id) {
+    this.set({ pins: this.state.pins.filter((p) => p.id !== id) });
+  }
+
+  /** Makes a pinned design the present one. @param {number} id */
+  usePin(id) {
+    const pin = this.state.pins.find((p) => p.id === id);
+    if (pin) this.edit(() => pin.design);
+  }
+
   /** @returns {Preset|undefined} */
   get preset() {
-    return this.state.presets.find((p) => p.name === this.state.design?.preset);
+    return presetOf(this.state);
   }
 }

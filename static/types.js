@@ -21,7 +21,24 @@
  * @property {'diagonal'|'cross'} pairing
  * @property {boolean} decoupler  whether Ĝ(0)⁻¹ stands between the PI loops and the motors
  * @property {Loops} loops
- * @property {{reference: Reference, duration: number}} scenario
+ * @property {Scenario} scenario
+ *
+ * An experiment, in the contract's names and units; what is absent is standard (see experiment.js).
+ * @typedef {object} Scenario
+ * @property {Reference} reference
+ * @property {number} duration  s
+ * @property {{theta?: number, psi?: number}} [initial]  rad, absolute; absent: at rest
+ * @property {boolean} [saturation]
+ * @property {'none'|'clamping'|'back-calculation'} [anti_windup]
+ * @property {number} [tracking_time]  of back-calculation, s; absent: each loop's integral time
+ * @property {boolean} [travel_stops]
+ * @property {boolean} [trim_feedforward]
+ * @property {number} [rtol]
+ * @property {Digital} [digital]  absent: continuous
+ * @property {Disturbance} [disturbance]
+ * @typedef {{sample_time?: number, delay?: boolean, encoders?: Encoders, rates?: 'filtered'|'true', noise?: number, seed?: number}} Digital
+ * @typedef {{V_p: number, V_y: number, time: number}} Disturbance  V, s
+ * @typedef {{theta: number, psi: number}} Encoders  counts per revolution; 0: exact
  *
  * @typedef {object} Preset
  * @property {string} name
@@ -39,6 +56,7 @@
  * @property {string} [outer]
  * @property {boolean} [decoupler]
  * @property {{theta: number}} [operating_point]
+ * @property {Encoders} [encoders]
  *
  * @typedef {object} Method
  * @property {string} name
@@ -59,6 +77,7 @@
  * @property {number} [peak_time]
  * @property {number} [steady_state_error]
  * @property {number} [iae]
+ * @property {number} [itae]
  *
  * @typedef {object} Step
  * @property {Series} t
@@ -75,13 +94,13 @@
  *
  * @typedef {object} Reply
  * @property {number} seq
- * @property {{K: number[][], closed_loop_poles: Complex[], pole_error?: number, norm: number}} gains
+ * @property {{K: number[][], A?: number[][], B?: number[][], closed_loop_poles: Complex[], pole_error?: number, norm: number}} gains
  * @property {Complex[]} open_loop_poles
  * @property {{rga?: number[][], pairing?: string[][], reason?: string, niederlinski?: number, niederlinski_cross?: number}} [rga]
  * @property {StepPair} step
  * @property {{theta?: StepPair, psi?: StepPair}} axis_steps
  * @property {Record<string, {gain_margin?: number, phase_margin?: number, delay_margin?: number}>} [margins]
- * @property {{peak: number, disk_margin: number, gain_low: number, gain_high?: number, phase: number}} [sensitivity]
+ * @property {{peak: number, peak_frequency: number, disk_margin: number, gain_low: number, gain_high?: number, phase: number}} [sensitivity]
  * @property {Complex[]} loop_poles
  * @property {boolean} stable
  * @property {{V_p: number, V_y: number}} trim
@@ -98,6 +117,9 @@
  * What the placed poles are held to; null: not asked. It is the yardstick, not the design, so undo leaves it alone.
  * @typedef {{settling: number|null, overshoot: number|null}} Requirements  s, %
  *
+ * A design that is kept for comparison; its reply is missing until the server has given one.
+ * @typedef {{id: number, index: number, name: string, design: Design, reply: Reply|null, refused?: string}} Pin  index: its letter, colour and mark
+ *
  * @typedef {object} State
  * @property {Requirements} requirements
  * @property {number} spread  relative uncertainty of the rigs in the cloud; 0: no cloud
@@ -106,6 +128,7 @@
  * @property {Method[]} methods
  * @property {Design|null} design
  * @property {Reply|null} reply
+ * @property {Design|null} answered  the design that `reply` belongs to
  * @property {Problem|null} problem
  * @property {Connection} connection
  * @property {Motion} motion
@@ -113,5 +136,8 @@
  * @property {boolean} dragging
  * @property {boolean} canUndo
  * @property {boolean} canRedo
+ * @property {Pin[]} pins
+ * @property {string[]} locks  names in locks.js
+ * @property {string|null} notice  what is to be said of the link that was opened
  */
 export {};

@@ -9,7 +9,7 @@ from heli2dof_core import close_loop, evaluate, interaction, place, simulate, su
 from .. import models, replies
 from ..compute import Compute
 from ..encoding import json_response
-from ..requests import DesignRequest, EvaluateRequest, RgaRequest, StepRequest
+from ..requests import DesignRequest, EvaluateRequest, ResponseRequest, RgaRequest
 
 
 def build_router(compute: Compute) -> APIRouter:
@@ -32,11 +32,12 @@ def build_router(compute: Compute) -> APIRouter:
         return json_response(await compute.run(work))
 
     @router.post("/step", **models.described(models.Step, "Step response of the whole loop"))
-    async def step(request: StepRequest) -> Response:
+    async def step(request: ResponseRequest) -> Response:
         def work() -> replies.Reply:
             spec = request.to_spec()
             loop = close_loop(place(spec), spec.outer)
-            return replies.step_reply(simulate(loop, spec, request.scenario.model), loop)
+            step = simulate(loop, spec, request.scenario.model)
+            return replies.step_reply(step, loop) | (replies.states_reply(step) if request.states else {})
 
         return json_response(await compute.run(work))
 

@@ -2,31 +2,32 @@
 
 from __future__ import annotations
 
-import numpy as np
+from math import nan
 
+from ..layout import LIMIT
 from .dormand_prince import integrate
-from .jit import kernel
-from .rig import LIMIT, asked
+from .jit import kernel, put
+from .rig import asked
 
 
 @kernel
-def run(rigs, start, t, c, m, rtol, atol, most_steps, angles, within):
+def run_cloud(rigs, start, t, c, m, rtol, atol, most_steps, w, y, own, modes, states, angles, within):
     """Responses of rigs that differ in their first eleven constants, (n, 11).
 
     θ and ψ at all t into `angles`, (n, 2, len(t)), NaN where a response was given up; `within`, (n,),
-    becomes 1 where no motor met its limit at these times and pitch no stop.
+    becomes 1 where no motor met its limit at these times and pitch no stop. Scratch: `w`, `y` (6,),
+    `own` and `modes` like c and m, `states` (len(t), 6).
     """
-    own, modes = c.copy(), m.copy()
-    states, y = np.empty((len(t), 6)), np.empty(6)
+    put(c, own)
     for i in range(len(rigs)):
-        own[: rigs.shape[1]] = rigs[i]
-        modes[:] = m
-        y[:] = start
-        _, done, _, _, impacts = integrate(y, t, own, modes, rtol, atol, most_steps, states)
+        put(rigs[i], own)
+        put(m, modes)
+        put(start, y)
+        _, done, _, _, impacts = integrate(y, t, own, modes, rtol, atol, most_steps, w, states)
         free = impacts == 0 and done == len(t)
         for k in range(len(t)):
             if k >= done:
-                angles[i, 0, k] = angles[i, 1, k] = np.nan
+                angles[i, 0, k] = angles[i, 1, k] = nan
                 continue
             angles[i, 0, k], angles[i, 1, k] = states[k, 0], states[k, 1]
             for motor in range(2):

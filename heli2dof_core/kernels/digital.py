@@ -10,49 +10,69 @@ from math import floor
 
 import numpy as np
 
-from .dormand_prince import integrate
-from .jit import kernel
-from .rig import (
+from ..layout import (
     BACK_CALCULATION,
+    BETA,
     CLAMPING,
+    DELAY,
     DISTURBANCE,
+    FILTERED,
     GAIN,
     LIMIT,
     MOTOR_OF,
     OFFSET,
+    RATE,
+    STEP,
+    TIME,
     TRACKING,
     WANTED,
     WINDUP,
+    F,
 )
-
-# Layout of the digital settings `d`: sample time, encoder steps (0: none), filter (0: true rates) as
-# x⁺ = F x + b θ and rate = w x₂, in F row by row, then b, w; computation delay in samples
-TIME, STEP, FILTERED, F, BETA, RATE, DELAY, SETTINGS = 0, 1, 3, 4, 8, 10, 11, 12
+from .dormand_prince import integrate
+from .jit import kernel, put
 
 
 @kernel
-def run(y, t, c, m, d, noise, disturbed_from, rtol, atol, most_steps, states, voltages):
+def run_digital(
+    y,
+    t,
+    c,
+    m,
+    d,
+    noise,
+    disturbed_from,
+    rtol,
+    atol,
+    most_steps,
+    w,
+    plant,
+    free,
+    grid,
+    course,
+    states,
+    voltages,
+):
     """States (len(t), 6) and held voltages (len(t), 2) at all t, increasing from t[0] = 0.
 
     `c`, `m` as for `integrate`, with the controller's gains; `noise`, (samples, 2), is added to the
     measured angles, rad; the disturbance acts from the first sample at or after `disturbed_from`.
+    Scratch: `w` of zeros, `plant` and `free` like c and m, `grid` (len(t) + 2,), `course` (len(t) + 2, 6).
     Returns the outcome, the grid points filled and the impacts.
     """
-    plant = c.copy()
+    put(c, plant)
     for j in range(12):
         plant[GAIN + j] = 0.0
     plant[LIMIT], plant[LIMIT + 1] = np.inf, np.inf
-    free = m.copy()
+    put(m, free)
     free[WINDUP] = 0
-    grid, course = np.empty(len(t) + 2), np.empty((len(t) + 2, 6))
-    filters = np.zeros((2, 2))
-    measured, held, waiting = np.empty(4), np.zeros(2), np.zeros(2)
+    filters, measured, held, waiting = w[16:18], w[18], w[19], w[20]
     settle_filters(y, d, filters)
     now, done, impacts, k = t[0], 0, 0, 0
     period = d[TIME]
     while done < len(t):
         sense(y, d, filters, noise[min(k, len(noise) - 1)], measured)
-        control(y, c, m, d, measured, waiting)
+        control(y, c, m, d, measured, w[21], waiting)
         if d[DELAY] == 0.0 or k == 0:
             held[0], held[1] = waiting[0], waiting[1]
         following = t[0] + (k + 1) * period
@@ -63,7 +83,7 @@ def run(y, t, c, m, d, noise, disturbed_from, rtol, atol, most_steps, states, vo
                 grid[count] = t[done + count - 1]
                 count += 1
             else:
-                states[done] = y
+                put(y, states[done])
                 voltages[done, 0], voltages[done, 1] = held[0], held[1]
                 done += 1
         grid[count] = following
@@ -72,13 +92,13 @@ def run(y, t, c, m, d, noise, disturbed_from, rtol, atol, most_steps, states, vo
         plant[DISTURBANCE], plant[DISTURBANCE + 1] = on * c[DISTURBANCE], on * c[DISTURBANCE + 1]
         z0, z1 = y[4], y[5]
         outcome, filled, _, _, hits = integrate(
-            y, grid[: count + 1], plant, free, rtol, atol, most_steps, course
+            y, grid[: count + 1], plant, free, rtol, atol, most_steps, w, course
         )
         y[4], y[5] = z0, z1
         impacts += hits
         for i in range(1, count):
             if i < filled:
-                states[done] = course[i]
+                put(course[i], states[done])
                 states[done, 4], states[done, 5] = z0, z1
                 voltages[done, 0], voltages[done, 1] = held[0], held[1]
                 done += 1
@@ -129,9 +149,8 @@ def sense(y, d, filters, noise, measured):
 
 
 @kernel
-def control(y, c, m, d, measured, out):
-    """Voltages within their limits into `out`; the integrals y[4:6] go on by one sample (Euler)."""
-    asked = np.empty(2)
+def control(y, c, m, d, measured, asked, out):
+    """Voltages as asked, and within their limits into `out`; the integrals y[4:6] go on by one sample (Euler)."""
     for motor in range(2):
         row = GAIN + 6 * motor
         u = c[OFFSET + motor] + c[row + 4] * y[4] + c[row + 5] * y[5]

@@ -9,23 +9,21 @@ from __future__ import annotations
 
 from math import inf, sqrt
 
-import numpy as np
-
-from .jit import kernel
-from .rig import REST, TRAVEL, meet_stop, rates, resolve, switch, watch
+from ..layout import REST, TRAVEL
+from .jit import kernel, put
+from .rig import meet_stop, rates, resolve, switch, watch
 
 ENDED, OUT_OF_STEPS, OUT_OF_SWITCHES = 0, 1, 2
 MOST_SWITCHES = 2000
 
 
 @kernel
-def integrate(y, t, c, m, rtol, atol, most_steps, states):
+def integrate(y, t, c, m, rtol, atol, most_steps, w, states):
     """States at all t into `states`, (len(t), 6), from y at t[0]; y and m end where the course ends.
 
     Returns the outcome, the number of samples filled, of steps, of switches and of impacts.
     """
-    k, q = np.empty((8, 8)), np.empty((5, 6))
-    trial, probe, g = np.empty(6), np.empty(6), np.empty(5)
+    k, q, trial, probe, g = w[:8], w[8:13], w[13], w[14], w[15]
     switches = impacts = steps = 0
     now, end, samples = t[0], t[-1], len(t)
     resolve(y, c, m)
@@ -33,7 +31,7 @@ def integrate(y, t, c, m, rtol, atol, most_steps, states):
         meet_stop(y, c, m, k, g)
     rates(y, c, m, k, 0)
     h = first_step(y, k, end - now, rtol, atol)
-    states[0] = y
+    put(y, states[0])
     done = 1
     while done < samples:
         steps += 1

@@ -10,9 +10,19 @@ if __name__.startswith("heli2dof_core.interpreted"):
 else:
     from numba import njit
 
-    _compile = njit(cache=True, error_model="numpy", nogil=True)
+    # Without Numba's runtime: no reference is counted, which takes longer than the sums here, and a
+    # kernel that allocates does not compile. Scratch memory comes from the caller (`WORKSPACE`).
+    options: Any = {"cache": True, "error_model": "numpy", "nogil": True, "_nrt": False}
+    _compile = njit(**options)
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     """The function, compiled on its first call; or as it is."""
     return _compile(function) if _compile else function
+
+
+@kernel
+def put(source, target):
+    """target[:] = source; a slice assignment would allocate, in case the two overlap."""
+    for i in range(len(source)):
+        target[i] = source[i]

@@ -1,7 +1,7 @@
 """The loop around the nonlinear rig: its rates, and the modes that limits, clamping and stops put it in.
 
 State y: θ, ψ, θ̇, ψ̇, z_p, z_y (angles absolute, z = ∫ error). All that is constant stands in one array
-`c`, all modes in one array of integers `m`; the layouts follow. `k` is the integrator's table of
+`c`, all modes in one array of integers `m`; the layouts are in `layout`. `k` is the integrator's table of
 slopes, 8×8: columns 0–5 are ẏ, 6–7 each motor's λ; row 7 is scratch.
 """
 
@@ -9,18 +9,36 @@ from __future__ import annotations
 
 from math import cos, sin
 
+from ..layout import (
+    ALPHA,
+    B_P,
+    B_Y,
+    BACK_CALCULATION,
+    BEYOND,
+    CLAMPING,
+    DISTURBANCE,
+    GAIN,
+    INSIDE,
+    J_Y,
+    K_PP,
+    K_PY,
+    K_S,
+    K_YP,
+    K_YY,
+    LIMIT,
+    MGL,
+    ML2,
+    MOTOR_OF,
+    OFFSET,
+    REST,
+    SIDE,
+    SLIDING,
+    TRACKING,
+    TRAVEL,
+    WANTED,
+    WINDUP,
+)
 from .jit import kernel
-
-# c: the rig's parameters (α = J_p + m l²), gains u = G y + offset, limits, references, back-calculation,
-# pitch travel, and volts that disturb the motors
-K_PP, K_PY, K_YP, K_YY, ALPHA, J_Y, ML2, MGL, B_P, B_Y, K_S = range(11)
-GAIN, OFFSET, LIMIT, WANTED, TRACKING, TRAVEL, DISTURBANCE, CONSTANTS = 11, 23, 25, 27, 29, 33, 34, 36
-
-# m: each motor's mode and which limit it is at (±1), the stop that pitch rests on (0, ±1), the motor
-# that each integrator drives, and the kind of anti-windup
-SIDE, REST, MOTOR_OF, WINDUP, MODES = 2, 4, 5, 7, 8
-INSIDE, BEYOND, SLIDING = 0, 1, 2
-NO_ANTI_WINDUP, CLAMPING, BACK_CALCULATION = 0, 1, 2
 
 
 @kernel

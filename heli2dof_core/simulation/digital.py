@@ -9,6 +9,7 @@ from scipy.linalg import expm
 
 from ..engine import engine
 from ..findings import Finding
+from ..layout import WORKSPACE
 from ..loop import Loop
 from ..signals import Floats
 from ..spec import Digital, Limits, Scenario
@@ -32,7 +33,7 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
     are sums (Euler), and an anti-windup acts at the samples.
     """
     system = NonlinearLoop.of(loop, limits, scenario)
-    t = np.linspace(0.0, scenario.duration, scenario.samples)
+    t = scenario.times
     states = np.full((scenario.samples, 6), np.nan)
     held = np.full((scenario.samples, 2), np.nan)
     count = int(np.ceil(scenario.duration / digital.sample_time)) + 2
@@ -49,11 +50,17 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
         scenario.rtol,
         ABSOLUTE_TOLERANCE * scenario.rtol,
         kernels.most_steps,
+        np.zeros(WORKSPACE),
+        np.empty_like(system.constants),
+        np.empty_like(system.modes),
+        np.empty(len(t) + 2),
+        np.empty((len(t) + 2, 6)),
         states,
         held,
     )
-    response = response_of(system, t, states, np.ascontiguousarray(held.T), outcome=outcome, impacts=impacts)
-    remarks = tuple(_remarks(loop, digital))
+    course, voltages = np.ascontiguousarray(states.T), np.ascontiguousarray(held.T)
+    response = response_of(system, t, course, voltages, outcome=outcome, impacts=impacts)
+    remarks = tuple(_remarks(loop, scenario, digital))
     return Response(**{**vars(response), "findings": (*response.findings, *remarks)})
 
 
@@ -68,7 +75,7 @@ def _settings(digital: Digital) -> Floats:
     return np.array([digital.sample_time, *steps, filtered, *F, *b, w**2, float(digital.delay)])
 
 
-def _remarks(loop: Loop, digital: Digital) -> Iterator[Finding]:
+def _remarks(loop: Loop, scenario: Scenario, digital: Digital) -> Iterator[Finding]:
     fastest = float(np.max(np.abs(loop.poles)))
     if digital.sample_time * fastest > SLOW_SAMPLING:
         yield Finding(
@@ -77,3 +84,12 @@ def _remarks(loop: Loop, digital: Digital) -> Iterator[Finding]:
             f"A sample time of {1e3 * digital.sample_time:g} ms is slow for a pole {fastest:.3g} rad/s out: the "
             f"digital loop is not like the continuous one. Below {1e3 * SLOW_SAMPLING / fastest:.2g} ms it would be.",
         )
+    if scenario.anti_windup == "back-calculation" and loop.has_integrators and scenario.saturation:
+        tracking = scenario.tracking_time or float(np.min(loop.integral_times))
+        if tracking < digital.sample_time:
+            yield Finding(
+                "fast_tracking",
+                "warning",
+                f"A tracking time of {1e3 * tracking:.3g} ms is shorter than the sample time of "
+                f"{1e3 * digital.sample_time:g} ms: at a limit the integral overshoots with every sample.",
+            )

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import expm
 
+from ..engine import engine
+from ..layout import AUGMENTED
 from ..loop import Loop
-from ..signals import Floats
 from ..spec import Scenario
 from .response import Response, hold_when_diverged
 
@@ -20,35 +20,22 @@ def simulate_linear(loop: Loop, scenario: Scenario) -> Response:
     plant = loop.design.plant
     rest = np.array([plant.theta_0, 0.0])
     reference, start = scenario.resolved(plant.theta_0)
+    wanted = reference - rest
 
-    n = len(loop.A)
-    state = np.zeros(n + 1)
-    state[:2], state[2:4], state[n] = start[:2] - rest, start[2:], 1.0
-    augmented = np.zeros((n + 1, n + 1))
+    n, samples = len(loop.A), scenario.samples
+    augmented, outputs = np.zeros((AUGMENTED, AUGMENTED)), np.zeros((2, AUGMENTED))
     augmented[:n, :n] = loop.A
-    augmented[:n, n] = loop.B @ (reference - rest)
+    augmented[:n, -1] = loop.B @ wanted
+    outputs[:, :n] = loop.voltage_from_state
+    outputs[:, -1] = loop.voltage_from_reference @ wanted
 
-    t = np.linspace(0.0, scenario.duration, scenario.samples)
+    t = scenario.times
+    states, voltages = np.zeros((AUGMENTED, samples)), np.empty((2, samples))
+    states[:2, 0], states[2:4, 0], states[-1, 0] = start[:2] - rest, start[2:], 1.0
     with np.errstate(over="ignore", invalid="ignore"):
-        states = propagate(np.asarray(expm(augmented * t[1]), dtype=np.float64), state, scenario.samples)
-        voltages = loop.voltage_from_state @ states[:n]
-        voltages += (loop.voltage_from_reference @ (reference - rest))[:, None]
-        angles = states[:2] + rest[:, None]
-    angles, voltages, findings = hold_when_diverged(t, angles, voltages)
-    ends = (float(reference[0]), float(reference[1]))
-    return Response(
-        "linear", t, angles, voltages, ends, (float(start[0]), float(start[1])), (0.0, 0.0), tuple(findings)
-    )
-
-
-def propagate(step: Floats, state: Floats, samples: int) -> Floats:
-    """States x_k = stepᵏ x₀ for k = 0 … samples − 1, shape (n, samples), by doubling."""
-    states = np.empty((len(state), samples))
-    states[:, 0] = state
-    done, power = 1, step
-    while done < samples:
-        more = min(done, samples - done)
-        states[:, done : done + more] = power @ states[:, :more]
-        done += more
-        power = power @ power
-    return states
+        engine().respond(augmented, t[1], outputs, np.empty((3 * AUGMENTED, AUGMENTED)), states, voltages)
+        states[:2] += rest[:, None]
+    states = states[:n]
+    findings = hold_when_diverged(t, states, voltages)
+    ends, begin = (float(reference[0]), float(reference[1])), (float(start[0]), float(start[1]))
+    return Response("linear", t, states[:2], voltages, ends, begin, (0.0, 0.0), tuple(findings), states)

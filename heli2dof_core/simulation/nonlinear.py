@@ -11,6 +11,18 @@ from numpy.typing import NDArray
 
 from ..engine import engine
 from ..findings import Finding
+from ..layout import (
+    BACK_CALCULATION,
+    CONSTANTS,
+    DISTURBANCE,
+    GAIN,
+    LIMIT,
+    OFFSET,
+    TRACKING,
+    TRAVEL,
+    WANTED,
+    WORKSPACE,
+)
 from ..loop import Loop
 from ..signals import INPUTS, Floats
 from ..spec import AntiWindup, Limits, Scenario
@@ -29,23 +41,20 @@ class NonlinearLoop:
 
     Attributes:
         constants, modes: laid out as `kernels.rig` says.
-        gain, offset: u = gain y + offset, 2×6 and 2, V.
         start: θ, ψ, θ̇, ψ̇, z_p, z_y at t = 0.
         reference: θ_ref, ψ_ref, absolute, rad.
-        limits: of the voltages, V; infinite without saturation.
         travel: of pitch, rad; infinite without stops.
         disturbed_from: when the disturbance within `constants` sets in, s; infinite without one.
+        order: how many of the states mean anything: 6, or 4 where nothing integrates.
     """
 
     constants: Floats
     modes: NDArray[np.int64]
-    gain: Floats
-    offset: Floats
     start: Floats
     reference: Floats
-    limits: Floats
     travel: float
     disturbed_from: float
+    order: int
 
     @classmethod
     def of(cls, loop: Loop, limits: Limits, scenario: Scenario) -> NonlinearLoop:
@@ -53,29 +62,42 @@ class NonlinearLoop:
         plant = loop.design.plant
         reference, start = scenario.resolved(plant.theta_0)
         rest = np.array([plant.theta_0, 0.0])
-        gain = np.zeros((2, 6))
-        gain[:, : loop.voltage_from_state.shape[1]] = loop.voltage_from_state
-        trim = plant.trim if scenario.trim_feedforward else np.zeros(2)
-        offset = trim + loop.voltage_from_reference @ (reference - rest) - gain[:, :2] @ rest
-        ceilings = np.array([limits.V_p, limits.V_y]) if scenario.saturation else np.full(2, np.inf)
-        travel = limits.theta if scenario.travel_stops and limits.theta is not None else np.inf
-        motors, tracking = _anti_windup(loop)
-        disturbance = scenario.disturbance
-        disturbed = [0.0, 0.0] if disturbance is None else [disturbance.V_p, disturbance.V_y]
-        since = np.inf if disturbance is None else disturbance.time
-        rig = rig_constants(plant.parameters)
-        constants = np.concatenate(
-            [rig, gain.ravel(), offset, ceilings, reference, tracking.ravel(), [travel], disturbed]
-        )
+        law = loop.voltage_from_state
+        constants, first = np.zeros(CONSTANTS), np.zeros(6)
+        first[:4] = start
+        constants[:GAIN] = rig_constants(plant.parameters)
+        constants[GAIN:OFFSET].reshape(2, 6)[:, : law.shape[1]] = law
+        constants[OFFSET:LIMIT] = loop.voltage_from_reference @ (reference - rest) - law[:, :2] @ rest
+        if scenario.trim_feedforward:
+            constants[OFFSET:LIMIT] += plant.trim
+        constants[LIMIT:WANTED] = (limits.V_p, limits.V_y) if scenario.saturation else np.inf
+        constants[WANTED:TRACKING] = reference
         windup = _WINDUP[scenario.anti_windup] if loop.has_integrators and scenario.saturation else 0
-        modes = np.array([0, 0, 1, 1, 0, *motors, windup], dtype=np.int64)
-        first = np.concatenate([start, np.zeros(2)])
-        return cls(constants, modes, gain, offset, first, reference, ceilings, travel, since)
+        if windup == BACK_CALCULATION:
+            constants[TRACKING:TRAVEL] = _tracking(loop, scenario.tracking_time).ravel()
+        travel = limits.theta if scenario.travel_stops and limits.theta is not None else np.inf
+        constants[TRAVEL] = travel
+        since = np.inf
+        if scenario.disturbance is not None:
+            constants[DISTURBANCE:] = scenario.disturbance.V_p, scenario.disturbance.V_y
+            since = scenario.disturbance.time
+        modes = np.array([0, 0, 1, 1, 0, *_motors(loop), windup], dtype=np.int64)
+        return cls(constants, modes, first, reference, travel, since, len(loop.A))
 
-    def voltages(self, states: Floats) -> Floats:
-        """What the motors get in `states`, (6, n): shape (2, n), V."""
-        asked = self.gain @ states + self.offset[:, None]
-        return np.clip(asked, -self.limits[:, None], self.limits[:, None])
+    @property
+    def gain(self) -> Floats:
+        """∂u/∂y, 2×6: u = `gain` y + `offset`, V."""
+        return self.constants[GAIN:OFFSET].reshape(2, 6)
+
+    @property
+    def offset(self) -> Floats:
+        """Voltages at y = 0, shape (2,), V."""
+        return self.constants[OFFSET:LIMIT]
+
+    @property
+    def limits(self) -> Floats:
+        """Of the voltages, shape (2,), V; infinite without saturation."""
+        return self.constants[LIMIT:WANTED]
 
 
 def rig_constants(p: Any) -> list[Any]:
@@ -84,19 +106,25 @@ def rig_constants(p: Any) -> list[Any]:
     return [p.K_pp, p.K_py, p.K_yp, p.K_yy, p.alpha, p.J_y, ml2, p.m * p.g * p.l, p.B_p, p.B_y, p.K_s]
 
 
-def _anti_windup(loop: Loop) -> tuple[list[int], Floats]:
-    """Which motor each integrator drives, and the gains of back-calculation, 2×2.
+def _motors(loop: Loop) -> tuple[int, int]:
+    """Which motor each integrator drives, in the main."""
+    if loop.integral is None:
+        return 0, 1
+    (a, b), (c, d) = loop.integral.tolist()  # V/s of each motor per rad of each error
+    return int(abs(c) > abs(a)), int(abs(d) > abs(b))
 
-    Tracking time = T_i (Åström & Hägglund, Advanced PID Control, 2006, section 3.5): the integrals
-    follow so that their voltage makes up for what the limits cut off.
+
+def _tracking(loop: Loop, tracking_time: float | None) -> Floats:
+    """The gains of back-calculation, 2×2, rad/(V·s).
+
+    The integrals follow so that their voltage makes up for what the limits cut off, with `tracking_time`
+    as time constant, or else T_i (Åström & Hägglund, Advanced PID Control, 2006, section 3.5, who
+    advise between T_d and T_i; a PI controller has no T_d).
     """
-    effect = loop.integral  # V/s of each motor per rad of each error
-    if effect is None:
-        return [0, 1], np.zeros((2, 2))
-    motors = [int(np.argmax(np.abs(effect[:, i]))) for i in range(2)]
-    if not np.all(np.any(effect, axis=0)):
-        return motors, np.zeros((2, 2))
-    return motors, np.asarray(np.linalg.pinv(effect) / loop.integral_times[:, None], dtype=np.float64)
+    if loop.integral is None or not np.all(np.any(loop.integral, axis=0)):
+        return np.zeros((2, 2))
+    times = loop.integral_times if tracking_time is None else np.full(2, tracking_time)
+    return np.asarray(np.linalg.pinv(loop.integral) / times[:, None], dtype=np.float64)
 
 
 def simulate_nonlinear(loop: Loop, limits: Limits, scenario: Scenario) -> Response:
@@ -107,17 +135,18 @@ def simulate_nonlinear(loop: Loop, limits: Limits, scenario: Scenario) -> Respon
     that clamping stops or lets go, pitch that meets its stop (without rebound) or leaves it.
     """
     system = NonlinearLoop.of(loop, limits, scenario)
-    t = np.linspace(0.0, scenario.duration, scenario.samples)
+    t = scenario.times
     states = np.full((scenario.samples, 6), np.nan)
     outcome, impacts = _integrate(system, scenario.rtol, t, states)
-    voltages = system.voltages(np.ascontiguousarray(states.T))
-    return response_of(system, t, states, voltages, outcome=outcome, impacts=impacts)
+    course, voltages = np.empty((6, len(t))), np.empty((2, len(t)))
+    engine().trajectories(states, system.constants, course, voltages)
+    return response_of(system, t, course, voltages, outcome=outcome, impacts=impacts)
 
 
 def _integrate(system: NonlinearLoop, rtol: float, t: Floats, states: Floats) -> tuple[int, int]:
     """Fills `states` before and after the disturbance sets in; the outcome and the number of impacts."""
     y, modes, kernels = system.start.copy(), system.modes.copy(), engine()
-    numbers = (rtol, ABSOLUTE_TOLERANCE * rtol, kernels.most_steps)
+    numbers = (rtol, ABSOLUTE_TOLERANCE * rtol, kernels.most_steps, np.empty(WORKSPACE))
     calm = system.constants.copy()
     calm[-2:] = 0.0
     before = int(np.searchsorted(t, system.disturbed_from))
@@ -143,21 +172,18 @@ def _integrate(system: NonlinearLoop, rtol: float, t: Floats, states: Floats) ->
 def response_of(
     system: NonlinearLoop, t: Floats, states: Floats, voltages: Floats, *, outcome: int, impacts: int
 ) -> Response:
-    """What a kernel has filled, as a response: states (n, 6), NaN where none was reached; voltages (2, n)."""
-    angles, voltages, findings = hold_when_diverged(t, np.ascontiguousarray(states[:, :2].T), voltages)
-    saturated = _share_at_limit(voltages, system.limits)
+    """What a kernel has filled, as a response: states (6, n) and voltages (2, n), NaN where none was reached."""
+    findings = hold_when_diverged(t, states, voltages)
+    at_limit = engine().share_at_limit
+    saturated = at_limit(voltages[0], system.limits[0]), at_limit(voltages[1], system.limits[1])
     if outcome:
         words = f"The simulation was given up: {_OUTCOMES[outcome]}."
         findings.append(Finding("integration_stopped", "warning", words))
     findings += _remarks(system, saturated, impacts)
     reference = (float(system.reference[0]), float(system.reference[1]))
     start = (float(system.start[0]), float(system.start[1]))
-    return Response("nonlinear", t, angles, voltages, reference, start, saturated, tuple(findings))
-
-
-def _share_at_limit(voltages: Floats, limits: Floats) -> tuple[float, float]:
-    share = np.mean(np.abs(voltages) >= limits[:, None] * (1.0 - 1e-9), axis=1)
-    return float(share[0]), float(share[1])
+    own = states[: system.order]
+    return Response("nonlinear", t, own[:2], voltages, reference, start, saturated, tuple(findings), own)
 
 
 def _remarks(system: NonlinearLoop, saturated: tuple[float, float], impacts: int) -> Iterator[Finding]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-
+from ..engine import engine
 from ..findings import Finding
 from ..signals import Floats
 
@@ -28,6 +27,8 @@ class Response:
         start: θ, ψ at t = 0, rad.
         saturated: share of time that each motor spends at its limit.
         findings: remarks on this response.
+        states: θ, ψ absolute, θ̇, ψ̇, and z_p, z_y = ∫ error where anything integrates, shape
+            (4 or 6, samples), rad, rad/s, rad·s.
     """
 
     model: Literal["linear", "nonlinear"]
@@ -38,17 +39,16 @@ class Response:
     start: tuple[float, float]
     saturated: tuple[float, float]
     findings: tuple[Finding, ...] = ()
+    states: Floats | None = None
 
 
-def hold_when_diverged(t: Floats, angles: Floats, voltages: Floats) -> tuple[Floats, Floats, list[Finding]]:
-    """Freezes a response at its last finite sample, so that every number stays finite."""
-    with np.errstate(invalid="ignore", over="ignore"):
-        bad = ~(np.all(np.abs(angles) < DIVERGED, axis=0) & np.all(np.isfinite(voltages), axis=0))
-    if not bad.any():
-        return angles, voltages, []
-    first = max(int(np.argmax(bad)), 1)
-    angles, voltages = angles.copy(), voltages.copy()
-    angles[:, first:] = angles[:, [first - 1]]
-    voltages[:, first:] = voltages[:, [first - 1]]
+def hold_when_diverged(t: Floats, states: Floats, voltages: Floats) -> list[Finding]:
+    """Freezes a response at its last finite sample, in place, so that every number stays finite.
+
+    `states`, whose first two rows are the angles, and `voltages` are of shape (n, samples).
+    """
+    first = engine().hold(states, voltages, DIVERGED)
+    if first == len(t):
+        return []
     message = f"The response grows without bound; it is shown until t = {t[first - 1]:.3g} s and held there."
-    return angles, voltages, [Finding("diverges", "error", message)]
+    return [Finding("diverges", "error", message)]

@@ -1,7 +1,7 @@
 /** What an opened row of the comparison shows: K as a matrix, the loop's poles, and what is to be said of it. */
 import { h } from '../dom.js';
 import { complex, significant } from '../format.js';
-import { gainMatrix, integralMatrix } from '../matrix.js';
+import { GAIN, gainMatrix, integralMatrix } from '../matrix.js';
 
 /** @param {string} name @param {import('../types.js').Complex[]} poles */
 function poles(name, poles) {
@@ -11,7 +11,7 @@ function poles(name, poles) {
 
 /** @param {any} row @param {string} key @param {string} title */
 export function rowDetail(row, key, title) {
-  const k = gainMatrix(`compare-k-${key}`);
+  const k = gainMatrix(`compare-k-${key}`, GAIN);
   k.render(row.K, (v) => significant(v, 4));
   const matrices = [k.node];
   if (row.integral) {

@@ -1,16 +1,22 @@
 /** The verdict on the whole loop, and what else is to be said of the design, worst first, in a place that is always kept free for it. */
 import { h, setText } from '../dom.js';
 import { fixed } from '../format.js';
+import { limitsCost } from '../limits_cost.js';
 
 const ICON = { error: '✕', warning: '▲', info: 'i' };
 const WORD = { error: 'Error', warning: 'Warning', info: 'Note' };
 const RANK = { error: 0, warning: 1, info: 2 };
 const SHOWN = 2;
+/** What is chosen in the experiment and explains others of its severity. */
+const CAUSES = ['slow_sampling', 'fast_tracking'];
 
 /** @param {import('../types.js').State} state @returns {import('../types.js').Finding[]} */
-export function findingsOf({ reply, problem }) {
+export function findingsOf({ reply, problem, design }) {
   if (problem) return [{ code: problem.code ?? 'refused', severity: 'error', message: [problem.detail ?? problem.title ?? 'The server refused this design.', problem.hint].filter(Boolean).join(' ') }];
-  return [...(reply?.findings ?? [])].sort((a, b) => (RANK[a.severity] ?? 3) - (RANK[b.severity] ?? 3));
+  const cost = limitsCost(reply, design?.scenario);
+  const own = /** @type {import('../types.js').Finding[]} */ (cost ? [{ code: 'limits_cost', severity: 'warning', message: cost }] : []);
+  const rank = (/** @type {import('../types.js').Finding} */ f) => (RANK[f.severity] ?? 3) - (CAUSES.includes(f.code) ? 0.5 : 0);
+  return [...own, ...(reply?.findings ?? [])].sort((a, b) => rank(a) - rank(b));
 }
 
 export class FindingsPanel {
@@ -54,10 +60,11 @@ export class FindingsPanel {
     setText(this.detail, !reply || problem ? '' : `${reply.stable ? 'slowest' : 'worst'} of ${reply.loop_poles.length} poles at Re ${fixed(worst)}`);
 
     const findings = findingsOf(state);
-    const key = JSON.stringify([kind, findings]);
+    const calm = state.design?.scenario.saturation === false ? 'Nothing to object; but here the motors know no limits.' : 'Nothing to object: the motors stay within their limits.';
+    const key = JSON.stringify([kind, findings, calm]);
     if (key === this.#key) return;
     this.#key = key;
-    const none = h('li', { class: 'none' }, h('span', { class: 'message' }, reply ? 'Nothing to object: the motors stay within their limits.' : ''));
+    const none = h('li', { class: 'none' }, h('span', { class: 'message' }, reply ? calm : ''));
     this.list.replaceChildren(...(findings.length ? findings.slice(0, SHOWN).map((f) => this.#item(f)) : [none]));
     this.all.replaceChildren(...findings.map((f) => this.#item(f)));
     const cut = [...this.list.querySelectorAll('.message')].some((m) => m.scrollHeight > m.clientHeight + 1 || m.scrollWidth > m.clientWidth + 1);

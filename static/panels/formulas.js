@@ -1,4 +1,5 @@
 /** K and the RGA as typeset formulas, each entry of K beside its present value. Fetched once per structure, when first seen. */
+import { copyButton } from '../copy_menu.js';
 import { h, setText } from '../dom.js';
 import { significant } from '../format.js';
 import { getSymbolic } from '../api.js';
@@ -52,26 +53,28 @@ export class FormulasPanel {
   /** @param {any} symbolic */
   #show(symbolic) {
     this.#values = [];
+    const known = Object.fromEntries(Object.entries(symbolic.definitions ?? {}).map(([name, d]) => [name, /** @type {any} */ (d).sympy]));
+    const copy = (/** @type {string} */ name, /** @type {any} */ f) => copyButton(`formula-${name}`, () => [{ name, latex: f.latex, sympy: f.sympy, definitions: known }], `Copy the formula of ${name}`);
     const entries = Object.entries(symbolic.entries?.K ?? {});
     const gains = entries.length
-      ? h('div', { class: 'entries', 'data-testid': 'k-formulas' }, entries.map(([name, entry]) => this.#entry(name, /** @type {any} */ (entry))))
+      ? h('div', { class: 'entries', 'data-testid': 'k-formulas' }, entries.map(([name, entry]) => this.#entry(name, /** @type {any} */ (entry), copy(name, entry))))
       : h('div', { class: 'scroll', 'data-testid': 'k-formulas' }, formula(symbolic.K?.mathml));
     const cards = OTHERS.filter(([key]) => symbolic[key]?.mathml).map(([key, title]) =>
-      h('section', { class: `card ${key === 'RGA' ? 'wide' : ''}` }, h('h3', {}, title), h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': title, 'data-testid': `formula-${key}` }, formula(symbolic[key].mathml))));
+      h('section', { class: `card ${key === 'RGA' ? 'wide' : ''}` }, h('h3', {}, title, ' ', copy(key, symbolic[key])), h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': title, 'data-testid': `formula-${key}` }, formula(symbolic[key].mathml))));
     const marks = new Map((symbolic.symbols ?? []).map((/** @type {any} */ s) => [s.name, s.mathml]));
     const definitions = Object.entries(symbolic.definitions ?? {}).map(([name, d]) =>
       h('div', { class: 'definition' }, formula(marks.get(name)), h('span', {}, '='), formula(/** @type {any} */ (d).mathml)));
     const symbols = h('section', { class: 'card' }, h('h3', {}, 'Symbols'), h('table', { class: 'symbols' }, h('tbody', {},
       (symbolic.symbols ?? []).map((/** @type {any} */ s) => h('tr', {}, h('th', { scope: 'row' }, s.mathml ? [h('span', { class: 'sr' }, s.name), h('span', { 'aria-hidden': 'true' }, formula(s.mathml))] : s.name), h('td', {}, s.meaning), h('td', {}, s.unit))))));
-    this.body.replaceChildren(h('section', { class: 'card gains' }, h('h3', {}, 'State feedback K, u = −Kx + v'), gains, h('div', { class: 'definitions' }, 'with', definitions)), ...cards, symbols);
+    this.body.replaceChildren(h('section', { class: 'card gains' }, h('h3', {}, 'State feedback K, u = −Kx + v ', symbolic.K ? copy('K', symbolic.K) : null), gains, h('div', { class: 'definitions' }, 'with', definitions)), ...cards, symbols);
     this.render(this.store.state);
   }
 
-  /** @param {string} name like k_12 @param {{mathml: string}} entry */
-  #entry(name, entry) {
+  /** @param {string} name like k_12 @param {{mathml: string}} entry @param {Node} tool */
+  #entry(name, entry, tool) {
     const [i, j] = [...(name.match(/\d/g) ?? ['1', '1'])].map((d) => Number(d));
     const cell = h('output', { class: 'value' });
     this.#values.push({ cell, i: i - 1, j: j - 1 });
-    return h('div', { class: 'entry' }, h('span', { class: 'sym' }, h('i', {}, 'k'), `${SUB[i]}${SUB[j]} =`), h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': `k${SUB[i]}${SUB[j]}` }, formula(entry.mathml)), h('span', { class: 'equals' }, '= ', cell));
+    return h('div', { class: 'entry' }, h('span', { class: 'sym' }, h('i', {}, 'k'), `${SUB[i]}${SUB[j]} =`), h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': `k${SUB[i]}${SUB[j]}` }, formula(entry.mathml)), h('span', { class: 'equals' }, '= ', cell, ' ', tool));
   }
 }

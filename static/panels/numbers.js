@@ -2,7 +2,7 @@
 import { suggestLoops } from '../api.js';
 import { h, setAttr, setText } from '../dom.js';
 import { fixed, significant } from '../format.js';
-import { gainMatrix, relativeGains } from '../matrix.js';
+import { GAIN, gainMatrix, relativeGains } from '../matrix.js';
 import { bodyOf } from '../store.js';
 
 /** @typedef {'diagonal'|'cross'} Pairing */
@@ -27,13 +27,24 @@ export function pairingWords(reply, pairing) {
   return { level: advised === pairing ? 'good' : 'warning', text: `${verdict}: ${rga.reason ?? ''}${index}` };
 }
 
+/** What of the present design can be copied. @param {import('../types.js').State} state @returns {import('../copy_formats.js').Item[]} */
+export function copied({ reply, design }) {
+  if (!reply || !design) return [];
+  const { K, A, B } = reply.gains;
+  /** @type {import('../copy_formats.js').Item[]} */ const items = [{ ...GAIN, matrix: K }];
+  if (reply.rga?.rga) items.push({ name: 'RGA', note: 'relative gain array at s = 0, rows theta, psi, columns v_p, v_y', matrix: reply.rga.rga });
+  if (A && B) items.push({ name: 'A', note: 'dx/dt = A x + B u, x = [theta, psi, theta_dot, psi_dot]', matrix: A }, { name: 'B', note: 'u = [V_p, V_y], deviations from trim in V', matrix: B });
+  items.push({ name: 'poles', note: 'of A - B K, rad/s', poles: reply.gains.closed_loop_poles }, { name: 'loop_poles', note: 'of the whole loop, rad/s', poles: reply.loop_poles });
+  return items;
+}
+
 export class NumbersPanel {
   /** @type {import('../types.js').Design|null} */ #told = null;
 
   /** @param {HTMLElement} root @param {import('../store.js').Store} store */
   constructor(root, store) {
     this.store = store;
-    this.k = gainMatrix('k-matrix');
+    this.k = gainMatrix('k-matrix', () => copied(store.state));
     this.rga = relativeGains('rga-matrix');
     this.words = h('span', { class: 'pairing-words', 'data-testid': 'pairing-words' });
     this.pair = h('button', { type: 'button', class: 'pair-advised', hidden: true, 'data-testid': 'pair-advised', title: 'Pairs as the RGA advises, with PI values that suit the new pairs', onclick: () => this.#pair() });

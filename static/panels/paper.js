@@ -3,6 +3,7 @@ import { getPaper, ProblemError, walkThrough } from '../api.js';
 import { h } from '../dom.js';
 import { Lazy } from '../lazy.js';
 import { FULL_RANK } from '../methods.js';
+import { placeIn } from '../permalink.js';
 import { anchorOf, countsOf, shortOf } from '../paper_math.js';
 import { rich } from '../rich.js';
 import { bodyOf } from '../store.js';
@@ -15,7 +16,8 @@ import { numbers } from './paper_numbers.js';
 import { CHAPTERS, MARKS, MEANINGS } from './paper_words.js';
 
 /** @typedef {import('../paper_math.js').Paper} Paper */
-const OWN = /^#(paper|eq|fig|table|erratum)\b/;
+/** The place in this section to which the address leads. */
+const place = () => placeIn(location.hash)?.match(/^(paper|eq|fig|table|erratum)\b.*/)?.[0];
 const WAIT = 'Reading the paper: its formulas are derived, its numbers recomputed, its errata proved. The first time this takes some seconds.';
 
 /** A refusal is an answer too: it is told beside the formulas. @param {any} body */
@@ -47,7 +49,7 @@ export class PaperPanel {
     this.body = h('div', { class: 'paper-body', 'data-testid': 'paper' });
     root.append(this.body);
     this.lazy = new Lazy(root, this.body, store, { wait: WAIT, body: () => 'paper', ask: getPaper, show: (paper) => this.#show(paper) });
-    if (OWN.test(location.hash)) root.scrollIntoView();
+    if (place()) root.scrollIntoView();
   }
 
   /** @param {import('../types.js').State} state */
@@ -69,7 +71,8 @@ export class PaperPanel {
     this.#numbers = new Lazy(this.body, h('div'), this.store, { wait: '', body: bodyOf, ask: walk, show: (answer) => live.show(answer) });
     live.rig.after(this.#numbers.status);
     live.render(this.store.state);
-    if (OWN.test(location.hash)) requestAnimationFrame(() => location.replace(location.hash)); // now there is something to lead to
+    const at = place();
+    if (at) requestAnimationFrame(() => location.replace(`#${at}`)); // now there is something to lead to
   }
 
   /** @param {Paper} paper */

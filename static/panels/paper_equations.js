@@ -1,4 +1,5 @@
 /** The chapters of the paper: prose, and each equation with its mark, its typeset forms, its figure and what it comes to on the present rig. */
+import { copyButton } from '../copy_menu.js';
 import { h } from '../dom.js';
 import { formula } from '../mathml.js';
 import { freeBody, piLoops, stateFeedback } from '../paper_figures.js';
@@ -21,8 +22,11 @@ export const mark = (status) => h('span', { class: `mark ${status}` }, h('span',
 
 const sizeOf = (/** @type {Form} */ { mathml = '' }) => (mathml.length > LONG ? 'dense long' : mathml.length > DENSE ? 'dense' : '');
 
-/** A formula that scrolls in itself. @param {Form} form @param {string} label */
-export const typeset = (form, label) => h('div', { class: `scroll ${sizeOf(form)}`, tabindex: 0, role: 'group', 'aria-label': label }, form.mathml ? formula(form.mathml) : h('span', { class: 'plain' }, rich(form.text ?? form.latex ?? '–')));
+/** A formula that scrolls in itself, and can be copied. @param {Form} form @param {string} label */
+export const typeset = (form, label) => h('div', { class: 'with-copy' }, scrolling(form, label), form.latex ? copyButton('formula', () => [{ name: label, latex: form.latex, text: form.text ?? form.latex }], `Copy ${label}`) : null);
+
+/** @param {Form} form @param {string} label */
+const scrolling = (form, label) => h('div', { class: `scroll ${sizeOf(form)}`, tabindex: 0, role: 'group', 'aria-label': label }, form.mathml ? formula(form.mathml) : h('span', { class: 'plain' }, rich(form.text ?? form.latex ?? '–')));
 
 /** @param {Equation} e */
 function forms(e) {

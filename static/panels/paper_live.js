@@ -84,7 +84,7 @@ export class LiveNumbers {
 
   /** @param {Spec} spec */
   #matrix({ key, name, rows, columns, unit, above }) {
-    const matrix = new Matrix(`paper-${key}`, name(), rows(), columns(), (i, j) => `${key}, row ${i + 1}, column ${j + 1}`);
+    const matrix = new Matrix(`paper-${key}`, name(), rows(), columns(), (i, j) => `${key}, row ${i + 1}, column ${j + 1}`, { name: key === 'rga' ? 'RGA' : key, note: unit || undefined });
     const none = h('p', { class: 'refused-words', hidden: true }, NO_STEADY);
     this.#fill.push((answer) => {
       const missing = !answer.refused && !answer[key];

@@ -250,5 +250,37 @@ def test_a_digital_controller_and_a_disturbance_are_options_of_the_same_step(cli
         ({"digital": {"rates": "guessed"}}, "scenario.digital.rates"),
         ({"digital": {"encoders": {"theta": -1}}}, "scenario.digital.encoders.theta"),
         ({"disturbance": {"V_y": 1e9}}, "scenario.disturbance.V_y"),
+        ({"tracking_time": 0}, "scenario.tracking_time"),
+        ({"tracking_time": "quick"}, "scenario.tracking_time"),
     ):
         assert post(client, "step", {"scenario": body}, status=422)["field"] == field
+
+
+@pytest.mark.parametrize("digital", [None, {"sample_time": 0.005}])
+def test_the_tracking_time_reaches_the_simulation(client, digital):
+    scenario = {"reference": {"theta": 0.6}, "anti_windup": "back-calculation", "digital": digital}
+    own, same, quick = (
+        post(client, "step", {**PAPER, "scenario": {**scenario, **more}})
+        for more in ({}, {"tracking_time": 0.1}, {"tracking_time": 0.02})
+    )
+    assert own["theta"] == same["theta"]  # the loops' integral time
+    assert max(quick["theta"]) < max(own["theta"]) - 1e-3
+
+
+@pytest.mark.parametrize("scenario", [{"model": "linear"}, {}, {"digital": {}}], ids=str)
+def test_states_are_replied_where_they_are_asked_for(client, scenario):
+    body = {**PAPER, "scenario": {"samples": 3001, **scenario}}
+    plain, full = post(client, "step", body), post(client, "step", {**body, "states": True})
+    models.Step.model_validate(full)
+    states = full.pop("states")
+    assert full == plain
+    rate = np.gradient(full["theta"], full["t"][1])
+    np.testing.assert_allclose(states["theta_dot"][5:-5], rate[5:-5], atol=5e-3)
+    error = full["reference"]["psi"] - np.array(full["psi"])
+    assert states["z_y"][-1] == pytest.approx(np.trapezoid(error, full["t"]), abs=2e-3)
+    bare = post(client, "step", {**body, "states": True, "outer": "none"})
+    assert set(bare["states"]) == {"theta_dot", "psi_dot"}
+
+
+def test_what_is_called_at_every_drag_knows_no_states(client):
+    assert post(client, "evaluate", {"states": True}, status=422)["field"] == "states"

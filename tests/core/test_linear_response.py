@@ -14,6 +14,7 @@ from heli2dof_core.margins import loop_margins
 from heli2dof_core.metrics import step_metrics
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.tuning import DAMPING, EASED, suggest_pi
+from tests.core.test_nonlinear_response import random_loops
 from tests.strategies import operating_points, pole_sets, rigs, structures
 
 OUTERS = (
@@ -24,10 +25,13 @@ OUTERS = (
 )
 
 
-def whole_loop(placed, outer):
-    """Reference → (θ, ψ, V_p, V_y), its blocks connected by python-control by the names of their signals."""
+MOTORS, STATES = ("V_p", "V_y"), ("theta", "psi", "theta_dot", "psi_dot")
+
+
+def whole_loop(placed, outer, outputs=("theta", "psi", *MOTORS)):
+    """Reference → outputs, its blocks connected by python-control by the names of their signals."""
     K, A, B = placed.K, placed.plant.A, placed.plant.B
-    states, motors = ["theta", "psi", "theta_dot", "psi_dot"], ["V_p", "V_y"]
+    states, motors = list(STATES), list(MOTORS)
     G_0 = np.eye(2, 4) @ np.linalg.solve(-(A - B @ K), B)
     paired = [G_0[0, 0], G_0[1, 1]] if outer.pairing == "diagonal" else [G_0[0, 1], G_0[1, 0]]
     if outer.outer == "none":
@@ -55,9 +59,12 @@ def whole_loop(placed, outer):
         control.ss([], [], [], K, inputs=states, outputs=["f_p", "f_y"], name="feedback"),
         control.ss(controllers, inputs=["e_theta", "e_psi"], outputs=["v_p", "v_y"], name="controllers"),
     ]
-    return control.interconnect(
-        [*blocks, *errors, *sums], inputs=["r_theta", "r_psi"], outputs=["theta", "psi", *motors]
-    )
+    blocks += [
+        control.ss(0, 1, 1, 0, inputs=error, outputs=z)
+        for error, z in (("e_theta", "z_p"), ("e_psi", "z_y"))
+        if z in outputs
+    ]
+    return control.interconnect([*blocks, *errors, *sums], inputs=["r_theta", "r_psi"], outputs=list(outputs))
 
 
 @pytest.mark.parametrize("outer", OUTERS, ids=str)
@@ -89,6 +96,19 @@ def test_response_from_an_initial_state_is_python_controls(spec, design):
     system = control.ss(loop.A, loop.B, np.eye(6), 0)
     expected = control.initial_response(system, response.t, [*start, 0.0, 0.0])
     np.testing.assert_allclose(response.angles, expected.outputs[:2], atol=1e-10)
+
+
+@pytest.mark.parametrize("outer", OUTERS, ids=str)
+def test_states_are_python_controls(spec, outer):
+    placed = design(plant(spec.parameters), spec.poles)
+    step = np.array([0.1, -0.3])
+    response = simulate_linear(close_loop(placed, outer), Scenario(*step, duration=2.0))
+    names = STATES if outer.outer == "none" else (*STATES, "z_p", "z_y")
+    reference = np.repeat(step[:, None], len(response.t), axis=1)
+    expected = control.forced_response(whole_loop(placed, outer, names), response.t, reference).outputs
+    assert response.states.shape == expected.shape
+    np.testing.assert_allclose(response.states, expected, atol=1e-10)
+    np.testing.assert_array_equal(response.states[:2], response.angles)
 
 
 def test_response_does_not_depend_on_its_grid(spec, design):
@@ -125,11 +145,24 @@ def test_metrics_are_those_of_step_info(spec, design, axis):
 @pytest.mark.parametrize("name", ["quanser-2dof-manual", "quanser-aero-2", "quanser-aero"])
 def test_margins_are_python_controls(name):
     p = preset(name)
-    loop = close_loop(design(plant(p.parameters), p.poles, p.structure), p.outer)
+    check_margins(close_loop(design(plant(p.parameters), p.poles, p.structure), p.outer))
+
+
+def test_margins_of_random_loops_are_python_controls():
+    """Conditionally stable ones and several crossings among them."""
+    loops = [loop for loop, _ in random_loops(80, seed=11) if loop.stable]
+    several = sum(m.gain_reduction_margin is not None for loop in loops for m in loop_margins(loop))
+    assert len(loops) > 60 and several > 5
+    for loop in loops:
+        check_margins(loop)
+
+
+def check_margins(loop):
     found = loop_margins(loop)
     assert found is not None
+    n = len(loop.A)
     for motor, margins in enumerate(found):
-        b = np.zeros((6, 1))
+        b = np.zeros((n, 1))
         b[:4, 0] = loop.design.plant.B[:, motor]
         c = -loop.voltage_from_state[[motor]]
         system = control.ss(loop.A + b @ c, b, c, 0)

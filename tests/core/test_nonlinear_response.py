@@ -15,6 +15,7 @@ from heli2dof_core import Limits, OuterLoop, PIGains, PoleSet, Scenario, close_l
 from heli2dof_core.compiled import accelerations
 from heli2dof_core.engine import engine
 from heli2dof_core.kernels import rig as kernel
+from heli2dof_core.layout import WORKSPACE
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.simulation.nonlinear import NonlinearLoop, simulate_nonlinear
 from tests.reference import Reference
@@ -67,6 +68,8 @@ def test_saturating_response_is_scipys(spec, design, reference):
     )
     assert max(response.saturated) > 0
     np.testing.assert_allclose(response.angles, expected.y[:2], atol=1e-6)
+    np.testing.assert_allclose(response.states[[0, 1, 4, 5]], expected.y[[0, 1, 4, 5]], atol=1e-6)
+    np.testing.assert_allclose(response.states[2:4], expected.y[2:4], atol=1e-5)  # rad/s
 
 
 def test_small_steps_tend_to_the_linear_response(design):
@@ -237,7 +240,7 @@ def test_a_later_start_of_the_grid_shifts_nothing(design):
     system = NonlinearLoop.of(loop, LIMITS, Scenario(theta=0.5, psi=1.0, rtol=1e-10))
     t = np.linspace(0, 2, 201)
     whole, first, second = (np.empty((n, 6)) for n in (201, 101, 101))
-    numbers = (1e-10, 1e-11, 100_000)
+    numbers = (1e-10, 1e-11, 100_000, np.empty(WORKSPACE))
     engine().integrate(system.start.copy(), t, system.constants, system.modes.copy(), *numbers, whole)
     y, modes = system.start.copy(), system.modes.copy()
     engine().integrate(y, t[:101], system.constants, modes, *numbers, first)
@@ -251,7 +254,15 @@ def test_clamping_slides_along_the_limit_instead_of_chattering(design):
     states = np.empty((2001, 6))
     t = np.linspace(0, 2, 2001)
     outcome, _, _, switches, _ = engine().integrate(
-        system.start.copy(), t, system.constants, system.modes.copy(), 1e-8, 1e-9, 100_000, states
+        system.start.copy(),
+        t,
+        system.constants,
+        system.modes.copy(),
+        1e-8,
+        1e-9,
+        100_000,
+        np.empty(WORKSPACE),
+        states,
     )
     assert outcome == 0 and switches < 10
     asked = np.abs(system.gain @ states.T + system.offset[:, None]) / system.limits[:, None]
@@ -284,9 +295,8 @@ def test_interpreted_and_compiled_kernels_agree_to_the_last_digit(design):
         courses = []
         for integrate in (engine().integrate, twin.integrate):
             states, t = np.empty((101, 6)), np.linspace(0, 3, 101)
-            integrate(
-                system.start.copy(), t, system.constants, system.modes.copy(), 1e-6, 1e-7, 10_000, states
-            )
+            numbers = (1e-6, 1e-7, 10_000, np.empty(WORKSPACE))
+            integrate(system.start.copy(), t, system.constants, system.modes.copy(), *numbers, states)
             courses.append(states)
         np.testing.assert_array_equal(*courses)
 

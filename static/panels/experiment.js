@@ -1,0 +1,58 @@
+/** How the experiment is run: where it starts, what limits it, which controller, what disturbs it. Folded away; one line says what differs from the standard. */
+import { h, setAttr, setText } from '../dom.js';
+import { experimentWords, isStandard, standard } from '../experiment.js';
+import { presetOf } from '../store.js';
+import { AccuracyPart, DigitalPart, DisturbancePart, LimitsPart, ScenarioFields, StartPart } from './experiment_parts.js';
+
+/** Findings that are told at the fields that they speak of, too. */
+const TOLD_HERE = ['slow_sampling', 'fast_tracking'];
+const CONCERNED = /^scenario\.(?!reference|duration|samples)/;
+
+export class ExperimentPanel {
+  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  constructor(root, store) {
+    this.store = store;
+    const fields = new ScenarioFields(store);
+    const close = h('button', { type: 'button', class: 'quiet close', 'data-testid': 'experiment-close', 'aria-label': 'Close the experiment', title: 'Close (Esc)', onclick: () => this.#close() }, '✕');
+    this.start = new StartPart(fields, close);
+    this.limits = new LimitsPart(fields);
+    this.digital = new DigitalPart(fields);
+    this.disturbance = new DisturbancePart(fields);
+    this.accuracy = new AccuracyPart(fields);
+    this.words = h('span', { class: 'experiment-words', 'data-testid': 'experiment-words' });
+    this.reset = h('button', { type: 'button', class: 'quiet', 'data-testid': 'experiment-reset', title: 'Back to the standard experiment; the steps stay', onclick: () => this.#reset(fields) }, 'Standard');
+    this.summary = h('summary', { 'data-testid': 'experiment' }, 'Experiment');
+    const body = h('div', { class: 'experiment-body', 'data-testid': 'experiment-body' }, [this.start, this.limits, this.digital, this.disturbance, this.accuracy].map((part) => part.node));
+    this.details = h('details', { class: 'experiment' }, this.summary, body);
+    this.details.addEventListener('keydown', (e) => e.key === 'Escape' && this.#close());
+    root.append(h('div', { class: 'row experiment-row' }, this.details, this.words, this.reset));
+  }
+
+  /** @param {ScenarioFields} fields */
+  #reset(fields) {
+    fields.edit(standard);
+    this.summary.focus();
+  }
+
+  #close() {
+    this.details.open = false;
+    this.summary.focus();
+  }
+
+  /** @param {import('../types.js').State} state */
+  render({ presets, design, reply, problem }) {
+    if (!design) return;
+    const words = experimentWords(design.scenario).join(' · ');
+    const findings = (reply?.findings ?? []).filter((f) => TOLD_HERE.includes(f.code) && !problem);
+    setText(this.words, `${findings.length ? '▲ ' : ''}${words || 'continuous controller, undisturbed'}`);
+    setAttr(this.words, 'title', [words, ...findings.map((f) => f.message)].join('\n'));
+    this.words.classList.toggle('warning', findings.length > 0);
+    this.reset.hidden = isStandard(design.scenario);
+    this.summary.classList.toggle('refused', CONCERNED.test(problem?.field ?? ''));
+    this.start.render(design);
+    this.limits.render(design, presetOf({ presets, design })?.limits.theta !== undefined);
+    this.digital.render(design, findings);
+    this.disturbance.render(design);
+    this.accuracy.render(design);
+  }
+}

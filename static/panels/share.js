@@ -1,0 +1,48 @@
+/** "Copy link", and the small panel that makes a link with locks for a class. */
+import { copyText } from '../clipboard.js';
+import { h, setText } from '../dom.js';
+import { LOCKS } from '../locks.js';
+import { MOST } from '../permalink.js';
+import { popupButton } from '../popup.js';
+
+const SHOWN_MS = 1600;
+
+export class ShareButtons {
+  /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
+
+  /** @param {import('../store.js').Store} store @param {import('../address.js').Address} address */
+  constructor(store, address) {
+    this.store = store;
+    this.address = address;
+    this.copy = h('button', { type: 'button', class: 'copy-link', 'data-testid': 'copy-link', title: 'Copy a link that opens this design: rig, poles, loops, steps and pins', onclick: () => this.#copy(address.link) }, 'Copy link');
+    this.told = h('span', { class: 'sr', role: 'status', 'data-testid': 'link-copied' });
+    this.node = h('span', { class: 'share' }, this.copy, popupButton({ label: 'A link that locks controls, for a class', text: '▾', testid: 'share', kind: 'share-more', content: () => this.#panel() }), this.told);
+  }
+
+  /** @param {string} hash */
+  async #copy(hash) {
+    const done = await copyText(`${location.origin}${location.pathname}${location.search}${hash}`);
+    setText(this.copy, done ? 'Copied' : 'Not copied');
+    setText(this.told, done ? 'The link is in the clipboard.' : 'The browser did not let the link into the clipboard; it stands in the address bar.');
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => setText(this.copy, 'Copy link'), SHOWN_MS);
+    return done;
+  }
+
+  #panel() {
+    const { locks, pins } = this.store.state;
+    const boxes = Object.entries(LOCKS).map(([name, { name: words }]) => ({ name, words, box: h('input', { type: 'checkbox', checked: locks.includes(name), 'data-testid': `lock-${name}`, onchange: () => show() }) }));
+    const address = h('input', { class: 'link', readonly: true, 'aria-label': 'Link', 'data-testid': 'share-link', onfocus: () => address.select() });
+    const words = h('p', { class: 'caption', role: 'status' });
+    const copy = h('button', { type: 'button', 'data-testid': 'share-copy', onclick: async () => setText(words, (await this.#copy(link())) ? 'Copied.' : 'Not copied: select it and copy it by hand.') }, 'Copy this link');
+    const link = () => this.address.linkWith(boxes.filter((b) => b.box.checked).map((b) => b.name));
+    const show = () => {
+      address.value = `${location.origin}${location.pathname}${location.search}${link()}`;
+      const missing = pins.length && !link().includes('&pin=') ? ` The pins are left out: with them it would exceed ${MOST}.` : '';
+      setText(words, `${address.value.length} characters.${missing}`);
+    };
+    show();
+    return [h('h3', {}, 'Link for a class'), h('p', { class: 'caption' }, 'Who opens it cannot change what is ticked:'),
+      h('div', { class: 'lock-list' }, boxes.map(({ words: text, box }) => h('label', { class: 'check' }, box, text))), address, h('div', { class: 'row spread' }, words, copy)];
+  }
+}
