@@ -99,7 +99,7 @@ export function setMode(poles, pair, complex) {
   const mean = (a.re + b.re) / 2;
   if (complex) {
     const im = Math.max(Math.abs(a.re - b.re) / 2, Math.abs(mean) / 4, 0.1);
-    return setComplex(poles, 2 * pair, { re: mean, im });
+    return setComplex(poles, 2 * pair, { re: mean, im: Number(im.toPrecision(3)) });
   }
   const d = Math.min(Math.abs(a.im), Math.abs(mean) / 2);
   return withPair(poles, pair, { re: mean - d, im: 0 }, { re: mean + d, im: 0 });

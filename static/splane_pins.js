@@ -4,7 +4,7 @@ import { colorOf, letterOf } from './pins.js';
 import { toPixel } from './splane_math.js';
 
 const CROSS = 'M -3.5 -3.5 L 3.5 3.5 M -3.5 3.5 L 3.5 -3.5';
-const NEAR = 5; // px: poles of one pin that share a letter
+const NEAR = 14; // px: poles of one pin that share a letter
 /** @type {WeakMap<SVGElement, {layer: SVGGElement, pins: unknown, view: unknown}>} */
 const drawn = new WeakMap();
 
@@ -25,7 +25,8 @@ export function drawPins(root, view, pins) {
       const mark = svg('path', { d: CROSS, transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
       if (named.some(([a, b]) => Math.hypot(a - x, b - y) < NEAR)) return [mark];
       named.push([x, y]);
-      return [mark, svg('text', { x: (x - 3).toFixed(1), y: (y + (p.im > 0 ? -15 : 24)).toFixed(1) }, letterOf(pin.index))];
+      // On the axis below the numbers of the poles that are dragged.
+      return [mark, svg('text', { x: (x - 3).toFixed(1), y: (y + (p.im > 0 ? -15 : p.im < 0 ? 24 : 34)).toFixed(1) }, letterOf(pin.index))];
     }));
   }));
 }

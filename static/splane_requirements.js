@@ -17,12 +17,14 @@ export const hatchings = () => [pattern('hatch-settling', 45), pattern('hatch-ov
 /** @param {SVGGElement} layer @param {View} view @param {Requirements} r */
 export function drawForbidden(layer, view, r) {
   const regions = forbidden(bounds(view), r);
-  const nodes = [];
+  // Hatched up to the imaginary axis: beyond it the plane is hatched as unstable.
+  const hatched = svg('svg', { width: Math.max(0, toPixel(view, { re: 0, im: 0 })[0]), height: view.height });
+  /** @type {SVGElement[]} */ const nodes = [hatched];
   for (const kind of /** @type {const} */ (['overshoot', 'settling'])) {
     const corners = regions[kind];
     if (!corners) continue;
     const points = corners.map((p) => toPixel(view, p).map((v) => v.toFixed(1)).join(' '));
-    nodes.push(svg('path', { class: 'forbidden', 'data-testid': `forbidden-${kind}`, fill: `url(#hatch-${kind})`, d: `M ${points.join(' L ')} Z` }));
+    hatched.append(svg('path', { class: 'forbidden', 'data-testid': `forbidden-${kind}`, fill: `url(#hatch-${kind})`, d: `M ${points.join(' L ')} Z` }));
     const border = kind === 'settling' ? points.slice(0, 2) : [points[1], points[0], points[points.length - 1]];
     nodes.push(svg('path', { class: 'forbidden-edge', d: `M ${border.join(' L ')}` }));
   }

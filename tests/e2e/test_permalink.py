@@ -132,6 +132,34 @@ def test_a_link_for_a_class_locks_what_was_ticked(page: Page, app: App):
     until_state(page, "s.method === 'tits-yang'")
 
 
+def test_a_link_restores_requirements(page: Page, app: App):
+    page.get_by_test_id("require-settling").fill("0.4")
+    until_hash(page, "req.settling=0.4")
+    link = page.url
+    page.goto("about:blank")
+    opened(page, link)
+    expect(page.get_by_test_id("require-settling")).to_have_value("0.4")
+    expect(page.get_by_test_id("require-overshoot")).to_have_value("")
+    expect(page.get_by_test_id("requirements-verdict")).to_have_text("✕ 2, 3, 4")
+    assert page.get_by_test_id("forbidden-settling").count() == 1
+    page.get_by_test_id("require-settling").fill("")
+    page.wait_for_function("() => !location.hash.includes('req.')")
+    expect(page.get_by_test_id("requirements-verdict")).to_have_text("")
+
+
+def test_without_locks_each_control_is_as_its_panel_has_it(page: Page, app: App):
+    link = app.url + "#v1&preset=quanser-2dof-manual&outer=none"
+    page.goto("about:blank")
+    opened(page, link + "&lock=loops")
+    expect(page.get_by_test_id("outer-pi")).to_be_disabled()
+    page.evaluate("(hash) => { location.hash = hash }", link.split("#")[1])
+    expect(page.get_by_test_id("locked")).to_be_hidden()
+    settled(page)
+    expect(page.get_by_test_id("outer-pi")).to_be_enabled()
+    for testid in ("kp-pitch", "pairing"):  # of no use without outer loops
+        expect(page.get_by_test_id(testid)).to_be_disabled()
+
+
 def test_a_bad_part_is_told_and_the_rest_restored(page: Page, app: App):
     page.goto("about:blank")
     opened(page, app.url + "#v1&p=-1,-2&duration=7&preset=quanser-2dof-manual")
