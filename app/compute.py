@@ -12,6 +12,10 @@ from typing import TypeVar
 
 from threadpoolctl import threadpool_limits
 
+from heli2dof_core.comparison import STRUCTURES
+from heli2dof_core.compiled import warm_up
+from heli2dof_core.engine import engine
+
 from .kernels import KernelCompiler
 
 _log = logging.getLogger(__name__)
@@ -31,11 +35,17 @@ class Compute:
         self._warm = threading.Event()
         self._failure: BaseException | None = None
         self._kernels = KernelCompiler()
+        self._settled = False
 
     @property
     def ready(self) -> bool:
         """Whether the derivation is done."""
         return self._warm.is_set() and self._failure is None
+
+    @property
+    def settled(self) -> bool:
+        """Whether all is derived and compiled: a common update then takes a millisecond or two."""
+        return self._settled
 
     def start(self) -> None:
         """Begins the derivation in the background.
@@ -65,8 +75,6 @@ class Compute:
     def _warm_up(self) -> None:
         began = perf_counter()
         try:
-            from heli2dof_core.compiled import warm_up
-
             warm_up()
             _log.info("derivation ready after %.2f s", perf_counter() - began)
         except BaseException as error:
@@ -75,3 +83,6 @@ class Compute:
         finally:
             self._warm.set()
         self._kernels.run()
+        if self.ready and engine().compiled:
+            warm_up(STRUCTURES)
+            self._settled = True

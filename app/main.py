@@ -44,6 +44,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         docs_url=None,
         redoc_url=None,
     )
+    app.state.compute = compute
     app.include_router(catalogue.build_router(compute))
     app.include_router(design.build_router(compute))
     app.include_router(derivation.build_router(compute))

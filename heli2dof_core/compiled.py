@@ -6,7 +6,7 @@ module, so that a server can answer its first page before the derivation has run
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from typing import Any
 
@@ -68,11 +68,12 @@ def accelerations() -> Callable[..., tuple[float, float]]:
     return _compile([*arguments, *names.PARAMETERS.values()], list(mechanics().accelerations.flat()))
 
 
-def warm_up() -> None:
-    """Runs the derivation for the paper's structure, so that no later call waits for it."""
+def warm_up(structures: Iterable[Structure] = (Structure(),)) -> None:
+    """Runs the derivation for these structures, the paper's if none is named, so that no later call waits for it."""
     linear_matrices()
     accelerations()
-    gain(Structure())
+    for structure in structures:
+        gain(structure)
 
 
 def _physical(matrix: Any) -> list[list[Any]]:

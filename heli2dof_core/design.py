@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import hypot, sqrt
 
 import numpy as np
 
@@ -57,8 +58,9 @@ class Design:
 
     @property
     def spectral_norm(self) -> float:
-        """Largest singular value of K (mixed units)."""
-        return float(np.linalg.norm(self.K, 2))
+        """Largest singular value of K (mixed units): the root of the larger eigenvalue of K Kᵀ, 2×2."""
+        (a, b), (_, d) = (self.K @ self.K.T).tolist()
+        return sqrt((a + d) / 2 + hypot((a - d) / 2, b))
 
     @cached_property
     def eigenvector_condition(self) -> float | None:

@@ -102,24 +102,25 @@ def place(spec: Spec) -> Design:
     return design(plant(spec.parameters, spec.theta_0), spec.poles, spec.structure, spec.method, weights)
 
 
-def simulate(loop: Loop, spec: Spec, model: Model) -> Step:
-    """The scenario's response by one model, with its metrics."""
+def simulate(loop: Loop, spec: Spec, model: Model, most_steps: int | None = None) -> Step:
+    """The scenario's response by one model, with its metrics; `most_steps` as in `simulate_nonlinear`."""
     if model == "linear":
         response = simulate_linear(loop, spec.scenario)
     elif spec.scenario.digital is None:
-        response = simulate_nonlinear(loop, spec.limits, spec.scenario)
+        response = simulate_nonlinear(loop, spec.limits, spec.scenario, most_steps)
     else:
         response = simulate_digital(loop, spec.limits, spec.scenario, spec.scenario.digital)
     trim = loop.design.plant.trim if model == "nonlinear" else np.zeros(2)
     return Step(response, step_metrics(response, trim))
 
 
-def evaluate(spec: Spec, *, each_axis: bool = False) -> Report:
+def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = None) -> Report:
     """Design, interaction, whole loop, margins and responses of a spec.
 
     Args:
         spec: what the user chose.
         each_axis: also step each axis of the scenario's reference alone, as the paper's Figs. 4, 5.
+        most_steps: after which a nonlinear response is given up, with the finding `integration_stopped`.
 
     Raises:
         Heli2DofError: see `errors`.
@@ -127,12 +128,12 @@ def evaluate(spec: Spec, *, each_axis: bool = False) -> Report:
     placed = place(spec)
     loop = close_loop(placed, spec.outer)
     gains = interaction(placed, spec.outer.pairing)
-    step = _both_models(loop, spec)
+    step = _both_models(loop, spec, most_steps)
     axis_steps = {}
     if each_axis:
         alone = {"theta": {"psi": None}, "psi": {"theta": None}}
         axis_steps = {
-            name: _both_models(loop, replace(spec, scenario=replace(spec.scenario, **other)))
+            name: _both_models(loop, replace(spec, scenario=replace(spec.scenario, **other)), most_steps)
             for name, other in alone.items()
             if getattr(spec.scenario, name) is not None
         }
@@ -144,5 +145,8 @@ def evaluate(spec: Spec, *, each_axis: bool = False) -> Report:
     return Report(placed, gains, loop, margins, sensitivity, step, axis_steps, findings)
 
 
-def _both_models(loop: Loop, spec: Spec) -> dict[Model, Step]:
-    return {"linear": simulate(loop, spec, "linear"), "nonlinear": simulate(loop, spec, "nonlinear")}
+def _both_models(loop: Loop, spec: Spec, most_steps: int | None) -> dict[Model, Step]:
+    return {
+        "linear": simulate(loop, spec, "linear"),
+        "nonlinear": simulate(loop, spec, "nonlinear", most_steps),
+    }

@@ -127,26 +127,31 @@ def _tracking(loop: Loop, tracking_time: float | None) -> Floats:
     return np.asarray(np.linalg.pinv(loop.integral) / times[:, None], dtype=np.float64)
 
 
-def simulate_nonlinear(loop: Loop, limits: Limits, scenario: Scenario) -> Response:
+def simulate_nonlinear(
+    loop: Loop, limits: Limits, scenario: Scenario, most_steps: int | None = None
+) -> Response:
     """Response of the nonlinear rig under the loop, adaptive with tolerance `scenario.rtol`.
 
     The rig starts at rest at its operating point unless `scenario.initial` says otherwise. Whatever
     changes the rates abruptly is located: a voltage that reaches or leaves its limit, an integrator
-    that clamping stops or lets go, pitch that meets its stop (without rebound) or leaves it.
+    that clamping stops or lets go, pitch that meets its stop (without rebound) or leaves it. After
+    `most_steps`, by default half a second's work or two, it is given up and a finding says so.
     """
     system = NonlinearLoop.of(loop, limits, scenario)
     t = scenario.times
     states = np.full((scenario.samples, 6), np.nan)
-    outcome, impacts = _integrate(system, scenario.rtol, t, states)
+    outcome, impacts = _integrate(system, scenario.rtol, most_steps or engine().most_steps, t, states)
     course, voltages = np.empty((6, len(t))), np.empty((2, len(t)))
     engine().trajectories(states, system.constants, course, voltages)
     return response_of(system, t, course, voltages, outcome=outcome, impacts=impacts)
 
 
-def _integrate(system: NonlinearLoop, rtol: float, t: Floats, states: Floats) -> tuple[int, int]:
+def _integrate(
+    system: NonlinearLoop, rtol: float, most_steps: int, t: Floats, states: Floats
+) -> tuple[int, int]:
     """Fills `states` before and after the disturbance sets in; the outcome and the number of impacts."""
     y, modes, kernels = system.start.copy(), system.modes.copy(), engine()
-    numbers = (rtol, ABSOLUTE_TOLERANCE * rtol, kernels.most_steps, np.empty(WORKSPACE))
+    numbers = (rtol, ABSOLUTE_TOLERANCE * rtol, most_steps, np.empty(WORKSPACE))
     calm = system.constants.copy()
     calm[-2:] = 0.0
     before = int(np.searchsorted(t, system.disturbed_from))

@@ -12,6 +12,7 @@ import pytest
 from app import models
 from app.encoding import ARRAY_KEY, BINARY_SUBPROTOCOL, binary_frame
 from app.live import Newest
+from tests.scene_server import until
 
 
 def test_answers_carry_the_sequence_number_and_the_evaluation(client):
@@ -108,3 +109,32 @@ def test_problems_are_text_and_the_socket_lives_on(client, text, code, seq, subp
         socket.send_json({"seq": 9})
         reply = socket.receive_bytes() if subprotocols else socket.receive_text()
         assert b'"seq":9' in (reply if isinstance(reply, bytes) else reply.encode())
+
+
+def test_quick_requests_are_answered_without_a_thread_and_others_with_one(client, monkeypatch):
+    """Same answers either way; what might hold up the event loop goes to the pool."""
+    compute = client.app.state.compute
+    threaded = []
+    run = compute.run
+
+    async def counted(*args):
+        threaded.append(args)
+        return await run(*args)
+
+    monkeypatch.setattr(compute, "run", counted)
+    requests = [
+        ({}, 0),
+        ({"poles": [-1e5, -9e4, -9, -8], "scenario": {"rtol": 1e-6}}, 1),  # too many steps
+        ({"scenario": {"digital": {}}}, 1),
+        ({"scenario": {"samples": 2001}}, 1),
+        ({"method": "tits-yang"}, 1),
+        ({"poles": [1, 2, 3]}, 0),  # a problem is quick
+    ]
+    until(lambda: compute.settled, "all is derived and compiled", 120)
+    for body, threads in requests:
+        threaded.clear()
+        with client.websocket_connect("/api/v1/live") as socket:
+            socket.send_json({"seq": 1, **body})
+            answer = socket.receive_json()
+        assert answer == {**client.post("/api/v1/evaluate", json=body).json(), "seq": 1}
+        assert sum(function.__module__ == "app.live" for function, *_ in threaded) == threads, body
