@@ -25,8 +25,7 @@ export function drawPins(root, view, pins) {
       const mark = svg('path', { d: CROSS, transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
       if (named.some(([a, b]) => Math.hypot(a - x, b - y) < NEAR)) return [mark];
       named.push([x, y]);
-      // On the axis below the numbers of the poles that are dragged.
-      return [mark, svg('text', { x: (x - 3).toFixed(1), y: (y + (p.im > 0 ? -15 : p.im < 0 ? 24 : 34)).toFixed(1) }, letterOf(pin.index))];
+      return [mark, svg('text', { x: (x - 3).toFixed(1), y: (y + (p.im < 0 ? 24 : -15)).toFixed(1) }, letterOf(pin.index))];
     }));
   }));
 }
