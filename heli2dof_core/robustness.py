@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from types import MappingProxyType, SimpleNamespace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -173,9 +173,14 @@ def _constants(rigs: Floats) -> Floats:
 
 def _loop_poles(loop: Loop, rigs: Floats) -> Complexes:
     """Poles of the nominal controller around each rig, linear, about the nominal operating point."""
-    matrices = [linear_matrices()(*rig, loop.design.plant.theta_0) for rig in rigs.tolist()]
-    A, B = np.array([m[0] for m in matrices], dtype=float), np.array([m[1] for m in matrices], dtype=float)
+    A, B, _ = linear_matrices()(*rigs.T, loop.design.plant.theta_0)  # entries are columns, or plain numbers
+    A, B = _stacked(A, len(rigs)), _stacked(B, len(rigs))
     whole = np.repeat(loop.A[None], len(rigs), axis=0)
     whole[:, :4] = B @ loop.voltage_from_state
     whole[:, :4, :4] += A
     return np.linalg.eigvals(whole).astype(np.complex128)
+
+
+def _stacked(rows: Sequence[Sequence[Any]], count: int) -> Floats:
+    """Matrices (count, n, m) from the columns of their entries."""
+    return np.stack([[np.broadcast_to(v, count) for v in row] for row in rows]).transpose(2, 0, 1).copy()
