@@ -98,7 +98,7 @@ class Report:
 
 def place(spec: Spec) -> Design:
     """The design alone."""
-    weights = spec.weights or bryson_weights(spec.limits)
+    weights = None if spec.method == FULL_RANK else spec.weights or bryson_weights(spec.limits)
     return design(plant(spec.parameters, spec.theta_0), spec.poles, spec.structure, spec.method, weights)
 
 

@@ -53,9 +53,12 @@ class Loop:
     @cached_property
     def voltage_from_state(self) -> Floats:
         """∂u/∂[x, z], 2×6 (2×4 without PI), V per state."""
-        from_x = -self.design.K.copy()
-        from_x[:, :2] -= self.proportional
-        return from_x if self.integral is None else np.hstack([from_x, self.integral])
+        law = np.empty((2, 4 if self.integral is None else 6))
+        law[:, :4] = -self.design.K
+        law[:, :2] -= self.proportional
+        if self.integral is not None:
+            law[:, 4:] = self.integral
+        return law
 
     @cached_property
     def voltage_from_reference(self) -> Floats:
@@ -65,12 +68,14 @@ class Loop:
     @cached_property
     def A(self) -> Floats:
         """State matrix of the whole loop, 6×6 (4×4 without PI)."""
-        plant = self.design.plant
-        top = plant.B @ self.voltage_from_state
-        top[:, :4] += plant.A
-        if not self.has_integrators:
-            return top
-        return np.vstack([top, np.hstack([-np.eye(2), np.zeros((2, 4))])])
+        plant, law = self.design.plant, self.voltage_from_state
+        order = law.shape[1]
+        A = np.zeros((order, order))
+        A[:4] = plant.B @ law
+        A[:4, :4] += plant.A
+        if order == 6:
+            A[4, 0] = A[5, 1] = -1.0
+        return A
 
     @cached_property
     def B(self) -> Floats:
