@@ -150,6 +150,7 @@ class Walkthrough(Model):
     B_bar: Matrix | None = None
     K_bar: Matrix | None = None
     K: Matrix
+    integral: Matrix | None = None
     closed_loop: Matrix
     closed_loop_bar: Matrix | None = None
     closed_loop_poles: list[Complex]

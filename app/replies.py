@@ -151,6 +151,7 @@ def walkthrough_reply(design: Design) -> Reply:
             "B": design.plant.B.tolist(),
             "trim": _voltages(design.plant.trim),
             "K": design.K.tolist(),
+            "integral": None if design.integral is None else design.integral.tolist(),
             "closed_loop": design.A_closed.tolist(),
             "closed_loop_poles": poles_reply(design.closed_loop_poles),
             "pole_error": design.pole_error,

@@ -58,7 +58,7 @@ def walk_through(design: Design) -> Walkthrough:
     steps = Walkthrough(
         constants={
             **dict(zip(("alpha", "beta_0", "gamma_", "a"), map(float, constants), strict=True)),
-            "gravity_torque": float((plant.parameters.K_pp, plant.parameters.K_py) @ np.array(plant.trim)),
+            "gravity_torque": float(np.dot([plant.parameters.K_pp, plant.parameters.K_py], plant.trim)),
         },
         controllability_matrix=_controllability_matrix(plant),
         controllability_indices=scan(plant.A, plant.B).indices,

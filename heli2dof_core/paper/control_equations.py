@@ -24,14 +24,14 @@ FEEDBACK = (
         number="Fig. 2",
         title="State feedback",
         chapter="feedback",
-        plain="Each motor gets a command, less a weighted sum of all four states; the weights are K.",
+        plain="Each motor gets a command, less a weighted sum of all four states; the weights are $K$.",
         note="Redrawn, with the sign that is right.",
     ),
     Equation(
         number="Eq. 16",
         title="Closed loop",
         chapter="feedback",
-        plain="Feedback replaces A by A − BK, and with it the rig's own poles by chosen ones.",
+        plain="Feedback replaces $A$ by $A − BK$, and with it the rig's own poles by chosen ones.",
         printed=r"\dot x = (A + BK)x + Bv,\quad y = Cx",
         derived=lambda: r"\dot x = (A - BK)x + Bv,\quad y = Cx",
         status="corrected",
@@ -57,7 +57,7 @@ FEEDBACK = (
         number="transformation",
         title="Transformation T",
         chapter="feedback",
-        plain="New coordinates z = Tx, chosen so that each motor drives a chain of two integrators of its own.",
+        plain="New coordinates $z = Tx$, chosen so that each motor drives a chain of two integrators of its own.",
         derived=lambda: f"T = {_form('T')},\\quad Q = {_form('Q')}",
         status="explained",
         note="The paper gives neither T nor Q. These, Luenberger's with the basis shifted by K_py/K_pp, lead to "
@@ -104,7 +104,7 @@ FEEDBACK = (
         "away.",
         derived=lambda: r"\bar K = QKT^{-1} = " + latex(grouped(full_rank(Structure()).K_bar)),
         status="explained",
-        note="What drives the second chain by the first is left as the plant has it: there K̄ is 0, and the closed "
+        note="What drives the second chain by the first is left as the plant has it: there $K̄$ is 0, and the closed "
         "loop becomes triangular.",
         formulas=("K_bar",),
     ),
@@ -112,7 +112,7 @@ FEEDBACK = (
         number="Eq. 19",
         title="Back to the rig's coordinates",
         chapter="feedback",
-        plain="Q undoes how the motors mix, T brings the angles and rates into the new coordinates.",
+        plain="$Q$ undoes how the motors mix, $T$ brings the angles and rates into the new coordinates.",
         printed=r"K = Q^{-1}\bar K T",
     ),
     Equation(

@@ -54,7 +54,7 @@ MACHINE = (
         number="Eq. 1",
         title="Centre of mass",
         chapter="machine",
-        plain="All moving parts together weigh as if they sat in one point, at the distance l from the pivot.",
+        plain="All moving parts together weigh as if they sat in one point, at the distance $l$ from the pivot.",
         printed=r"l = \frac{(m_{m,p} + m_{shield})\, r_p + (m_{m,y} + m_{shield})\, r_y}{m_{m,p} + m_{m,y} + 2 m_{shield}}",
         note="The arms lie on opposite sides of the pivot, so one would expect their difference; Quanser's files "
         "add them too. Also J_p holds both point masses already, so α counts part of them twice.",

@@ -34,7 +34,7 @@ def test_nothing_numbered_is_left_out():
     named = {name for equation in EQUATIONS for name in equation.errata}
     assert named == known  # each stands somewhere
     for equation in EQUATIONS:
-        assert re.fullmatch(r"[A-Z][^.]*[.?](?: [A-Z][^.]*\.)?", equation.plain), (
+        assert re.fullmatch(r"[A-Z$][^.]*[.?](?: [A-Z][^.]*\.)?", equation.plain), (
             equation.number
         )  # plain, and short
         assert len(equation.plain) < 180
