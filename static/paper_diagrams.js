@@ -12,7 +12,7 @@ const WIDTH = 380;
 const value = (/** @type {number} */ x, /** @type {number} */ y, /** @type {string} */ text, anchor = 'middle', testid = '') => svg('text', { class: 'value', x, y, 'text-anchor': anchor, 'data-testid': testid || undefined }, text);
 const label = (/** @type {number} */ x, /** @type {number} */ y, /** @type {string} */ base, sub = '', kind = 'small') => math(x, y, base, sub || undefined, { kind });
 
-const short = (/** @type {number} */ v) => figure(v, Math.abs(v) < 0.1 ? 3 : 4);
+const short = (/** @type {number} */ v) => figure(v, Math.abs(v) < 1 ? 3 : 4);
 
 /** @param {number} x @param {number} y @param {number} width @param {number} height @param {...any} children */
 const block = (x, y, width, height, ...children) => svg('g', { class: 'box' }, svg('rect', { x, y, width, height, rx: 4 }), ...children);
@@ -29,7 +29,7 @@ export function stateFeedback(walk) {
   return drawing('fig-2-drawing', WIDTH, 216, 'State feedback',
     `${before ? 'The reference r passes through the inverse of G hat of 0 and becomes the command v. ' : ''}The command v less K x is the input u of the plant x dot equals A x plus B u; C gives the output y. K, ${said}.`,
     ...(before
-      ? [arrow('0,52 14,52'), label(6, 42, 'r'), block(14, 18, 72, 68, label(50, 38, 'Ĝ(0)⁻¹'), ...entries(inverse, 48, 58, 34, 2, 'fig-2-before')), arrow('86,52 103,52'), label(95, 42, 'v')]
+      ? [arrow('0,52 14,52'), label(6, 42, 'r'), block(14, 18, 74, 68, label(51, 38, 'Ĝ(0)⁻¹'), ...entries(inverse, 48, 58, 37, 3, 'fig-2-before')), arrow('88,52 103,52'), label(95, 42, 'v')]
       : [arrow('40,52 103,52'), label(60, 42, 'v')]),
     sum(114, 52), arrow('125,52 158,52'), label(140, 42, 'u'), block(158, 28, 106, 48, label(211, 58, 'ẋ = Ax + Bu')), arrow('264,52 306,52'), label(275, 42, 'x'), node(286, 52),
     block(306, 34, 30, 36, label(321, 58, 'C')), arrow('336,52 376,52'), label(352, 42, 'y'),

@@ -72,6 +72,7 @@ export class SymbolCards {
 
   /** @param {Term[]} terms */
   learn(terms) {
+    card ??= make(); // with the hint that the formulas refer to
     this.#glossary = new Glossary(terms, (mathml) => /** @type {any} */ (formula(mathml)));
   }
 
@@ -101,14 +102,13 @@ export class SymbolCards {
     clearTimeout(leaving);
     if (symbol === shown) return;
     close();
-    card ??= make();
     owner = this;
     shown = symbol;
     this.#fill(symbol);
     symbol.setAttribute('aria-describedby', 'symbol-card');
     const name = symbol.getAttribute('data-symbol');
     for (const other of symbol.closest('article, .card')?.querySelectorAll(`[data-symbol="${name}"]`) ?? []) other.classList.add('same-symbol');
-    card.showPopover();
+    card?.showPopover();
     place();
   }
 

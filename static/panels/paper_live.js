@@ -73,7 +73,7 @@ export class LiveNumbers {
 
   /** The block of a step. @param {string} number @returns {Element|null} */
   at(number) {
-    const matrices = (MATRICES[number] ?? []).map((spec) => this.#matrix(spec));
+    const matrices = (MATRICES[number] ?? []).map((spec, i) => this.#matrix(spec, i === 0));
     const parts = [...this.#diagram(number), ...this.#constants(number), ...(matrices.length ? [h('div', { class: 'numerics' }, matrices)] : []), ...this.#line(number), ...(number === 'Fig. 3' ? [this.loop] : [])];
     if (number === 'Table I') return this.#block([this.machine.table]);
     if (number === 'Eq. 1' || number === 'Eq. 8') return this.#block([this.machine.example(number)]);
@@ -124,20 +124,20 @@ export class LiveNumbers {
     }))];
   }
 
-  /** @param {Spec} spec */
-  #matrix({ key, name, rows, columns, unit, above }) {
+  /** @param {Spec} spec @param {boolean} first of its step: it tells why there are none */
+  #matrix({ key, name, rows, columns, unit, above }, first) {
     const matrix = new Matrix(`paper-${key}`, name(), rows(), columns(), (i, j) => `${key}, row ${i + 1}, column ${j + 1}`, { name: key === 'rga' ? 'RGA' : key, note: unit || undefined });
     const none = h('p', { class: 'refused-words', hidden: true });
     this.#fill.push((answer) => {
       const missing = !answer.refused && !answer[key];
-      none.hidden = !missing;
-      setText(none, missing ? whyNot(key, answer) : '');
+      none.hidden = !missing || !first;
+      setText(none, missing && first ? whyNot(key, answer) : '');
       matrix.node.hidden = missing;
       matrix.render(clean(answer[key]), (v) => figure(v, key === 'K' ? 6 : 5));
     });
     const whose = key === 'K' ? h('p', { class: 'unit-line', hidden: true }) : null;
     if (whose) this.#fill.push(({ asked, refused }) => { whose.hidden = Boolean(refused) || asked.method === FULL_RANK; setText(whose, `As ${nameOf(asked)} computes it, not by this formula.`); });
-    return h('div', { class: 'numeric' }, above ? h('p', {}, rich(above)) : null, h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': key }, matrix.node), unit ? h('p', { class: 'unit-line' }, unit) : null, whose, none);
+    return h('div', { class: 'numeric' }, above ? h('p', { class: 'above' }, rich(above)) : null, h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': key }, matrix.node), unit ? h('p', { class: 'unit-line' }, unit) : null, whose, none);
   }
 
   /** The walkthrough's answer, or why there is none. @param {any} answer */
