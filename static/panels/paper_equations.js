@@ -1,17 +1,14 @@
 /** The chapters of the derivation: prose, and each step with its mark, one plain sentence, its formulas, its figure, what it comes to on the present rig, and its errata. */
-import { copyButton } from '../copy_menu.js';
 import { h } from '../dom.js';
-import { formula } from '../mathml.js';
 import { freeBody } from '../paper_figures.js';
 import { anchorOf } from '../paper_math.js';
 import { rich } from '../rich.js';
 import { erratum } from './paper_errata.js';
+import { typeset } from './paper_forms.js';
 import { CHAPTERS, MARKS } from './paper_words.js';
 
 /** @typedef {import('../paper_math.js').Equation} Equation @typedef {import('../paper_math.js').Form} Form @typedef {import('../paper_math.js').Erratum} Erratum */
 /** @typedef {{live: (number: string) => Element|null, curves: (number: string) => Element|null, structure: (e: Equation) => Element|null}} Parts  what else a step shows */
-const DENSE = 4000; // characters of MathML, above which a matrix's fractions are set small
-const LONG = 7500; // and above which it is set smaller still on paper, where nothing scrolls
 /** @type {Record<string, Record<string, string>>} what stands above a form */
 const CAPTIONS = {
   both: { printed: 'printed', derived: 'derived' }, corrected: { printed: 'printed', derived: 'right' }, printed: { printed: 'as printed' }, derived: { derived: 'derived' },
@@ -19,14 +16,6 @@ const CAPTIONS = {
 
 /** @param {string} status */
 export const mark = (status) => h('span', { class: `mark ${status}` }, h('span', { 'aria-hidden': 'true' }, MARKS[status]), status);
-
-const sizeOf = (/** @type {Form} */ { mathml = '' }) => (mathml.length > LONG ? 'dense long' : mathml.length > DENSE ? 'dense' : '');
-
-/** A formula that scrolls in itself, and can be copied. @param {Form} form @param {string} label */
-export const typeset = (form, label) => h('div', { class: 'with-copy' }, scrolling(form, label), form.latex ? copyButton('formula', () => [{ name: label, latex: form.latex, text: form.text ?? form.latex }], `Copy ${label}`) : null);
-
-/** @param {Form} form @param {string} label */
-const scrolling = (form, label) => h('div', { class: `scroll ${sizeOf(form)}`, tabindex: 0, role: 'group', 'aria-label': label }, form.mathml ? formula(form.mathml) : h('span', { class: 'plain' }, rich(form.text ?? form.latex ?? '–')));
 
 /** @param {Equation} e */
 function forms(e) {

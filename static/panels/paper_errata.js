@@ -2,7 +2,7 @@
 import { h } from '../dom.js';
 import { countsOf } from '../paper_math.js';
 import { rich } from '../rich.js';
-import { typeset } from './paper_equations.js';
+import { typeset } from './paper_forms.js';
 import { COPY } from './paper_words.js';
 
 /** @param {import('../paper_math.js').Erratum} e */

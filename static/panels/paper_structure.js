@@ -3,7 +3,7 @@ import { getSymbolic } from '../api.js';
 import { h } from '../dom.js';
 import { FULL_RANK, nameOf } from '../methods.js';
 import { rich } from '../rich.js';
-import { typeset } from './paper_equations.js';
+import { typeset } from './paper_forms.js';
 
 /** @typedef {import('../types.js').Design} Design @typedef {import('../paper_math.js').Equation} Equation */
 /** @type {Record<string, string>} what stands before a formula, as rich text */

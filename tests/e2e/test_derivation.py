@@ -174,3 +174,18 @@ def test_contents_follow_the_reader_and_a_link_to_a_step_keeps_the_design(page: 
     page.wait_for_function(
         "() => location.hash.includes('at=eq-closed-loop') || location.hash === '#eq-closed-loop'"
     )
+
+
+def test_figures_4_and_5_are_saved_as_numbers_and_as_picture(page: Page, app: App):
+    figure = page.request.get(app.url + "api/v1/paper").json()["figures"][0]
+    opened_paper(page)
+    page.get_by_test_id("save-fig-4").click()
+    with page.expect_download() as numbers:
+        page.get_by_test_id("save-fig-4-CSV").click()
+    header, *rows = numbers.value.path().read_text().strip().splitlines()
+    assert header.count("[deg]") == len(figure["curves"]) and "t [s]" in header
+    assert len(rows) == len(figure["t"])
+    with page.expect_download() as picture:
+        page.get_by_test_id("save-fig-4-PNG").click()
+    assert picture.value.suggested_filename == "fig-4.png"
+    assert picture.value.path().read_bytes().startswith(b"\x89PNG")
