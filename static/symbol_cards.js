@@ -18,11 +18,12 @@ const HINT = 'symbol-hint';
 /** @type {Element|null} */ let shown = null;
 /** @type {ReturnType<typeof setTimeout>|undefined} */ let leaving;
 
-function make() {
+/** @param {HTMLElement} root it is drawn above all, so any landmark will do */
+function make(root) {
   const node = h('div', { class: 'symbol-card', id: 'symbol-card', role: 'tooltip', popover: 'manual', 'data-testid': 'symbol-card' });
   node.addEventListener('pointerenter', () => clearTimeout(leaving));
   node.addEventListener('pointerleave', leave);
-  document.body.append(node, h('p', { id: HINT, class: 'sr' }, 'The arrow keys walk through the symbols; each shows its name, meaning, value and unit.'));
+  root.append(node, h('p', { id: HINT, class: 'sr' }, 'The arrow keys walk through the symbols; each shows its name, meaning, value and unit.'));
   addEventListener('scroll', () => shown && place(), { passive: true, capture: true });
   addEventListener('keydown', (e) => { if (e.key === 'Escape' && shown) close(); });
   addEventListener('pointerdown', (e) => { if (shown && !(/** @type {Element} */ (e.target)).closest('[data-symbol], .symbol-card')) close(); });
@@ -72,7 +73,7 @@ export class SymbolCards {
 
   /** @param {Term[]} terms */
   learn(terms) {
-    card ??= make(); // with the hint that the formulas refer to
+    card ??= make(this.root); // with the hint that the formulas refer to
     this.#glossary = new Glossary(terms, (mathml) => /** @type {any} */ (formula(mathml)));
   }
 

@@ -33,7 +33,7 @@ function card(e, errata, told, { live, curves, structure }) {
   const again = e.errata.filter((name) => told.has(name));
   for (const name of fresh) told.add(name);
   return h('article', { class: 'eq', id: anchor, 'aria-labelledby': `${anchor}-title`, 'data-testid': 'paper-equation', 'data-number': e.number, 'data-chapter': e.chapter },
-    h('div', { class: 'margin' }, h('a', { class: `eq-number ${named ? '' : 'aside'}`, href: `#${anchor}`, 'aria-label': named ? undefined : `Link to: ${e.title}` }, named ? e.number : 'unnumbered'), mark(e.status)),
+    h('div', { class: 'margin' }, h('a', { class: `eq-number ${named ? '' : 'aside'}`, href: `#${anchor}`, 'aria-label': named ? undefined : `unnumbered: ${e.title}` }, named ? e.number : 'unnumbered'), mark(e.status)),
     h('div', { class: 'eq-main' }, h('h4', { id: `${anchor}-title` }, rich(e.title, anchor)), h('p', { class: 'plainly' }, rich(e.plain, anchor)),
       h('div', { class: 'eq-body' }, e.number === 'Fig. 1' ? freeBody() : null, forms(e), structure(e), live(e.number), curves(e.number)),
       e.note || again.length ? h('p', { class: 'note' }, rich(e.note, anchor), again.map((name) => h('a', { class: 'see', href: `#erratum-${name}` }, `erratum, ${errata.get(name)?.where ?? name}`))) : null,

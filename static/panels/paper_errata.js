@@ -9,7 +9,7 @@ import { COPY } from './paper_words.js';
 export function erratum({ name, where, printed, correct, why, effect, proof }) {
   const anchor = `erratum-${name}`;
   const value = (/** @type {'correct'|'printed'} */ kind, /** @type {string} */ label) => h('div', { class: `residual ${kind}` }, h('span', { class: 'which' }, label), typeset(proof[kind], `${where}, proof, ${label}`));
-  return h('section', { class: 'erratum', id: anchor, 'aria-labelledby': `${anchor}-title`, 'data-testid': 'erratum', 'data-holds': String(proof.holds) },
+  return h('div', { class: 'erratum', role: 'group', id: anchor, 'aria-labelledby': `${anchor}-title`, 'data-testid': 'erratum', 'data-holds': String(proof.holds) },
     h('div', { class: 'erratum-head' }, h('h5', { id: `${anchor}-title` }, 'Erratum, ', rich(where, anchor)), h('a', { class: 'permalink', href: `#${anchor}`, 'aria-label': `Link to the erratum ${name}` }, name.replaceAll('-', ' '))),
     h('div', { class: 'change' }, h('figure', { class: 'form printed corrected' }, h('figcaption', {}, 'printed'), typeset(printed, `${where}, printed`)),
       h('figure', { class: 'form derived corrected' }, h('figcaption', {}, 'right'), typeset(correct, `${where}, right`))),
