@@ -25,5 +25,5 @@ export function errata(paper) {
     h('h3', { id: 'paper-errata-title' }, 'Errata'),
     h('p', { class: 'prose' }, `${all} errata, each with an identity or a computation that proves it; ${proofs === all ? 'all' : proofs} of the proofs hold. They stand at the steps where they occur. ${COPY}`),
     h('ul', { class: 'errata', 'data-testid': 'errata' }, paper.errata.map(({ name, where, effect, proof }) => h('li', {},
-      h('a', { href: `#erratum-${name}` }, `${where}: ${name.replaceAll('-', ' ')}`), h('span', { class: 'effect' }, rich(effect)), h('span', { class: proof.holds ? 'holds' : 'holds broken' }, proof.holds ? '✓ proved' : '✗ not proved')))));
+      h('a', { href: `#erratum-${name}` }, `${where}: ${name.replaceAll('-', ' ')}`), h('span', { class: 'effect' }, 'Effect: ', rich(effect)), h('span', { class: proof.holds ? 'holds' : 'holds broken' }, proof.holds ? '✓ proved' : '✗ not proved')))));
 }
