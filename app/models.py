@@ -316,10 +316,14 @@ class Symbolic(Model):
     controllability_matrix: Formula
     T: Formula
     Q: Formula
+    A_bar: Formula
+    B_bar: Formula
+    K_bar: Formula
     K: Formula
     closed_loop: Formula
     canonical_closed_loop: Formula
     G: Formula
+    G_0: Formula
     RGA: Formula
     RGA_s: Formula
     entries: dict[str, dict[str, Formula]]

@@ -13,16 +13,32 @@ class Typeset(Model):
 
 
 class Equation(Model):
-    """A numbered equation, table or figure: as printed, as derived, and what became of it."""
+    """A step of the derivation: one plain sentence, as printed, as derived, and what became of it.
+
+    `formulas` names what of GET symbolic stands here for another structure than the paper's.
+    """
 
     number: str
     title: str
     chapter: str
+    plain: str
     status: str
     note: str
     errata: list[str]
+    formulas: list[str]
     printed: Typeset | None = None
     derived: Typeset | None = None
+
+
+class Term(Model):
+    """A symbol of the formulas; `chapters` are those where it means this, none: all."""
+
+    name: str
+    latex: str
+    mathml: str
+    meaning: str
+    unit: str
+    chapters: list[str]
 
 
 class PrintedNumber(Model):
@@ -104,6 +120,7 @@ class Paper(Model):
     title: str
     authors: str
     equations: list[Equation]
+    symbols: list[Term]
     numbers: list[PrintedNumber]
     errata: list[Erratum]
     consequence: list[Outcome]
@@ -114,19 +131,29 @@ Matrix = list[list[float]]
 
 
 class Walkthrough(Model):
-    """The derivation in numbers for one full-rank design; G_0 is left out where a pole is 0."""
+    """The derivation in numbers for one design.
+
+    Another method than full-rank's has no coefficients, T, Q, A_bar, B_bar, K_bar and closed_loop_bar.
+    G_0 and rga are left out where a pole is 0.
+    """
 
     constants: dict[str, float]
-    coefficients: dict[str, float]
     A: Matrix
     B: Matrix
     trim: dict[str, float]
     controllability_matrix: Matrix
-    T: Matrix
-    Q: Matrix
-    A_bar: Matrix
-    B_bar: Matrix
+    controllability_indices: list[int]
+    coefficients: dict[str, float] | None = None
+    T: Matrix | None = None
+    Q: Matrix | None = None
+    A_bar: Matrix | None = None
+    B_bar: Matrix | None = None
+    K_bar: Matrix | None = None
     K: Matrix
-    closed_loop_bar: Matrix
+    integral: Matrix | None = None
+    closed_loop: Matrix
+    closed_loop_bar: Matrix | None = None
+    closed_loop_poles: list[Complex]
+    pole_error: float | None = None
     G_0: Matrix | None = None
     rga: Matrix | None = None

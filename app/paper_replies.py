@@ -10,9 +10,11 @@ import sympy as sp
 from latex2mathml.converter import convert
 
 from heli2dof_core.paper.consequence import consequence
-from heli2dof_core.paper.equations import EQUATIONS, Equation
+from heli2dof_core.paper.equation import Equation
+from heli2dof_core.paper.equations import EQUATIONS
 from heli2dof_core.paper.errata import ERRATA, Erratum
 from heli2dof_core.paper.figures import Figure, figures
+from heli2dof_core.paper.glossary import TERMS
 from heli2dof_core.paper.printed import Printed
 from heli2dof_core.paper.reproduce import Row, reproduce, significant_digits
 from heli2dof_core.symbolic.names import LATEX
@@ -25,11 +27,12 @@ AUTHORS = "T. V. Mumcu, K. K. Çandır, İ. Üstoğlu"
 
 @cache
 def paper_reply() -> Reply:
-    """Equations, numbers, errata with their proofs, figures, and where the printed K puts the poles."""
+    """Steps, symbols, numbers, errata with their proofs, figures, and where the printed K puts the poles."""
     return {
         "title": TITLE,
         "authors": AUTHORS,
         "equations": [_equation(equation) for equation in EQUATIONS],
+        "symbols": [{**asdict(term), "mathml": convert(term.latex)} for term in TERMS],
         "numbers": [_row(row) for row in reproduce()],
         "errata": [_erratum(erratum) for erratum in ERRATA],
         "consequence": [
@@ -53,9 +56,11 @@ def _equation(equation: Equation) -> Reply:
         "number": equation.number,
         "title": equation.title,
         "chapter": equation.chapter,
+        "plain": equation.plain,
         "status": equation.status,
         "note": equation.note,
         "errata": list(equation.errata),
+        "formulas": list(equation.formulas),
         **({"printed": _typeset(equation.printed)} if equation.printed else {}),
         **({"derived": _typeset(equation.derived())} if equation.derived else {}),
     }

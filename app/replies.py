@@ -16,7 +16,6 @@ from heli2dof_core import (
     Design,
     Finding,
     Interaction,
-    InvalidInputError,
     Loop,
     Parameters,
     Preset,
@@ -142,27 +141,20 @@ def metrics_reply(metrics: StepMetrics) -> Reply:
 
 
 def walkthrough_reply(design: Design) -> Reply:
-    """The derivation's steps in numbers.
-
-    Raises:
-        InvalidInputError: another method than full-rank placement made the design.
-    """
-    steps = walk_through(design)
-    if steps is None:
-        raise InvalidInputError(
-            "full-rank placement alone has these steps",
-            field="method",
-            value=design.method,
-            hint="Leave it out.",
-        )
-    numbers = {name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in asdict(steps).items()}
+    """The derivation's steps in numbers; what only full-rank placement has is left out for other methods."""
+    steps = asdict(walk_through(design))
     rga = interaction(design).rga
     return present(
         {
-            **numbers,
+            **{name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in steps.items()},
             "A": design.plant.A.tolist(),
             "B": design.plant.B.tolist(),
             "trim": _voltages(design.plant.trim),
+            "K": design.K.tolist(),
+            "integral": None if design.integral is None else design.integral.tolist(),
+            "closed_loop": design.A_closed.tolist(),
+            "closed_loop_poles": poles_reply(design.closed_loop_poles),
+            "pole_error": design.pole_error,
             "rga": None if rga is None else rga.tolist(),
         }
     )

@@ -20,10 +20,6 @@ export const math = (x, y, base, sub, { kind = '', anchor = 'middle' } = {}) =>
 /** @param {number} x @param {number} y @param {string} text @param {{kind?: string, anchor?: string}} [how] */
 export const words = (x, y, text, { kind = '', anchor = 'middle' } = {}) => svg('text', { class: `words ${kind}`, x, y, 'text-anchor': anchor }, text);
 
-/** A box with lines of mathematics in its middle. @param {number} x @param {number} y @param {number} width @param {number} height @param {string[]} lines @param {string} [kind] */
-export const box = (x, y, width, height, lines, kind = '') => svg('g', { class: `box ${kind}` }, svg('rect', { x, y, width, height, rx: 4 }),
-  lines.map((line, i) => math(x + width / 2, y + height / 2 + 5.5 + 22 * (i - (lines.length - 1) / 2), ...(/** @type {[string, string?]} */ (line.split('_'))))));
-
 /** A point where signals are added. @param {number} x @param {number} y */
 export const sum = (x, y) => svg('g', { class: 'sum' }, svg('circle', { cx: x, cy: y, r: 11 }), svg('path', { d: `M ${x - 5} ${y} h 10 M ${x} ${y - 5} v 10` }));
 

@@ -1,6 +1,6 @@
-/** The paper's Figs. 1 to 3 as line drawings: the rig from its side and from above, the state feedback, the PI loops around it. */
+/** The paper's Fig. 1 as a line drawing: the rig from its side and from above. */
 import { h, svg } from './dom.js';
-import { arrow, box, dimension, drawing, math, node, sum, through, wire, words } from './paper_drawing.js';
+import { arrow, dimension, drawing, math, through, wire, words } from './paper_drawing.js';
 
 const TILT = (16 * Math.PI) / 180;
 const TURN = (24 * Math.PI) / 180;
@@ -52,19 +52,3 @@ function topView() {
 /** Fig. 1: seen from two sides, since pitch and yaw do not share a plane. */
 export const freeBody = () => h('div', { class: 'views' },
   h('figure', {}, sideView(), h('figcaption', {}, 'From its side, not to scale')), h('figure', {}, topView(), h('figcaption', {}, 'From above')));
-
-/** Fig. 2, with the sign that is right. */
-export const stateFeedback = () => drawing('fig-2-drawing', 430, 176, 'State feedback', 'The auxiliary input v and minus K x are added to the input u of the plant x dot equals A x plus B u; C gives the output y. K feeds the state x back with a minus sign.',
-  arrow('14,56 67,56'), math(26, 46, 'v'), sum(78, 56), arrow('89,56 140,56'), math(112, 46, 'u'),
-  box(140, 32, 130, 48, ['ẋ = Ax + Bu']), arrow('270,56 338,56'), math(296, 46, 'x'), node(306, 56), box(338, 36, 40, 40, ['C']), arrow('378,56 424,56'), math(402, 46, 'y'),
-  arrow('306,56 306,138 228,138'), box(188, 118, 40, 40, ['K']), arrow('188,138 78,138 78,67'), words(92, 84, '−', { kind: 'sign' }));
-
-/** Fig. 3. */
-export const piLoops = () => drawing('fig-3-drawing', 500, 268, 'PI control of the whole loop', 'The errors of theta and of psi, reference less angle, each drive a PI controller, whose outputs v p and v y enter the state feedback of Fig. 2; the angles theta and psi are fed back to their references with a minus sign.',
-  svg('rect', { class: 'frame', x: 194, y: 50, width: 218, height: 172, rx: 8 }), words(303, 215, 'the loop of Fig. 2', { kind: 'muted' }),
-  svg('g', { class: 'pitch' }, arrow('6,84 45,84'), math(20, 74, 'θ', 'ref'), sum(56, 84), arrow('67,84 106,84'), math(85, 74, 'e', 'θ'), box(106, 64, 46, 40, ['PI_p']), arrow('152,84 216,84'), math(174, 74, 'v', 'p'),
-    arrow('376,84 492,84'), math(472, 74, 'θ'), node(440, 84), arrow('440,84 440,22 56,22 56,73'), words(70, 62, '−', { kind: 'sign' })),
-  svg('g', { class: 'yaw' }, arrow('6,144 45,144'), math(20, 134, 'ψ', 'ref'), sum(56, 144), arrow('67,144 106,144'), math(85, 134, 'e', 'ψ'), box(106, 124, 46, 40, ['PI_y']), arrow('152,144 216,144'), math(174, 134, 'v', 'y'),
-    arrow('376,144 492,144'), math(472, 134, 'ψ'), node(440, 144), arrow('440,144 440,246 56,246 56,155'), words(70, 178, '−', { kind: 'sign' })),
-  svg('g', { class: 'sum' }, svg('rect', { x: 216, y: 66, width: 18, height: 96, rx: 9 }), svg('path', { d: 'M 220 114 h 10 M 225 109 v 10' })),
-  arrow('234,114 262,114'), math(247, 104, 'u'), box(262, 66, 114, 96, ['ẋ = Ax + Bu', 'y = Cx']), arrow('319,162 319,186 294,186', 'thin'), math(330, 180, 'x'), box(262, 170, 32, 30, ['K']), arrow('262,186 225,186 225,162', 'thin'), words(236, 180, '−', { kind: 'sign' }));

@@ -3,7 +3,7 @@
  *
  * @typedef {{latex?: string, mathml?: string, text?: string}} Form
  * @typedef {'reproduced'|'corrected'|'explained'} Status
- * @typedef {{number: string, title: string, chapter: string, status: Status, note: string, errata: string[], printed?: Form, derived?: Form}} Equation
+ * @typedef {{number: string, title: string, chapter: string, plain: string, status: Status, note: string, errata: string[], formulas: string[], printed?: Form, derived?: Form}} Equation
  * @typedef {object} PrintedNumber
  * @property {string} where
  * @property {string} name
@@ -23,7 +23,7 @@
  * @typedef {import('./types.js').Complex} Complex
  * @typedef {{plant: string, poles: Complex[], unrounded: Complex[]}} Consequence
  * @typedef {{number: number, output: string, t: number[], curves: {name: string, title: string, angle: number[]}[]}} Curves
- * @typedef {{title: string, authors: string, equations: Equation[], numbers: PrintedNumber[], errata: Erratum[], consequence: Consequence[], figures: Curves[]}} Paper
+ * @typedef {{title: string, authors: string, equations: Equation[], symbols: import('./symbols.js').Term[], numbers: PrintedNumber[], errata: Erratum[], consequence: Consequence[], figures: Curves[]}} Paper
  */
 import { complex } from './format.js';
 

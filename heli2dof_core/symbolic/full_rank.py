@@ -52,6 +52,11 @@ class FullRank:
         return A - B.matmul(self.K)
 
     @cached_property
+    def K_bar(self) -> DomainMatrix:
+        """K̄ = Q K T⁻¹, 2×4: the rows of Ā that carry the inputs, less the desired ones (Eq. 19)."""
+        return self.form.Q.matmul(self.K).matmul(self.form.T_inverse)
+
+    @cached_property
     def canonical_closed_loop(self) -> DomainMatrix:
         """T (A − BK) T⁻¹, block triangular or block diagonal."""
         return self.form.T.matmul(self.closed_loop).matmul(self.form.T_inverse)

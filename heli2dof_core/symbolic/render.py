@@ -32,7 +32,7 @@ from .names import (
     p_4,
     s,
 )
-from .rga import relative_gain_array, relative_gains_of_s, transfer_matrix
+from .rga import relative_gain_array, relative_gains_of_s, steady_state, transfer_matrix
 
 _DETERMINANT = PARAMETERS["K_pp"] * PARAMETERS["K_yy"] - PARAMETERS["K_py"] * PARAMETERS["K_yp"]
 _SUMS = {sp.Dummy(): p_1 + p_2, sp.Dummy(): p_3 + p_4}
@@ -57,8 +57,8 @@ class SymbolicReport:
     """All formulas of one structure.
 
     Attributes:
-        formulas: A, B, controllability_matrix, T, Q, K, closed_loop (A − BK),
-            canonical_closed_loop (T (A − BK) T⁻¹), G, RGA at s = 0, RGA_s.
+        formulas: A, B, controllability_matrix, T, Q, A_bar (T A T⁻¹), B_bar (T B), K_bar (Q K T⁻¹),
+            K, closed_loop (A − BK), canonical_closed_loop (T (A − BK) T⁻¹), G, G_0, RGA at s = 0, RGA_s.
         entries: per matrix of K, RGA and G its entries, such as ``k_11``.
         definitions: what the short names α, β₀, γ, a stand for.
         controllability_indices: σ, one per input.
@@ -88,10 +88,14 @@ def symbolic_report(structure: Structure, *, shifted: bool = False) -> SymbolicR
         "controllability_matrix": controllability_matrix(A, B).to_Matrix(),
         "T": grouped(result.form.T),
         "Q": grouped(result.form.Q),
+        "A_bar": grouped(result.form.A_bar),
+        "B_bar": grouped(result.form.B_bar),
+        "K_bar": grouped(result.K_bar),
         "K": grouped(result.K),
         "closed_loop": grouped(result.closed_loop),
         "canonical_closed_loop": grouped(result.canonical_closed_loop),
         "G": grouped(transfer_matrix(structure, shifted=shifted)),
+        "G_0": grouped(steady_state(structure, shifted=shifted)),
         "RGA": grouped(relative_gain_array(structure, shifted=shifted)),
         "RGA_s": grouped(relative_gains_of_s(structure, shifted=shifted)),
     }

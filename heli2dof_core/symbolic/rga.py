@@ -27,10 +27,16 @@ def transfer_matrix(structure: Structure, *, shifted: bool = False) -> DomainMat
 
 
 @cache
+def steady_state(structure: Structure, *, shifted: bool = False) -> DomainMatrix:
+    """Ĝ(0) over `FIELD`, 2×2, rad/V."""
+    entries = transfer_matrix(structure, shifted=shifted).to_list()
+    return DomainMatrix([[_at_zero(entry) for entry in row] for row in entries], (2, 2), FIELD)
+
+
+@cache
 def relative_gain_array(structure: Structure, *, shifted: bool = False) -> DomainMatrix:
     """RGA = Ĝ(0) ∘ Ĝ(0)⁻ᵀ over `FIELD`, 2×2 (Bristol 1966)."""
-    entries = transfer_matrix(structure, shifted=shifted).to_list()
-    G_0 = DomainMatrix([[_at_zero(entry) for entry in row] for row in entries], (2, 2), FIELD)
+    G_0 = steady_state(structure, shifted=shifted)
     return G_0.mul_elementwise(G_0.inv().transpose())
 
 

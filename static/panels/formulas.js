@@ -4,7 +4,11 @@ import { h, setText } from '../dom.js';
 import { significant } from '../format.js';
 import { getSymbolic } from '../api.js';
 import { formula } from '../mathml.js';
+import { Lazy } from '../lazy.js';
 import { FULL_RANK } from '../methods.js';
+import { bodyOf, presetOf } from '../store.js';
+import { SymbolCards } from '../symbol_cards.js';
+import { walk } from '../walk.js';
 
 const SUB = '₀₁₂₃₄';
 const OTHERS = [['RGA', 'Relative gain array at s = 0'], ['A', 'System matrix A'], ['B', 'Input matrix B'], ['T', 'Luenberger’s transformation T'], ['Q', 'Q'], ['closed_loop', 'Closed loop A − BK'], ['canonical_closed_loop', 'Closed loop in Luenberger’s basis, T(A − BK)T⁻¹'], ['G', 'Closed loop Ĝ(s)']];
@@ -13,12 +17,15 @@ export class FormulasPanel {
   #structure = '';
   #visible = false;
   /** @type {{cell: Node, i: number, j: number}[]} */ #values = [];
+  /** @type {any} */ #walk = null;
 
   /** @param {HTMLElement} root @param {import('../store.js').Store} store */
   constructor(root, store) {
     this.store = store;
     this.body = h('div', { class: 'formulas-body', 'data-testid': 'formulas' });
     root.append(this.body);
+    this.cards = new SymbolCards(root, () => ({ parameters: { ...presetOf(store.state)?.parameters, ...store.state.design?.parameters }, components: {}, walk: this.#walk }));
+    this.lazy = new Lazy(root, h('div'), store, { wait: '', body: bodyOf, ask: walk, show: (answer) => { this.#walk = answer; this.cards.refresh(); } });
     new IntersectionObserver((entries) => {
       this.#visible = entries.some((e) => e.isIntersecting);
       this.render(store.state);
@@ -26,7 +33,9 @@ export class FormulasPanel {
   }
 
   /** @param {import('../types.js').State} state */
-  render({ design, reply }) {
+  render(state) {
+    const { design, reply } = state;
+    this.lazy.render(state);
     if (!design || !this.#visible) return;
     const structure = `${design.coupling}/${design.lead}`;
     if (structure !== this.#structure) {
@@ -67,6 +76,8 @@ export class FormulasPanel {
     const symbols = h('section', { class: 'card' }, h('h3', {}, 'Symbols'), h('table', { class: 'symbols' }, h('tbody', {},
       (symbolic.symbols ?? []).map((/** @type {any} */ s) => h('tr', {}, h('th', { scope: 'row' }, s.mathml ? [h('span', { class: 'sr' }, s.name), h('span', { 'aria-hidden': 'true' }, formula(s.mathml))] : s.name), h('td', {}, s.meaning), h('td', {}, s.unit))))));
     this.body.replaceChildren(h('section', { class: 'card gains' }, h('h3', {}, 'State feedback K, u = −Kx + v ', symbolic.K ? copy('K', symbolic.K) : null), gains, h('div', { class: 'definitions' }, 'with', definitions)), ...cards, symbols);
+    this.cards.learn(symbolic.symbols ?? []);
+    for (const part of this.body.querySelectorAll('.card')) this.cards.mark(part);
     this.render(this.store.state);
   }
 

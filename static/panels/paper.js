@@ -1,35 +1,27 @@
-/** The paper, step by step: its equations derived again, its numbers recomputed, its errata proved. Fetched when it is first seen. */
-import { getPaper, ProblemError, walkThrough } from '../api.js';
+/** The derivation as a reading view along the paper: its equations derived again, its numbers recomputed, its errata proved. Fetched when it is first seen. */
+import { getPaper } from '../api.js';
 import { h } from '../dom.js';
 import { Lazy } from '../lazy.js';
-import { FULL_RANK } from '../methods.js';
 import { placeIn } from '../permalink.js';
-import { anchorOf, countsOf, shortOf } from '../paper_math.js';
+import { countsOf } from '../paper_math.js';
 import { rich } from '../rich.js';
-import { bodyOf } from '../store.js';
+import { bodyOf, presetOf } from '../store.js';
+import { SymbolCards, SymbolList } from '../symbol_cards.js';
+import { walk } from '../walk.js';
 import { consequence } from './paper_consequence.js';
+import { contents, follow } from './paper_contents.js';
 import { PaperCurves } from './paper_curves.js';
 import { chapters, mark } from './paper_equations.js';
 import { errata } from './paper_errata.js';
 import { LiveNumbers } from './paper_live.js';
 import { numbers } from './paper_numbers.js';
-import { CHAPTERS, MARKS, MEANINGS } from './paper_words.js';
+import { askStructure, StructureForms, structureOf } from './paper_structure.js';
+import { MARKS, MEANINGS } from './paper_words.js';
 
 /** @typedef {import('../paper_math.js').Paper} Paper */
 /** The place in this section to which the address leads. */
 const place = () => placeIn(location.hash)?.match(/^(paper|eq|fig|table|erratum)\b.*/)?.[0];
 const WAIT = 'Reading the paper: its formulas are derived, its numbers recomputed, its errata proved. The first time this takes some seconds.';
-
-/** A refusal is an answer too: it is told beside the formulas. @param {any} body */
-async function walk(body) {
-  if (body.method !== FULL_RANK) return { refused: 'Only the full-rank method has these steps; choose it to see them.' };
-  try {
-    return await walkThrough(body);
-  } catch (error) {
-    if (!(error instanceof ProblemError)) throw error;
-    return { refused: [error.message, error.problem.hint].filter(Boolean).join(' ') };
-  }
-}
 
 /** Prints this section alone. */
 function print() {
@@ -40,7 +32,8 @@ function print() {
 
 export class PaperPanel {
   /** @type {LiveNumbers|null} */ #live = null;
-  /** @type {Lazy|null} */ #numbers = null;
+  /** @type {Lazy[]} */ #lazy = [];
+  /** @type {any} */ #walk = null;
 
   /** @param {HTMLElement} root @param {import('../store.js').Store} store */
   constructor(root, store) {
@@ -48,6 +41,7 @@ export class PaperPanel {
     this.store = store;
     this.body = h('div', { class: 'paper-body', 'data-testid': 'paper' });
     root.append(this.body);
+    this.cards = new SymbolCards(root, () => this.#now());
     this.lazy = new Lazy(root, this.body, store, { wait: WAIT, body: () => 'paper', ask: getPaper, show: (paper) => this.#show(paper) });
     if (place()) root.scrollIntoView();
   }
@@ -56,20 +50,43 @@ export class PaperPanel {
   render(state) {
     this.lazy.render(state);
     this.#live?.render(state);
-    this.#numbers?.render(state);
+    for (const lazy of this.#lazy) lazy.render(state);
+  }
+
+  /** What the symbols are worth. @returns {import('../symbols.js').Now} */
+  #now() {
+    const preset = /** @type {any} */ (presetOf(this.store.state));
+    return { parameters: { ...preset?.parameters, ...this.store.state.design?.parameters }, components: preset?.components ?? {}, walk: this.#walk };
   }
 
   /** @param {Paper} paper */
   #show(paper) {
+    this.cards.learn(paper.symbols);
     const live = (this.#live = new LiveNumbers());
     const curves = new PaperCurves(() => this.store.state.presets.find((p) => p.name.endsWith('manual'))?.limits.theta);
     const figures = new Map(paper.figures.map((f) => [`Fig. ${f.number}`, f]));
+    const chosen = new StructureForms((part, chapter) => this.cards.mark(part, chapter));
+    const list = new SymbolList(paper.symbols);
     const text = h('div', { class: 'paper-text' }, this.#introduction(paper),
-      chapters(paper, (number) => live.at(number), (number) => { const f = figures.get(number); return f ? curves.draw(f) : null; }),
-      numbers(paper), errata(paper), consequence(paper));
-    this.body.replaceChildren(this.#contents(paper, live), text);
-    this.#numbers = new Lazy(this.body, h('div'), this.store, { wait: '', body: bodyOf, ask: walk, show: (answer) => live.show(answer) });
-    live.rig.after(this.#numbers.status);
+      chapters(paper, { live: (number) => live.at(number), curves: (number) => { const f = figures.get(number); return f ? curves.draw(f) : null; }, structure: (e) => chosen.at(e) }),
+      numbers(paper), errata(paper), consequence(paper),
+      h('section', { class: 'chapter', id: 'paper-symbols', 'aria-labelledby': 'paper-symbols-title' }, h('h3', { id: 'paper-symbols-title' }, 'Symbols'),
+        h('p', { class: 'prose' }, 'What the formulas’ symbols mean, with their values on the present rig. In a formula each shows this under the pointer, at a tap, and with the arrow keys.'), list.node));
+    for (const step of text.querySelectorAll('article.eq')) this.cards.mark(step, /** @type {HTMLElement} */ (step).dataset.chapter);
+    const nav = contents(paper.equations, h('div', { class: 'present-box' }, h('h3', {}, 'The present rig'), live.rig), h('button', { type: 'button', class: 'print', onclick: print }, 'Print this section'));
+    this.body.replaceChildren(nav, text);
+    follow(nav, text);
+    const show = (/** @type {any} */ answer) => {
+      this.#walk = answer;
+      live.show(answer);
+      list.render(this.#now());
+      this.cards.refresh();
+    };
+    this.#lazy = [
+      new Lazy(this.body, h('div'), this.store, { wait: '', body: bodyOf, ask: walk, show }),
+      new Lazy(this.body, h('div'), this.store, { wait: '', body: structureOf, ask: askStructure, show: (answer) => chosen.show(answer) }),
+    ];
+    for (const { status } of this.#lazy) live.rig.after(status);
     live.render(this.store.state);
     const at = place();
     if (at) requestAnimationFrame(() => location.replace(`#${at}`)); // now there is something to lead to
@@ -80,19 +97,8 @@ export class PaperPanel {
     const c = countsOf(paper);
     return h('div', { class: 'prose introduction' },
       h('p', { class: 'cited' }, h('cite', {}, paper.title), h('br'), paper.authors),
-      h('p', {}, rich('The paper places the four poles of a laboratory helicopter by a state feedback that is written out in symbols, and closes PI loops around it. Here it is followed line by line, from the Lagrangian to $K$ and the relative gain array. Every formula is derived again from the energies and every number recomputed; where the paper and the derivation part, both are shown. Beside the formulas stand their values on the rig and with the poles chosen above, and they follow when you change them.')),
+      h('p', {}, rich('The paper places the four poles of a laboratory helicopter by a state feedback that is written out in symbols, and closes PI loops around it. Here the derivation is followed step by step, from the energies to $K$, the relative gain array and the PI loops. Every formula is derived again from the energies and every number recomputed; where the paper and the derivation part, both are shown. Beside the formulas stand their values on the rig and with the poles chosen above, and they follow when you change them; a symbol under the pointer shows its name, value and unit.')),
       h('p', { class: 'tally', 'data-testid': 'paper-tally' }, h('b', {}, `${c.reproduced} of ${c.derivable}`), ` numbers that follow from a formula come out to every printed digit. `, h('b', {}, String(c.errata)), ` errata, ${c.proofs === c.errata ? 'each with its proof' : `${c.proofs} of them proved`}.`),
       h('ul', { class: 'marks' }, Object.keys(MARKS).map((status) => h('li', {}, mark(status), h('span', {}, `${MEANINGS[status]} (${c.status[status] ?? 0})`)))));
-  }
-
-  /** @param {Paper} paper @param {LiveNumbers} live */
-  #contents(paper, live) {
-    const link = (/** @type {string} */ href, /** @type {string} */ text) => h('a', { href }, text);
-    return h('nav', { class: 'contents', 'aria-label': 'Contents of the paper' },
-      h('ol', {}, CHAPTERS.map(({ name, title }) => h('li', {}, link(`#paper-${name}`, title),
-        h('div', { class: 'stops' }, paper.equations.filter((e) => e.chapter === name).map((e) => h('a', { class: e.status, href: `#${anchorOf(e.number)}`, title: `${e.number}: ${e.title}, ${e.status}` }, shortOf(e.number)))))),
-      h('li', {}, link('#paper-numbers', 'Every printed number')), h('li', {}, link('#paper-errata', 'Errata')), h('li', {}, link('#paper-consequence', 'What the unequal digits mean'))),
-      h('div', { class: 'present-box' }, h('h3', {}, 'The present rig'), live.rig),
-      h('button', { type: 'button', class: 'print', onclick: print }, 'Print this section'));
   }
 }

@@ -2,6 +2,7 @@
 import uPlot from '../vendor/uplot/uPlot.esm.js';
 import { h, svg } from '../dom.js';
 import { DEGREE, fixed } from '../format.js';
+import { linesMenu } from '../plot_menu.js';
 import { rich } from '../rich.js';
 import { CURVES } from './paper_words.js';
 
@@ -13,6 +14,8 @@ const LINES = {
   corrected: { color: 'halo-strong', width: 7, dash: [] }, printed: { color: 'pitch', width: 2, dash: [9, 5] },
   manual: { color: 'yaw', width: 2.2, dash: [2, 4] }, limited: { color: 'ink', width: 1.8, dash: [] },
 };
+/** How the saved picture draws them, on white. @type {Record<string, {kind: import('../plot_export.js').Kind, linear?: boolean}>} */
+const SAVED = { corrected: { kind: 'played' }, printed: { kind: 'pitch', linear: true }, manual: { kind: 'yaw', linear: true }, limited: { kind: 'yaw' } };
 const styleOf = (/** @type {string} */ name) => LINES[name] ?? LINES.limited;
 
 export class PaperCurves {
@@ -46,9 +49,12 @@ export class PaperCurves {
     const said = stop === undefined ? '' : ` The rig’s stop is at ${fixed(stop * DEGREE, 1)}°.`;
     const figure = h('figure', { class: 'curves', 'data-testid': `fig-${number}-plot`, 'aria-label': `${greek} in degrees over time in seconds, for a step of 1 rad` }, legend, body,
       h('figcaption', {}, `${greek} in degrees over seconds. ${CURVES}${said}`));
+    const lines = curves.map((c) => ({ name: c.title, ...(SAVED[c.name] ?? SAVED.limited), t, values: c.angle.map((v) => v * DEGREE) }));
     const color = (/** @type {string} */ name) => () => this.#colors[name];
     const top = 5 * Math.ceil((DEGREE * Math.max(1, ...curves.flatMap((c) => c.angle))) / 5);
     const axis = (/** @type {any} */ more) => ({ stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, ...more });
+    const rules = [{ value: DEGREE, label: 'reference 1 rad', danger: false }, ...(stop === undefined ? [] : [{ value: stop * DEGREE, label: 'stop', danger: true }])];
+    legend.after(linesMenu(`fig-${number}`, `Fig. ${number}`, output === 'theta' ? 'theta' : 'psi', lines, { x: [0, t[t.length - 1]], y: [0, top], rules, subtitle: `Fig. ${number} of the paper, drawn anew` }));
     const chart = new Chart({
       width: 300, height: 260, legend: { show: false }, cursor: { show: false }, padding: [8, 12, 0, 0],
       series: [{}, ...curves.map((c) => ({ stroke: color(styleOf(c.name).color), width: styleOf(c.name).width, dash: styleOf(c.name).dash, points: { show: false } }))],

@@ -211,7 +211,13 @@ def test_walkthrough_gives_the_numbers_of_the_derivation(client):
     closed = np.linalg.inv(T) @ np.array(reply["closed_loop_bar"]) @ T
     assert pole_error(poles(gains["closed_loop_poles"]), np.linalg.eigvals(closed)) < 1e-6
     assert Q[0, 1] == pytest.approx(0.0068 / 0.204)
-    assert post(client, "walkthrough", {"method": "lqr"}, status=422)["field"] == "method"
+    np.testing.assert_allclose(np.linalg.solve(Q, np.array(reply["K_bar"]) @ T), reply["K"])  # Eq. 19
+    assert reply["controllability_indices"] == [2, 2]
+    assert pole_error(poles(reply["closed_loop_poles"]), poles(gains["closed_loop_poles"])) < 1e-9
+    other = post(client, "walkthrough", {"method": "lqr"})
+    paper_models.Walkthrough.model_validate(other)
+    assert {"A", "B", "trim", "constants", "controllability_matrix", "K", "G_0", "rga"} <= set(other)
+    assert not {"T", "Q", "A_bar", "B_bar", "K_bar", "coefficients", "closed_loop_bar"} & set(other)
     assert "G_0" not in post(client, "walkthrough", {"poles": [0, -1, -2, -3]})
 
 

@@ -210,7 +210,7 @@ def test_shift_zero_and_own_shift_are_the_named_members(spec):
 def test_walkthrough_leads_from_the_plant_to_the_gain(spec, structure):
     placed = design(plant(spec.parameters, 0.2), spec.poles, structure)
     w = walk_through(placed)
-    assert w is not None
+    assert w.T is not None and w.A_bar is not None and w.B_bar is not None and w.coefficients is not None
     np.testing.assert_allclose(w.T @ placed.plant.A, w.A_bar @ w.T, atol=1e-9)
     np.testing.assert_allclose(w.B_bar[[1, 3]], w.Q, atol=1e-12)
     np.testing.assert_allclose(w.B_bar[[0, 2]], 0, atol=1e-12)
@@ -219,7 +219,17 @@ def test_walkthrough_leads_from_the_plant_to_the_gain(spec, structure):
     np.testing.assert_allclose(np.poly(w.closed_loop_bar), expected, rtol=1e-8)
     np.testing.assert_allclose(w.G_0 @ placed.steady_state_inverse, np.eye(2), atol=1e-12)
     assert w.constants["alpha"] == pytest.approx(spec.parameters.alpha)
-    assert walk_through(place(replace(spec, method="lqr"))) is None
+    np.testing.assert_allclose(np.linalg.solve(w.Q, w.K_bar @ w.T), placed.K, rtol=1e-9, atol=1e-9)  # Eq. 19
+    assert w.controllability_indices == (2, 2)
+
+
+def test_walkthrough_of_another_method_has_the_plant_and_no_canonical_form(spec):
+    other = place(replace(spec, method="lqr"))
+    w = walk_through(other)
+    assert (w.T, w.Q, w.A_bar, w.B_bar, w.K_bar, w.closed_loop_bar, w.coefficients) == (None,) * 7
+    assert w.constants == walk_through(place(spec)).constants
+    np.testing.assert_allclose(w.controllability_matrix[:, :2], other.plant.B)
+    np.testing.assert_allclose(w.G_0 @ other.steady_state_inverse, np.eye(2), atol=1e-12)
 
 
 def test_thrust_constants_follow_from_the_components():

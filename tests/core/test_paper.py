@@ -7,11 +7,15 @@ import re
 import numpy as np
 import pytest
 
+from heli2dof_core.couplings import Structure
 from heli2dof_core.paper.consequence import consequence
 from heli2dof_core.paper.equations import EQUATIONS
 from heli2dof_core.paper.errata import ERRATA
 from heli2dof_core.paper.figures import figures
+from heli2dof_core.paper.glossary import TERMS
 from heli2dof_core.paper.reproduce import digits_that_agree, reproduce, significant_digits
+from heli2dof_core.parameters import PARAMETER_INFO
+from heli2dof_core.symbolic.render import symbolic_report
 from tests.authorities.test_paper import PRINTED_K, PRINTED_OPEN_LOOP_POLES, PRINTED_POLES
 
 
@@ -28,14 +32,48 @@ def test_nothing_numbered_is_left_out():
     assert {f"Eq. {i}" for i in range(1, 24)} | {f"Fig. {i}" for i in range(1, 6)} | {"Table I"} <= numbers
     known = {erratum.name for erratum in ERRATA}
     named = {name for equation in EQUATIONS for name in equation.errata}
-    assert named <= known
-    assert known - named == {"lower-gain"}  # a claim of the text, of no equation
+    assert named == known  # each stands somewhere
     for equation in EQUATIONS:
+        assert re.fullmatch(r"[A-Z$][^.]*[.?](?: [A-Z][^.]*\.)?", equation.plain), (
+            equation.number
+        )  # plain, and short
+        assert len(equation.plain) < 180
         assert equation.printed or equation.derived or equation.note
         assert bool(equation.errata) or equation.status != "corrected"
 
 
+def test_the_steps_follow_from_one_another():
+    order = [equation.number for equation in EQUATIONS]
+    assert len(set(order)) == len(order)
+    chain = [
+        *("Eq. 2", "potential energy", "Eq. 3", "Eq. 9", "trim", "Eq. 13", "Eq. 14", "controllability"),
+        *("transformation", "canonical form", "desired polynomials", "gain in z", "Eq. 19", "Eqs. 21, 22"),
+        *("closed loop", "Eq. 17", "steady state", "Eq. 23", "Fig. 3"),
+    ]
+    places = [order.index(number) for number in chain]
+    assert places == sorted(places)
+
+
+def test_every_step_that_depends_on_the_structure_has_its_formula_for_each():
+    for structure in (Structure("input-diagonal"), Structure("triangular", "yaw")):
+        formulas = symbolic_report(structure).formulas
+        for equation in EQUATIONS:
+            assert set(equation.formulas) <= set(formulas), equation.number
+
+
+def test_the_glossary_names_each_sign_once_per_chapter():
+    seen = set()
+    for term in TERMS:
+        assert term.meaning
+        for chapter in term.chapters or ("",):
+            assert (term.latex, chapter) not in seen, term
+            seen.add((term.latex, chapter))
+    assert set(PARAMETER_INFO) <= {term.name for term in TERMS}
+
+
 def _numbers(text):
+    if not text.startswith(("Eq", "Fig")):
+        return [text]
     kind = text.split()[0].removesuffix("s.").removesuffix(".")
     found = re.findall(r"\d+", text)
     return [f"{kind}. {n}" for n in found] or [text]

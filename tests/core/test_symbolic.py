@@ -13,7 +13,7 @@ from heli2dof_core.symbolic.luenberger import controllability_matrix
 from heli2dof_core.symbolic.mechanics import mechanics, residual
 from heli2dof_core.symbolic.names import PARAMETERS as P
 from heli2dof_core.symbolic.render import symbolic_report
-from heli2dof_core.symbolic.rga import relative_gain_array, transfer_matrix
+from heli2dof_core.symbolic.rga import relative_gain_array, steady_state, transfer_matrix
 from tests.strategies import STRUCTURES
 
 K_pp, K_py, K_yp, K_yy = (P[name] for name in ("K_pp", "K_py", "K_yp", "K_yy"))
@@ -187,6 +187,10 @@ def test_rendered_formulas_parse_back_to_what_was_derived(structure):
         "G": transfer_matrix(structure),
         "T": full_rank(structure).form.T,
         "Q": full_rank(structure).form.Q,
+        "A_bar": full_rank(structure).form.A_bar,
+        "B_bar": full_rank(structure).form.B_bar,
+        "K_bar": full_rank(structure).K_bar,
+        "G_0": steady_state(structure),
         "closed_loop": full_rank(structure).closed_loop,
         "canonical_closed_loop": full_rank(structure).canonical_closed_loop,
     }

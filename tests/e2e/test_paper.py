@@ -99,9 +99,14 @@ def test_another_method_says_that_it_has_no_such_steps(page: Page):
     page.get_by_test_id("method").select_option("tits-yang")
     settled(page)
     page.locator("#paper").scroll_into_view_if_needed()
-    words = page.locator("#eq-21-22 .refused-words", has_text="full-rank method")
-    words.wait_for()
-    assert page.get_by_test_id("paper-K").is_hidden()
+    for anchor in ("#eq-transformation", "#eq-desired-polynomials", "#eq-gain-in-z", "#eq-closed-loop"):
+        page.locator(f"{anchor} .refused-words", has_text="full-rank method").first.wait_for()
+    assert page.get_by_test_id("paper-T").is_hidden()
+    for there in ("A", "B", "controllability_matrix", "K", "G_0", "rga"):  # these need no canonical form
+        assert page.get_by_test_id(f"paper-{there}").is_visible()
+    assert "Tits" in page.locator("#eq-21-22 .live").inner_text()
+    assert page.get_by_test_id("paper-V_p").inner_text() not in ("", "–")
+    follows(page)
 
 
 @pytest.mark.parametrize("width", [390, 1280, 1920])
