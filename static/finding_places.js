@@ -49,7 +49,7 @@ export function remarksOf({ reply, problem }) {
   const remark = (/** @type {Finding|undefined} */ f, /** @type {string} */ text) => (f ? { text: `${f.severity === 'error' ? '✕' : '▲'} ${text}`, severity: f.severity, message: f.message } : null);
   const motor = (/** @type {'V_p'|'V_y'} */ name) => {
     const share = reply?.step.nonlinear.metrics?.[name]?.saturated;
-    return remark(first(findings, [`saturation_${name}`]), share > 0 ? say`at limit ${percent(share, share < 0.01 ? 1 : 0)} of the time` : t('at limit'));
+    return remark(first(findings, [`saturation_${name}`]), share > 0 ? say`at limit ${percent(share, share < 0.01 ? 1 : 0)}` : t('at limit'));
   };
   const stop = first(findings, ['reference_beyond_stop', 'travel_stop', 'starts_on_stop']);
   const unstable = first(findings, ['pi_unstable', 'loop_unstable']);

@@ -77,7 +77,7 @@ export class Plots {
     /** @type {PlotGhosts|undefined} */ let ghosts;
     // auto: false, as the ranges are ours: no trace is searched for its extremes a second time.
     const chart = new Chart({
-      width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [6, 10, 2, 0],
+      width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [6, () => 10 * this.scale, 2, 0],
       series: [{}, { stroke: color('halo'), width: 7, auto: false, points: { show: false } }, line('pitch', 1.25, [7, 4]), line('yaw', 1.25, [2, 3]), line('yaw', 1.5), line('pitch', 2.4)],
       scales: { x: { time: false, range: () => this.#zoom ?? this.#time }, y: { range: () => this.#ranges[signal] ?? [0, 1] } },
       axes: [

@@ -2,7 +2,8 @@
 import { recall, remember } from './memory.js';
 
 const MEMORY = 'projector';
-const TYPE = 1.4; // of the plots
+const PLOT_TYPE = 11; // px, as plots.js sets it
+const LARGE = '(min-width: 1600px) and (min-height: 900px)'; // as projector.css has it
 const LINES = 1.7;
 
 /** @param {string} search of the address @param {string|null} kept what was remembered */
@@ -24,7 +25,8 @@ export class Projector {
   /** @param {{scale: number, plots: {chart: any}[]}} plots */
   constructor(plots) {
     this.plots = plots;
-    this.#apply(projectorWanted(location.search, recall(MEMORY)));
+    if (projectorWanted(location.search, recall(MEMORY))) this.#apply(true);
+    matchMedia(LARGE).addEventListener('change', () => this.on && this.#apply(true));
   }
 
   /** @returns {boolean} whether it is on now */
@@ -38,14 +40,14 @@ export class Projector {
 
   /** @param {boolean} on */
   #apply(on) {
-    if (on === this.on) return;
     this.on = on;
     document.documentElement.classList.toggle('projector', on);
-    this.plots.scale = on ? TYPE : 1;
+    const type = on ? Number.parseFloat(getComputedStyle(document.documentElement).fontSize) / PLOT_TYPE : 1; // as large as the page's
+    this.plots.scale = type;
     for (const { chart } of this.plots.plots) {
       for (const series of chart.series.slice(1)) series.width = this.#size(series, series.width) * (on ? LINES : 1);
       for (const { font } of chart.axes) { // as uPlot keeps it: the canvas' font, its size there, its size in CSS pixels
-        const size = this.#size(font, font[2]) * (on ? TYPE : 1);
+        const size = this.#size(font, font[2]) * type;
         font[1] = Math.round(size * devicePixelRatio);
         font[0] = font[0].replace(/[\d.]+px/, `${font[1]}px`);
         font[2] = size;
