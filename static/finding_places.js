@@ -37,8 +37,8 @@ export function placeOf(code, { design, requirements, problem }) {
 }
 const CSS_SAFE = /^[\w.]+$/;
 
-/** @param {Finding[]} findings @param {string[]} codes */
-const first = (findings, codes) => findings.find((f) => codes.includes(f.code));
+/** @param {Finding[]} findings @param {string[]} codes the one that matters most first */
+const first = (findings, codes) => codes.map((code) => findings.find((f) => f.code === code)).find((f) => f !== undefined);
 
 /**
  * What is said at the loops and at the plots, each in few words with its whole sentence behind.

@@ -40,7 +40,7 @@ export const isChanged = (design, { kind, name }) => Object.hasOwn(design[kind],
 /** With one of them changed, or as the preset has it. @param {Design} design @param {Preset} preset @param {Quantity} q @param {number} v as shown; NaN: free @returns {Design} */
 export function withValue(design, preset, q, v) {
   if (Object.is(v, proposedShown(preset, q))) return without(design, q);
-  return { ...design, [q.kind]: { ...design[q.kind], [q.name]: Number.isNaN(v) ? null : Number((v / q.scale).toPrecision(15)) } };
+  return { ...design, [q.kind]: { ...design[q.kind], [q.name]: Number.isNaN(v) ? null : v / q.scale } };
 }
 
 /** Back to the preset's. @param {Design} design @param {Quantity} q @returns {Design} */
