@@ -82,7 +82,7 @@ def test_a_limit_saturates_is_drawn_and_travels_with_the_link(page: Page):
     expect(page.get_by_test_id("rig")).to_have_text("2 limits changed")
     page.get_by_test_id("rig-limit-theta").fill("")
     until(page, "s.limits.theta === null && !s.findings.includes('reference_beyond_stop')")
-    page.wait_for_function("() => location.hash.includes('limits.V_y=4')")
+    page.wait_for_function("() => location.hash.includes('limits.V_y=4&limits.theta=null')")
     page.reload()
     settled(page)
     assert state(page)["limits"] == {"V_y": 4, "theta": None}

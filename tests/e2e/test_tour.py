@@ -99,8 +99,9 @@ def test_axe_finds_nothing_in_the_tour_and_it_hides_nothing_it_speaks_of(
 
 LETTERS = """() => {
   const said = (n) => [...n.childNodes].some((c) => c.nodeType === 3 && c.nodeValue.trim());
-  const nodes = [...document.querySelectorAll('.instrument *')].filter((n) => !n.closest('svg, option, .sym'));
-  return Math.min(...nodes.filter((n) => said(n) && n.checkVisibility()).map((n) => parseFloat(getComputedStyle(n).fontSize)));
+  const nodes = [...document.querySelectorAll('.instrument *')].filter((n) => !n.closest('svg, option, .sym, h1'));
+  const seen = nodes.filter((n) => said(n) && n.checkVisibility());
+  return Math.min(...seen.map((n) => parseFloat(getComputedStyle(n).fontSize)));
 }"""
 """The smallest type of the instrument, px; drawings and symbols aside."""
 
@@ -186,7 +187,7 @@ UNTRANSLATED = """(exceptions) => {
 
 
 def test_every_static_string_passes_through_the_words(chromium: Browser, app: App):
-    with visit(chromium, app, "?lang=qps-ploc") as page:
+    with visit(chromium, app, "?lang=qps-ploc", size=(1920, 1080)) as page:
         for testid in ("rig", "experiment", "more-figures"):
             page.get_by_test_id(testid).click()
         page.get_by_test_id("tour-open").click()
