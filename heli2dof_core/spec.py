@@ -60,7 +60,12 @@ class OuterLoop:
 
 
 LIMIT_INFO: dict[str, dict[str, Any]] = {
-    "V_p": {"meaning": "largest voltage of the pitch motor, either way", "unit": "V", "low": 1e-3, "high": 1e6},
+    "V_p": {
+        "meaning": "largest voltage of the pitch motor, either way",
+        "unit": "V",
+        "low": 1e-3,
+        "high": 1e6,
+    },
     "V_y": {"meaning": "largest voltage of the yaw motor, either way", "unit": "V", "low": 1e-3, "high": 1e6},
     "theta": {"meaning": "pitch travel to either side of level", "unit": "rad", "low": 1e-3, "high": 3.2},
 }
