@@ -81,6 +81,6 @@ export function translatePage(document, name) {
   document.documentElement.lang = name;
   document.title = t(document.title);
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
-  while (walker.nextNode()) walker.currentNode.nodeValue = t(walker.currentNode.nodeValue ?? '');
+  while (walker.nextNode()) if (!walker.currentNode.parentElement?.closest('[translate=no]')) walker.currentNode.nodeValue = t(walker.currentNode.nodeValue ?? '');
   for (const name of SPOKEN) for (const node of document.body.querySelectorAll(`[${name}]`)) node.setAttribute(name, t(node.getAttribute(name) ?? ''));
 }

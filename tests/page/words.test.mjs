@@ -41,6 +41,8 @@ test('the pseudo-locale marks words once, and leaves symbols and numbers', async
   assert.match(t('Undo'), /^⟦Ündö·⟧$/);
   assert.equal(t(t('Undo')), t('Undo'));
   for (const text of ['V', 'θ', '−3.20', ' · ', '']) assert.equal(t(text), text);
+  for (const text of ['settles in 0.85 s', 'at limit 35 V']) assert.equal(t(text), text); // these are for `say`
+  assert.match(t('Rise from 10 % to 90 % (Ogata, 2010, section 5.3)'), /^⟦/);
   assert.match(say`${3} of ${5}`, /^⟦3 öf 5·+⟧$/);
   assert.equal(await loadWords('constructor'), false);
   assert.equal(typeof pseudo.get, 'function');
