@@ -243,11 +243,12 @@ class Suggestion(Model):
 
 
 class ParameterInfo(Model):
-    """What a parameter means."""
+    """What a parameter or a limit means, and its range."""
 
     meaning: str
     unit: str
     minimum: float
+    maximum: float
 
 
 class ComponentInfo(Model):
@@ -278,6 +279,7 @@ class Preset(Model):
     components: dict[str, float]
     component_info: dict[str, ComponentInfo]
     limits: Limits
+    limit_info: dict[str, ParameterInfo]
     encoders: dict[str, int]
     operating_point: dict[str, float]
     poles: list[Complex]

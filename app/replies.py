@@ -35,7 +35,7 @@ from heli2dof_core.metrics import StepMetrics
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.sensitivity import Sensitivity
 from heli2dof_core.signals import AXES, INPUTS, INTEGRALS, OUTPUTS, STATES, Floats
-from heli2dof_core.spec import Limits
+from heli2dof_core.spec import LIMIT_INFO, Limits
 from heli2dof_core.tuning import Suggestion
 from heli2dof_core.walkthrough import walk_through
 
@@ -193,6 +193,18 @@ def suggestion_reply(suggestion: Suggestion) -> Reply:
     }
 
 
+def _ranges(infos: dict[str, dict[str, Any]]) -> Reply:
+    return {
+        name: {
+            "meaning": info["meaning"],
+            "unit": info["unit"],
+            "minimum": info["low"],
+            "maximum": info["high"],
+        }
+        for name, info in infos.items()
+    }
+
+
 def preset_reply(preset: Preset) -> Reply:
     """A preset with everything that a design may change."""
     scenario = preset.scenario
@@ -202,13 +214,11 @@ def preset_reply(preset: Preset) -> Reply:
         "source": preset.source,
         "rig": preset.rig,
         "parameters": preset.parameters.as_dict(),
-        "parameter_info": {
-            name: {"meaning": info["meaning"], "unit": info["unit"], "minimum": info["low"]}
-            for name, info in PARAMETER_INFO.items()
-        },
+        "parameter_info": _ranges(PARAMETER_INFO),
         "components": {} if preset.components is None else preset.components.as_dict(),
         "component_info": COMPONENT_INFO,
         "limits": _limits(preset.limits),
+        "limit_info": _ranges(LIMIT_INFO),
         "encoders": {"theta": preset.encoders[0], "psi": preset.encoders[1]},
         "operating_point": {"theta": preset.theta_0},
         "poles": poles_reply(preset.poles.values),

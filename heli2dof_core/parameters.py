@@ -14,7 +14,7 @@ _LARGEST = 1e6
 
 
 def _parameter(meaning: str, unit: str, low: float, *, default: float | None = None) -> Any:
-    metadata = {"meaning": meaning, "unit": unit, "low": low}
+    metadata = {"meaning": meaning, "unit": unit, "low": low, "high": _LARGEST}
     return field(metadata=metadata) if default is None else field(default=default, metadata=metadata)
 
 
@@ -45,8 +45,10 @@ class Parameters:
 
     def __post_init__(self) -> None:
         for info in fields(self):
-            value, low, unit = getattr(self, info.name), info.metadata["low"], info.metadata["unit"]
-            number = require_within(value, f"parameters.{info.name}", unit, low, _LARGEST)
+            value, about = getattr(self, info.name), info.metadata
+            number = require_within(
+                value, f"parameters.{info.name}", about["unit"], about["low"], about["high"]
+            )
             object.__setattr__(self, info.name, number)
 
     @property
@@ -87,4 +89,4 @@ class Parameters:
 
 
 PARAMETER_INFO: dict[str, dict[str, Any]] = {f.name: dict(f.metadata) for f in fields(Parameters)}
-"""Per parameter: meaning, unit and the lowest value allowed."""
+"""Per parameter: meaning, unit, the lowest and the highest value allowed."""

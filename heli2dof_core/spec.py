@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -59,6 +59,19 @@ class OuterLoop:
             require_within(gains.ti, f"loops.{axis}.ti", "s", 1e-6, 1e6)
 
 
+LIMIT_INFO: dict[str, dict[str, Any]] = {
+    "V_p": {
+        "meaning": "largest voltage of the pitch motor, either way",
+        "unit": "V",
+        "low": 1e-3,
+        "high": 1e6,
+    },
+    "V_y": {"meaning": "largest voltage of the yaw motor, either way", "unit": "V", "low": 1e-3, "high": 1e6},
+    "theta": {"meaning": "pitch travel to either side of level", "unit": "rad", "low": 1e-3, "high": 3.2},
+}
+"""Per limit: meaning, unit, the lowest and the highest value allowed."""
+
+
 @dataclass(frozen=True)
 class Limits:
     """Limits of the rig: |V_p|, |V_y| in V; pitch travel ±theta in rad, None where it is free."""
@@ -68,10 +81,10 @@ class Limits:
     theta: float | None = None
 
     def __post_init__(self) -> None:
-        require_within(self.V_p, "limits.V_p", "V", 1e-3, 1e6)
-        require_within(self.V_y, "limits.V_y", "V", 1e-3, 1e6)
-        if self.theta is not None:
-            require_within(self.theta, "limits.theta", "rad", 1e-3, 3.2)
+        for name, info in LIMIT_INFO.items():
+            value = getattr(self, name)
+            if value is not None or name != "theta":
+                require_within(value, f"limits.{name}", info["unit"], info["low"], info["high"])
 
 
 @dataclass(frozen=True)

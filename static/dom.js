@@ -1,4 +1,5 @@
-/** The few lines that a page without a framework needs to make elements. */
+/** The few lines that a page without a framework needs to make elements; static strings pass the words of the page's language here. */
+import { SPOKEN, t } from './words.js';
 
 const SVG = 'http://www.w3.org/2000/svg';
 
@@ -7,9 +8,10 @@ function dress(node, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (value === undefined || value === null || value === false) continue;
     if (name.startsWith('on')) node.addEventListener(name.slice(2), value);
-    else node.setAttribute(name, value === true ? '' : String(value));
+    else node.setAttribute(name, value === true ? '' : SPOKEN.has(name) ? t(String(value)) : String(value));
   }
-  node.append(...children.flat().filter((c) => c !== null && c !== undefined));
+  const own = attributes.translate === 'no'; // symbols and units are the same in every language
+  node.append(...children.flat().filter((c) => c !== null && c !== undefined).map((c) => (typeof c === 'string' && !own ? t(c) : c)));
   return node;
 }
 
@@ -33,12 +35,13 @@ export function svg(tag, attributes = {}, ...children) {
 
 /** Writes text only where it differs: most of the page stays as it is while one pole moves. @param {Node} node @param {string} text */
 export function setText(node, text) {
-  if (node.textContent !== text) node.textContent = text;
+  const said = t(text);
+  if (node.textContent !== said) node.textContent = said;
 }
 
 /** @param {Element} node @param {string} name @param {string|number} value */
 export function setAttr(node, name, value) {
-  const text = String(value);
+  const text = SPOKEN.has(name) ? t(String(value)) : String(value);
   if (node.getAttribute(name) !== text) node.setAttribute(name, text);
 }
 
@@ -50,4 +53,4 @@ export function byId(id) {
 }
 
 /** A symbol with subscript, as in K_pp. @param {string} base @param {string} [sub] @returns {HTMLElement} */
-export const symbol = (base, sub) => h('span', { class: 'sym' }, h('i', {}, base), ...(sub ? [h('sub', {}, sub)] : []));
+export const symbol = (base, sub) => h('span', { class: 'sym' }, h('i', { translate: 'no' }, base), ...(sub ? [h('sub', { translate: 'no' }, sub)] : []));

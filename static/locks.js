@@ -6,7 +6,7 @@
 
 /** @type {Record<string, Lock>} */
 export const LOCKS = {
-  preset: { name: 'rig', keys: ['preset', 'parameters'], controls: '[data-testid=preset]' },
+  preset: { name: 'rig', keys: ['preset', 'parameters', 'limits'], controls: '[data-testid=preset], #header :is([data-field], [data-testid^=rig-reset])' },
   point: { name: 'operating point', keys: ['theta0'], controls: '[data-field^="operating_point"]' },
   poles: { name: 'poles', keys: ['poles'], controls: '.pole, #poles input, [data-testid^="use-split"]' },
   method: { name: 'method', keys: ['method', 'coupling', 'lead'], controls: '[data-field=method], [data-testid^="use-"]' },

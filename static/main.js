@@ -1,16 +1,23 @@
-/** Wires only: state to views, views to state, and the design to the server. What each part does is written in its module. */
+/**
+ * Wires only: state to views, views to state, and the design to the server. What each part does is written in its module.
+ * @typedef {import('./types.js').State} State
+ */
 import { Address } from './address.js';
 import { getMethods, getPresets, Live } from './api.js';
 import { CloudFeed } from './cloud.js';
 import { byId } from './dom.js';
+import { isolated } from './isolated.js';
 import { LockedControls } from './locked_controls.js';
+import { recall } from './memory.js';
 import { PinKeeper } from './pin_keeper.js';
 import { Plots } from './plots.js';
+import { Projector } from './projector.js';
 import { SceneView } from './scene_view.js';
 import { SPlane } from './splane.js';
 import { Stats } from './stats.js';
 import { requestOf, Store } from './store.js';
 import { watched } from './watch.js';
+import { languageOf, loadWords, say, translatePage } from './words.js';
 import { ComparePanel } from './panels/compare.js';
 import { ExperimentPanel } from './panels/experiment.js';
 import { FieldProblems } from './panels/problems.js';
@@ -25,7 +32,11 @@ import { PaperPanel } from './panels/paper.js';
 import { PinBar } from './panels/pin_bar.js';
 import { PinsPanel } from './panels/pins.js';
 import { PolesPanel } from './panels/poles.js';
+import { Remarks } from './panels/remarks.js';
 import { ScenarioPanel } from './panels/scenario.js';
+
+const language = languageOf(location.search, navigator.languages);
+if (await loadWords(language)) translatePage(document, language);
 
 const store = new Store();
 const stats = new Stats();
@@ -34,23 +45,29 @@ const pins = new PinKeeper(store);
 
 const scene = new SceneView(byId('scene'), store, { onTime: (t) => plots.setTime(t) });
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t) });
+const projector = new Projector(plots);
 const panels = [
-  new HeaderPanel(byId('header'), store, address), new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store),
+  new HeaderPanel(byId('header'), store, address, { tour, projector }), new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store),
   new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new ExperimentPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
   new PinBar(byId('pin-bar'), store), new PinsPanel(byId('pins'), store),
   new ComparePanel(byId('compare'), store), new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene, new CloudFeed(store),
   new Notice(byId('notice'), store),
-  new FindingsPanel(byId('strip')), // last, as it measures what it has written
+  new Remarks(document), new FindingsPanel(byId('strip'), store), // last, as it measures what it has written
 ];
-let views = panels.map(watched);
+let views = panels.map(viewOf);
 const locked = new LockedControls(document.body);
 
 /** @type {Map<number, {stamp: number|undefined, design: import('./types.js').Design}>} */
 const asked = new Map();
 let seq = 0;
+let answered = false;
 
 const live = new Live({
-  onReply: (reply) => store.set({ reply, answered: asked.get(reply.seq)?.design ?? null, problem: null }),
+  onReply: (reply) => {
+    if (!answered) welcome();
+    answered = true;
+    store.set({ reply, answered: asked.get(reply.seq)?.design ?? null, problem: null });
+  },
   onProblem: (problem) => store.set({ problem }),
   onStatus: (connection) => store.set({ connection }),
 });
@@ -66,6 +83,9 @@ store.addEventListener('design', (event) => {
   live.send(requestOf(design, seq));
 });
 
+const lookers = [pins, address, locked].map((part) => isolated((/** @type {State} */ state) => part.render(state), report)); // they look at more than the state
+const drawPlots = isolated((/** @type {State} */ state) => plots.render(state), report);
+
 let scheduled = false;
 store.addEventListener('change', () => {
   if (scheduled) return;
@@ -77,16 +97,40 @@ function render() {
   scheduled = false;
   const begin = performance.now();
   const { state } = store;
-  if (locked.release(state)) views = panels.map(watched); // each says again which of its controls can be used
+  if (locked.release(state)) views = panels.map(viewOf); // each says again which of its controls can be used
   for (const view of views) view(state);
-  for (const always of [pins, address, locked]) always.render(state); // they look at more than the state
-  if (plots.render(state)) {
+  for (const always of lookers) always(state);
+  if (drawPlots(state)) {
     const now = performance.now();
     const answered = state.reply?.seq ?? 0;
     stats.drawn(now, asked.get(answered)?.stamp, now - begin);
     for (const old of asked.keys()) if (old <= answered) asked.delete(old);
   }
   publish();
+}
+
+/** @param {{render: (state: State) => void}} view */
+function viewOf(view) {
+  return isolated(watched(view), report);
+}
+
+/** Quietly, once for each part. @param {unknown} error */
+function report(error) {
+  console.error(error);
+  queueMicrotask(() => store.set({ notice: say`A part of this page could not be drawn: ${error instanceof Error ? error.message : error}. All else goes on.` }));
+}
+
+/** @type {Promise<import('./panels/tour.js').Tour>|null} */ let tours = null;
+
+/** The five hints, loaded when they are wanted. @param {HTMLElement} [from] the button that asks */
+async function tour(from) {
+  tours ??= import('./panels/tour.js').then(({ Tour }) => new Tour(byId('tour')));
+  (await tours).start(from);
+}
+
+/** At a first visit, after the first picture. */
+function welcome() {
+  if (recall('tour') !== 'done') setTimeout(tour, 600);
 }
 
 /** The design and its key results in one attribute, for tests and scripts. */

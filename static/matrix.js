@@ -2,6 +2,7 @@
 import { copyButton } from './copy_menu.js';
 import { h, setAttr, setText, symbol } from './dom.js';
 import { significant } from './format.js';
+import { t } from './words.js';
 
 /** @typedef {{name: string, note?: string}|(() => import('./copy_formats.js').Item[])} Copied  the name under which a matrix is copied, or all that its button copies */
 const dotted = (/** @type {string} */ s) => h('span', { class: 'sym' }, h('i', {}, `${s}\u0307`));
@@ -31,7 +32,7 @@ export class Matrix {
     this.values = values;
     this.cells.forEach((row, i) => row.forEach((cell, j) => {
       setText(cell, values ? format(values[i][j]) : '–');
-      setAttr(cell, 'title', `${this.title(i, j)}${values ? `\n${significant(values[i][j], 8)}` : ''}`);
+      setAttr(cell, 'title', `${t(this.title(i, j))}${values ? `\n${significant(values[i][j], 8)}` : ''}`);
     }));
   }
 }

@@ -1,7 +1,7 @@
 /**
  * The whole state as the fragment of an address, and back: `#v1&preset=quanser-aero&p=-5,-4,-3+2j,-3-2j&step.theta=5deg`. Pure.
  *
- * Written is what differs from the preset's proposal. `p`: the four poles. `pi`: k_p, T_i of pitch, k_p, T_i of yaw. `set.…`: parameters; `step.…`: references;
+ * Written is what differs from the preset's proposal. `p`: the four poles. `pi`: k_p, T_i of pitch, k_p, T_i of yaw. `set.…`: parameters; `limits.…`; `step.…`: references;
  * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `spread`, `req.…`: what is shown. `lock`: what is
  * locked. `pin`: a pinned design, its parts parted by `~`. `at`: the place on the page. A part that cannot be read is named and left out; the rest is restored.
  *
@@ -23,6 +23,7 @@ import { designOf } from './store.js';
 const VERSION = 1;
 /** Longer links are cut by some mail programs; pins that make it longer are left out. */
 export const MOST = 2000;
+const LIMITS = ['V_p', 'V_y', 'theta'];
 const MOTIONS = ['both', 'theta', 'psi'];
 const OUTER = ['loops.pitch.kp', 'loops.pitch.ti', 'loops.yaw.kp', 'loops.yaw.ti'];
 const SHORT = /** @type {const} */ ([['scenario.reference.', 'step.'], ['scenario.duration', 'duration'], ['parameters.', 'set.']]);
@@ -72,6 +73,7 @@ function objection(path, leaf, base, { methods }, preset) {
   if (path in CHOICES) return CHOICES[path].includes(leaf) ? '' : `neither ${CHOICES[path].join(' nor ')}`;
   if (path === 'method') return !methods.length || methods.some((m) => m.name === leaf) ? '' : 'no method of this server';
   if (top === 'parameters') return !(key in preset.parameters) ? 'no parameter of this rig' : typeof leaf !== 'number' ? 'not a number' : '';
+  if (top === 'limits') return !LIMITS.includes(key) ? 'no limit of this rig' : typeof leaf === 'number' || (leaf === null && key === 'theta') ? '' : 'not a number';
   if (path === 'theta0') return typeof leaf === 'number' && Math.abs(leaf) < Math.PI / 2 ? '' : 'not an angle below 90°';
   if (path === 'scenario.duration') return typeof leaf === 'number' && leaf > 0 && leaf <= 60 ? '' : 'not between 0 and 60 s';
   if (base !== undefined && base !== null && leaf !== undefined && leaf !== null && typeof base !== typeof leaf) return `not a ${typeof base}`;

@@ -32,6 +32,7 @@ export class Plots {
   /** @type {any[]} */ #seen = [];
   /** @type {number|null} */ #hover = null;
   #playhead = 0;
+  /** Of the type and the axes; other than 1 for a lecture hall. */ scale = 1;
   /** @type {import('./types.js').Cloud|null} */ #cloud = null;
   /** @type {{t: import('./types.js').Series, plots: Record<Signal, any[]>}|null} */ #data = null;
 
@@ -76,13 +77,13 @@ export class Plots {
     /** @type {PlotGhosts|undefined} */ let ghosts;
     // auto: false, as the ranges are ours: no trace is searched for its extremes a second time.
     const chart = new Chart({
-      width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [6, 10, 2, 0],
+      width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [6, () => 10 * this.scale, 2, 0],
       series: [{}, { stroke: color('halo'), width: 7, auto: false, points: { show: false } }, line('pitch', 1.25, [7, 4]), line('yaw', 1.25, [2, 3]), line('yaw', 1.5), line('pitch', 2.4)],
       scales: { x: { time: false, range: () => this.#zoom ?? this.#time }, y: { range: () => this.#ranges[signal] ?? [0, 1] } },
       axes: [
-        { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 4, size: () => (last() ? 22 : 4),
+        { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 4, size: () => (last() ? 22 * this.scale : 4),
           values: (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => (last() ? `${Number(v.toFixed(3))}${v === splits[splits.length - 1] ? ' s' : ''}` : '')) },
-        { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, size: AXIS_WIDTH, space: 26,
+        { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, size: () => AXIS_WIDTH * this.scale, space: 26,
           values: (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => `${String(Number(v.toPrecision(6))).replace('-', '\u2212')}`) },
       ],
       cursor: { y: false, points: { show: false }, drag: { x: true, y: false, setScale: false },
@@ -212,14 +213,14 @@ export class Plots {
     const { ctx, bbox } = u;
     const ratio = devicePixelRatio;
     ctx.strokeStyle = color;
-    ctx.lineWidth = 1.25 * ratio;
+    ctx.lineWidth = 1.25 * ratio * this.scale;
     ctx.lineCap = 'round';
     ctx.setLineDash(dash.map((d) => d * ratio));
     ctx.beginPath();
     ctx.moveTo(bbox.left, y);
     ctx.lineTo(bbox.left + bbox.width, y);
     ctx.stroke();
-    ctx.font = `${10 * ratio}px system-ui, sans-serif`;
+    ctx.font = `${10 * ratio * this.scale}px system-ui, sans-serif`;
     ctx.textAlign = 'right';
     ctx.textBaseline = side > 0 ? 'top' : 'bottom';
     ctx.fillStyle = color;

@@ -27,6 +27,7 @@ export function designOf(preset, keep = {}) {
   return {
     preset: preset.name,
     parameters: {},
+    limits: {},
     theta0: preset.operating_point?.theta ?? 0,
     poles: fromWire(preset.poles),
     method: 'full-rank',
@@ -49,6 +50,7 @@ export function bodyOf(design) {
   return {
     preset: design.preset,
     parameters: design.parameters,
+    limits: design.limits,
     operating_point: { theta: design.theta0 },
     poles: design.poles,
     method: design.method,

@@ -6,12 +6,15 @@
  * @typedef {{kp: number, ti: number}} Pi
  * @typedef {{pitch: Pi, yaw: Pi}} Loops
  * @typedef {{theta: number, psi: number}} Reference  step sizes, rad
+ * @typedef {{V_p?: number, V_y?: number, theta?: number|null}} Limits  V, rad; null: free travel
+ * @typedef {{meaning: string, unit: string, minimum: number, maximum: number}} Range
  * @typedef {'triangular'|'input-diagonal'|'axis-decoupled'} Coupling
  *
  * What the user chose, and all of it: everything else on the page follows from this.
  * @typedef {object} Design
  * @property {string} preset
  * @property {Record<string, number>} parameters  overrides of the preset's values
+ * @property {Limits} limits  overrides of the preset's
  * @property {number} theta0  the pitch angle at which the rig rests and is linearized, rad
  * @property {Poles} poles
  * @property {string} method  a name of GET methods
@@ -47,6 +50,8 @@
  * @property {string} rig
  * @property {Record<string, number>} parameters
  * @property {{V_p: number, V_y: number, theta?: number}} limits
+ * @property {Record<string, Range>} [parameter_info]
+ * @property {Record<string, Range>} [limit_info]
  * @property {Complex[]} poles
  * @property {Loops} loops
  * @property {{reference: Reference, duration: number}} scenario

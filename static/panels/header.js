@@ -1,14 +1,16 @@
-/** The top line: which rig, where its numbers come from, one step back or forth, pin and link, and whether the server is there. */
-import { h, setText } from '../dom.js';
+/** The top line: which rig, where its numbers come from, what of them is changed, one step back or forth, pin and link, and whether the server is there. */
+import { h, setAttr, setText } from '../dom.js';
 import { lockNames } from '../locks.js';
 import { designOf, presetOf } from '../store.js';
+import { say } from '../words.js';
+import { RigPanel } from './rig.js';
 import { ShareButtons } from './share.js';
 
 const STATUS = { connecting: 'connecting…', open: 'live', lost: 'connection lost, your changes are kept' };
 
 export class HeaderPanel {
-  /** @param {HTMLElement} root @param {import('../store.js').Store} store @param {import('../address.js').Address} address */
-  constructor(root, store, address) {
+  /** @param {HTMLElement} root @param {import('../store.js').Store} store @param {import('../address.js').Address} address @param {{tour: (from: HTMLElement) => void, projector: import('../projector.js').Projector}} aids */
+  constructor(root, store, address, { tour, projector }) {
     this.store = store;
     this.select = h('select', { 'data-testid': 'preset', 'aria-label': 'Rig and parameter set', onchange: () => this.#choose() });
     this.source = h('span', { class: 'source', 'data-testid': 'source' });
@@ -16,12 +18,17 @@ export class HeaderPanel {
       h('button', { type: 'button', 'data-testid': id, title, onclick: act }, text);
     this.undo = button('undo', 'Undo', 'Undo (Ctrl+Z)', () => store.undo());
     this.redo = button('redo', 'Redo', 'Redo (Ctrl+Shift+Z)', () => store.redo());
-    this.reset = button('reset', 'Reset', "Back to this preset's poles, loops and steps", () => this.#reset());
+    this.reset = button('reset', 'Reset', "Back to this preset's parameters, poles, loops and steps", () => this.#reset());
     this.pin = button('pin', 'Pin', 'Keep this design beside those that follow: its poles, responses and figures', () => store.pin());
+    this.rig = new RigPanel(store);
+    this.tour = button('tour-open', 'Tour', 'Five hints on what can be done here', () => tour(this.tour));
+    this.projector = button('projector', 'Aa', 'Projector: large type and thick lines', () => this.projector.setAttribute('aria-pressed', String(projector.toggle())));
+    this.projector.setAttribute('aria-pressed', String(projector.on));
+    setAttr(this.projector, 'aria-label', 'Projector mode');
     this.share = new ShareButtons(store, address);
     this.locked = h('span', { class: 'locked', hidden: true, 'data-testid': 'locked' });
     this.status = h('span', { class: 'connection', role: 'status', 'data-testid': 'connection' }, h('span', { class: 'dot', 'aria-hidden': 'true' }), h('span', {}));
-    root.append(h('div', { class: 'rig' }, this.select, this.locked, this.source), h('div', { class: 'buttons' }, this.undo, this.redo, this.reset, this.pin, this.share.node, h('a', { class: 'button', href: '#compare', title: 'Methods side by side' }, 'Compare'), h('a', { class: 'button', href: '#formulas' }, 'Formulas'), h('a', { class: 'button', href: '#paper', title: 'The paper, step by step' }, 'Paper')), this.status);
+    root.append(h('div', { class: 'rig' }, this.select, this.rig.node, this.locked, this.source), h('div', { class: 'buttons' }, this.undo, this.redo, this.reset, this.pin, this.share.node, h('a', { class: 'button', href: '#compare', title: 'Methods side by side' }, 'Compare'), h('a', { class: 'button', href: '#formulas' }, 'Formulas'), h('a', { class: 'button', href: '#paper', title: 'The paper, step by step' }, 'Paper'), this.tour, this.projector), this.status);
     document.addEventListener('keydown', (e) => this.#key(e));
   }
 
@@ -47,15 +54,17 @@ export class HeaderPanel {
   }
 
   /** @param {import('../types.js').State} state */
-  render({ presets, design, connection, canUndo, canRedo, locks }) {
-    if (this.select.options.length !== presets.length) this.select.replaceChildren(...presets.map((p) => h('option', { value: p.name }, p.title)));
+  render(state) {
+    const { presets, design, connection, canUndo, canRedo, locks } = state;
+    this.rig.render(state);
+    if (this.select.options.length !== presets.length) this.select.replaceChildren(...presets.map((p) => h('option', { value: p.name, title: p.source }, p.title)));
     if (design) this.select.value = design.preset;
     const source = presetOf({ presets, design })?.source ?? '';
     setText(this.source, source);
     this.source.title = source;
     this.locked.hidden = !locks.length;
-    setText(this.locked, locks.length ? `locked: ${lockNames(locks)}` : '');
-    this.locked.title = 'Locked by the link with which this page was opened';
+    setText(this.locked, locks.length ? say`locked: ${lockNames(locks)}` : '');
+    setAttr(this.locked, 'title', 'Locked by the link with which this page was opened');
     this.undo.disabled = !canUndo;
     this.redo.disabled = !canRedo;
     this.status.className = `connection ${connection}`;

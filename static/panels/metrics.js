@@ -3,6 +3,7 @@ import { h, setAttr, setText, symbol } from '../dom.js';
 import { decibel, DEGREE, degrees, fixed, percent, seconds, significant } from '../format.js';
 import { differs } from '../limits_cost.js';
 import { recall, remember } from '../memory.js';
+import { say } from '../words.js';
 
 /** @typedef {import('../types.js').Reply} Reply */
 /** @typedef {'theta'|'psi'} Axis */
@@ -85,7 +86,7 @@ const ROBUSTNESS = [
 ];
 
 /** The disk margin in words. @param {Reply['sensitivity']} s */
-const bothMotors = (s) => (s ? `both motors at once: gains × ${fixed(s.gain_low)} to ${s.gain_high === undefined ? '∞' : fixed(s.gain_high)}, phases ± ${degrees(s.phase, 0)} (disk margin ${fixed(s.disk_margin)}); sensitivity peak ${fixed(s.peak)}` : '');
+const bothMotors = (s) => (s ? say`both motors at once: gains × ${fixed(s.gain_low)} to ${s.gain_high === undefined ? '∞' : fixed(s.gain_high)}, phases ± ${degrees(s.phase, 0)} (disk margin ${fixed(s.disk_margin)}); sensitivity peak ${fixed(s.peak)}` : '');
 
 /** @param {{id: string, more?: boolean, name: () => (Node|string)[], title: string}} row @param {HTMLElement[]} cells */
 const tableRow = ({ more, name, title }, cells) => h('tr', { class: more ? 'more-figures' : undefined }, h('th', { scope: 'row', title }, name()), cells);

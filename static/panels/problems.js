@@ -1,4 +1,5 @@
 /** Puts what the server refuses at the field that it names. */
+import { setAttr } from '../dom.js';
 
 export class FieldProblems {
   /** @type {import('../types.js').Problem|null} */ #shown = null;
@@ -14,8 +15,10 @@ export class FieldProblems {
     if (problem === this.#shown) return;
     this.#shown = problem;
     this.#marked?.classList.remove('refused');
+    this.#marked?.removeAttribute('aria-description');
     this.#marked = problem?.field ? this.#find(problem.field) : null;
     this.#marked?.classList.add('refused');
+    if (this.#marked) setAttr(this.#marked, 'aria-description', [problem?.detail, problem?.hint].filter(Boolean).join(' '));
   }
 
   /** The field itself, or the one whose path begins or continues it ("poles.0", "poles"). @param {string} path */

@@ -103,8 +103,14 @@ def page_with_scene(chromium: Browser, app: App) -> Iterator[Page]:
         yield page
 
 
-def opened(page: Page, url: str) -> None:
+SEEN = "try { localStorage.setItem('heli2dof.tour', 'done') } catch { /* a frame without storage */ }"
+
+
+def opened(page: Page, url: str, *, tour: bool = False) -> None:
+    """Opens the page and waits for its first answer; as at a first visit where `tour` is wanted."""
     page.set_default_timeout(PATIENCE)
+    if not tour:
+        page.add_init_script(SEEN)
     page.goto(url)
     settled(page)
 

@@ -1,0 +1,28 @@
+/** Findings where they concern: a few words at the loops and in the captions of the plots, in room that is kept for them. */
+import { h, setAttr, setText } from '../dom.js';
+import { remarksOf } from '../finding_places.js';
+
+/** After which element each stands. */
+const SPOTS = /** @type {const} */ ([['loops', '#loops .select:has([data-testid=pairing])'], ['theta', '[data-testid=plot-theta] .what'], ['V_p', '[data-testid=plot-V_p] .what'], ['V_y', '[data-testid=plot-V_y] .what']]);
+
+export class Remarks {
+  /** @param {Document} document in which the panels have been built */
+  constructor(document) {
+    this.spots = SPOTS.map(([name, after]) => {
+      const node = h('span', { class: 'remark', 'data-testid': `remark-${name}` });
+      document.querySelector(after)?.after(node);
+      return { name, node };
+    });
+  }
+
+  /** @param {import('../types.js').State} state */
+  render({ reply, problem }) {
+    const remarks = remarksOf({ reply, problem });
+    for (const { name, node } of this.spots) {
+      const remark = remarks[name];
+      setText(node, remark?.text ?? '');
+      setAttr(node, 'title', remark?.message ?? '');
+      node.classList.toggle('error', remark?.severity === 'error');
+    }
+  }
+}

@@ -1,0 +1,98 @@
+/** The rig's parameters and limits as fields, each beside what the preset says. Folded away; the header's line says how many differ. */
+import { h, setAttr, setText, symbol } from '../dom.js';
+import { NumberField } from '../fields.js';
+import { forField } from '../format.js';
+import { asProposed, changedWords, isChanged, proposedShown, quantities, valueOf, without, withValue } from '../rig.js';
+import { presetOf } from '../store.js';
+import { say } from '../words.js';
+
+const CONCERNED = /^(parameters|limits)(\.|$)/;
+
+/** @param {string} name as in K_pp @returns {HTMLElement} */
+const symbolOf = (name) => (name === 'theta' ? symbol('θ', 'max') : symbol(name.split('_')[0], name.split('_')[1]));
+
+/** @param {number} v */
+const words = (v) => (Number.isNaN(v) ? 'free' : forField(v).replace('-', '\u2212'));
+
+class Row {
+  /** @param {import('../rig.js').Quantity} q @param {RigPanel} panel */
+  constructor(q, panel) {
+    this.q = q;
+    const { store } = panel;
+    const id = `rig-${q.kind === 'limits' ? 'limit-' : ''}${q.name}`;
+    this.was = h('span', { class: 'was', 'data-testid': `${id}-preset` });
+    this.field = new NumberField({
+      label: `${q.name}: ${q.meaning}, ${q.unit === '°' ? 'degrees; empty: free' : q.unit}`, testid: id, field: `${q.kind}.${q.name}`, unit: q.unit, min: q.min, max: q.max, optional: q.free,
+      mark: h('span', { class: 'about' }, symbolOf(q.name), h('span', { class: 'meaning' }, q.meaning), this.was),
+      onInput: (v, stamp) => store.edit((d) => (panel.preset ? withValue(d, panel.preset, q, v) : d), { gesture: id, stamp }), onCommit: () => store.commit() });
+    this.reset = h('button', { type: 'button', class: 'quiet', 'data-testid': `rig-reset-${q.kind}-${q.name}`, onclick: () => {
+      store.edit((d) => without(d, q));
+      this.field.input.focus();
+    } }, '↺');
+    if (q.free) this.field.setBlank('free', 45);
+    this.node = h('div', { class: 'rig-row' }, this.field.node, this.reset);
+  }
+
+  /** @param {import('../types.js').Design} design @param {import('../types.js').Preset} preset */
+  render(design, preset) {
+    const changed = isChanged(design, this.q);
+    const own = words(proposedShown(preset, this.q));
+    this.field.set(valueOf(design, preset, this.q));
+    this.node.classList.toggle('changed', changed);
+    this.reset.hidden = !changed;
+    setText(this.was, changed ? say`● preset ${own}` : '');
+    setAttr(this.reset, 'title', say`Back to the preset’s ${own}`);
+    setAttr(this.reset, 'aria-label', say`${this.q.name} back to the preset’s ${own}`);
+  }
+}
+
+export class RigPanel {
+  /** @type {import('../types.js').Preset|undefined} */ preset;
+  /** @type {Row[]} */ rows = [];
+
+  /** @param {import('../store.js').Store} store */
+  constructor(store) {
+    this.store = store;
+    this.name = h('span');
+    this.summary = h('summary', { 'data-testid': 'rig', title: 'The rig’s parameters and limits' }, this.name);
+    this.source = h('p', { class: 'rig-source', 'data-testid': 'rig-source' });
+    this.all = h('button', { type: 'button', class: 'quiet', 'data-testid': 'rig-reset', title: 'All parameters and limits back to the preset’s; poles and loops stay', onclick: () => this.#reset() }, 'Reset all');
+    const close = h('button', { type: 'button', class: 'quiet', 'data-testid': 'rig-close', 'aria-label': 'Close the parameters', title: 'Close (Esc)', onclick: () => this.#close() }, '✕');
+    this.problem = h('p', { class: 'experiment-warning', role: 'status', 'data-testid': 'rig-problem' });
+    this.parameters = h('fieldset', { 'aria-label': 'Parameters' });
+    this.limits = h('fieldset', { 'aria-label': 'Limits' });
+    this.node = h('details', { class: 'rig-details' }, this.summary,
+      h('div', { class: 'rig-body', 'data-testid': 'rig-body' }, h('div', { class: 'row' }, this.source, this.all, close), this.problem, this.parameters, this.limits));
+    this.node.addEventListener('keydown', (e) => e.key === 'Escape' && this.#close());
+  }
+
+  #reset() {
+    this.store.edit(asProposed);
+    this.summary.focus();
+  }
+
+  #close() {
+    this.node.open = false;
+    this.summary.focus();
+  }
+
+  /** @param {import('../types.js').State} state */
+  render({ presets, design, problem }) {
+    const preset = presetOf({ presets, design });
+    if (!design || !preset) return;
+    this.preset = preset;
+    if (!this.rows.length) {
+      this.rows = quantities(preset).map((q) => new Row(q, this));
+      for (const [kind, node] of /** @type {const} */ ([['parameters', this.parameters], ['limits', this.limits]])) node.append(...this.rows.filter((r) => r.q.kind === kind).map((r) => r.node));
+    }
+    const changed = changedWords(design);
+    setText(this.name, changed || 'Parameters');
+    this.summary.classList.toggle('changed', Boolean(changed));
+    this.all.hidden = !changed;
+    setText(this.source, preset.source);
+    const concerned = CONCERNED.test(problem?.field ?? '');
+    this.summary.classList.toggle('refused', concerned);
+    setText(this.problem, concerned ? `✕ ${[problem?.detail, problem?.hint].filter(Boolean).join(' ')}` : '');
+    for (const row of this.rows) row.render(design, preset);
+  }
+}

@@ -1,0 +1,81 @@
+"""Findings where they concern, and the way from the summary to them; one broken view among others."""
+
+from __future__ import annotations
+
+from playwright.sync_api import Browser, Page, expect
+
+from tests.e2e.conftest import App, opened, settled, state
+from tests.e2e.test_rig import entered, until
+
+SLOW = "#v1&p=-1,-1.5,-2,-2.5"
+
+
+def test_slow_poles_under_pi_are_told_at_the_loops_and_lead_to_the_remedy(page: Page, app: App):
+    page.goto("about:blank")
+    opened(page, app.url + SLOW)
+    assert "pi_unstable" in state(page)["findings"]
+    expect(page.get_by_test_id("remark-loops")).to_have_text("✕ unstable")
+    finding = page.locator("#strip .list [data-code=pi_unstable] button")
+    expect(finding).to_contain_text("Lower the gains")
+    finding.focus()
+    page.keyboard.press("Enter")
+    suggest = page.get_by_test_id("suggest-pi")
+    expect(suggest).to_be_focused()
+    expect(suggest).to_have_class("pointed")
+    page.keyboard.press("Enter")
+    until(page, "s.stable")
+    expect(page.get_by_test_id("remark-loops")).to_be_empty()
+
+
+def test_saturation_leads_to_its_plot_and_a_slow_sample_time_opens_its_field(page: Page):
+    entered(page, "step-psi", "90")
+    until(page, "s.findings.includes('saturation_V_y')")
+    expect(page.get_by_test_id("remark-V_y")).to_contain_text("▲ at limit")
+    more = page.locator("#strip .more")
+    if more.is_visible():
+        more.click()
+        page.locator("#strip .all [data-code=saturation_V_y] button").click()
+    else:
+        page.locator("#strip .list [data-code=saturation_V_y] button").click()
+    expect(page.locator("[data-testid=plot-V_y] .plot-body")).to_be_focused()
+    page.get_by_test_id("experiment").click()
+    page.get_by_test_id("experiment-digital").check()
+    entered(page, "experiment-sample-time", "50")
+    until(page, "s.findings.includes('slow_sampling')")
+    page.get_by_test_id("experiment-close").click()
+    page.locator("#strip .list [data-code=slow_sampling] button").click()
+    expect(page.get_by_test_id("experiment-sample-time")).to_be_focused()
+
+
+def test_a_missed_requirement_is_in_the_summary_and_leads_to_its_pole(page: Page):
+    page.get_by_test_id("require-settling").fill("0.44")
+    finding = page.locator("#strip .list [data-code=requirement_missed] button")
+    expect(finding).to_contain_text("yaw 4 too slow")
+    finding.click()
+    expect(page.get_by_test_id("pole-3")).to_be_focused()
+    page.get_by_test_id("require-settling").fill("2")
+    expect(finding).to_have_count(0)
+
+
+def test_a_view_that_throws_stops_no_other_and_is_told_of_quietly(chromium: Browser, app: App):
+    page = chromium.new_page(viewport={"width": 1280, "height": 800})
+    errors: list[str] = []
+    page.on("console", lambda message: message.type == "error" and errors.append(message.text))
+    broken = "render() { throw new Error('out of order'); }\n  never({ reply, design }) {"
+    page.route(
+        "**/static/panels/metrics.js",
+        lambda route: route.fulfill(
+            content_type="text/javascript",
+            body=route.fetch()
+            .text()
+            .replace("  render(", f"  {broken.split(' never', maxsplit=1)[0]}\n  never(", 1),
+        ),
+    )
+    opened(page, app.url)
+    expect(page.get_by_test_id("notice")).to_contain_text("out of order")
+    entered(page, "pole-field-0", "-20")
+    until(page, "s.poles[0].re === -20")
+    expect(page.get_by_test_id("verdict")).to_contain_text("Stable")
+    settled(page)
+    assert len([text for text in errors if "out of order" in text]) == 1
+    page.close()
