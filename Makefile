@@ -17,7 +17,8 @@ help: ## this list
 serve: $(VENV)/.installed ## build what is needed and start the app on http://127.0.0.1:$(PORT)
 	@exec $(BIN)/heli2dof serve --port $(PORT)
 
-test: $(VENV)/.tools browser check page-test unit ## build what the tests need and run them all
+test: $(VENV)/.tools browser check page-test ## build what the tests need and run them all
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target --keep-going unit e2e
 
 check: $(VENV)/.tools types ## style, types, floors
 	$(BIN)/ruff check .
@@ -28,8 +29,8 @@ check: $(VENV)/.tools types ## style, types, floors
 types: $(VENV)/.tools node_modules/.installed ## the page's JSDoc types, by TypeScript
 	$(BIN)/node tests/page/check_types.mjs
 
-unit: $(VENV)/.tools node_modules/.installed ## the Python tests, the browser's among them
-	CHROMIUM=$(CHROMIUM) $(BIN)/pytest
+unit: $(VENV)/.tools node_modules/.installed ## the Python tests, without the browser's
+	$(BIN)/pytest --ignore=tests/e2e
 
 page-test: $(VENV)/.tools ## the page's pure modules
 	$(BIN)/node --test tests/page/*.test.mjs

@@ -10,6 +10,7 @@ import { isolated } from './isolated.js';
 import { LockedControls } from './locked_controls.js';
 import { recall } from './memory.js';
 import { PinKeeper } from './pin_keeper.js';
+import { Pace } from './pace.js';
 import { Plots } from './plots.js';
 import { Projector } from './projector.js';
 import { SceneView } from './scene_view.js';
@@ -46,15 +47,17 @@ const pins = new PinKeeper(store);
 const scene = new SceneView(byId('scene'), store, { onTime: (t) => plots.setTime(t) });
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t) });
 const projector = new Projector(plots);
-const panels = [
-  new HeaderPanel(byId('header'), store, address, { tour, projector }), new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store),
+const moving = [new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store)]; // what the hand moves
+const figures = [
+  new HeaderPanel(byId('header'), store, address, { tour, projector }),
   new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new ExperimentPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
   new PinBar(byId('pin-bar'), store), new PinsPanel(byId('pins'), store),
   new ComparePanel(byId('compare'), store), new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene, new CloudFeed(store),
   new Notice(byId('notice'), store),
   new Remarks(document), new FindingsPanel(byId('strip'), store), // last, as it measures what it has written
 ];
-let views = panels.map(viewOf);
+let views = viewsOf();
+const pace = new Pace();
 const locked = new LockedControls(document.body);
 
 /** @type {Map<number, {stamp: number|undefined, design: import('./types.js').Design}>} */
@@ -87,18 +90,21 @@ const lookers = [pins, address, locked].map((part) => isolated((/** @type {State
 const drawPlots = isolated((/** @type {State} */ state) => plots.render(state), report);
 
 let scheduled = false;
-store.addEventListener('change', () => {
+store.addEventListener('change', schedule);
+
+function schedule() {
   if (scheduled) return;
   scheduled = true;
   requestAnimationFrame(render);
-});
+}
 
 function render() {
   scheduled = false;
   const begin = performance.now();
   const { state } = store;
-  if (locked.release(state)) views = panels.map(viewOf); // each says again which of its controls can be used
-  for (const view of views) view(state);
+  if (locked.release(state)) views = viewsOf(); // each says again which of its controls can be used
+  for (const view of views.moving) view(state);
+  if (pace.due(state.dragging, schedule)) for (const view of views.figures) view(state);
   for (const always of lookers) always(state);
   if (drawPlots(state)) {
     const now = performance.now();
@@ -107,6 +113,10 @@ function render() {
     for (const old of asked.keys()) if (old <= answered) asked.delete(old);
   }
   publish();
+}
+
+function viewsOf() {
+  return { moving: moving.map(viewOf), figures: figures.map(viewOf) };
 }
 
 /** @param {{render: (state: State) => void}} view */
