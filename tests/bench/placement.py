@@ -58,7 +58,7 @@ def measured(calls: dict[str, Callable[[], object]]) -> dict[str, float]:
         for name, call in calls.items():
             begin = perf_counter()
             call()
-            repeats = max(1, int(2e-3 / (perf_counter() - begin)))
+            repeats = max(1, int(3e-2 / (perf_counter() - begin)))
             begin = perf_counter()
             for _ in range(repeats):
                 call()
