@@ -6,6 +6,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 IMAGE ?= heli2dof
 IMAGE_BUILDER ?= docker build
+BESIDE := --numprocesses=2 --dist=loadfile
 PACKAGING := pyproject.toml constraints.txt package.json package-lock.json hatch_build.py
 SOURCES := $(shell find app heli2dof_core static -type f -not -path '*/vendor/*' -not -name '*.pyc' 2>/dev/null)
 CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
@@ -17,8 +18,7 @@ help: ## this list
 serve: $(VENV)/.installed ## build what is needed and start the app on http://127.0.0.1:$(PORT)
 	@exec $(BIN)/heli2dof serve --port $(PORT)
 
-test: $(VENV)/.tools browser check page-test ## build what the tests need and run them all
-	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target --keep-going unit e2e
+test: $(VENV)/.tools browser check page-test unit ## build what the tests need and run them all
 
 check: $(VENV)/.tools types ## style, types, floors
 	$(BIN)/ruff check .
@@ -29,14 +29,14 @@ check: $(VENV)/.tools types ## style, types, floors
 types: $(VENV)/.tools node_modules/.installed ## the page's JSDoc types, by TypeScript
 	$(BIN)/node tests/page/check_types.mjs
 
-unit: $(VENV)/.tools node_modules/.installed ## the Python tests, without the browser's
-	$(BIN)/pytest --ignore=tests/e2e
+unit: $(VENV)/.tools node_modules/.installed ## the Python tests, the browser's among them, in two processes
+	CHROMIUM=$(CHROMIUM) $(BIN)/pytest $(BESIDE)
 
 page-test: $(VENV)/.tools ## the page's pure modules
 	$(BIN)/node --test tests/page/*.test.mjs
 
 e2e: $(VENV)/.tools node_modules/.installed browser ## the browser tests alone
-	CHROMIUM=$(CHROMIUM) $(BIN)/pytest tests/e2e
+	CHROMIUM=$(CHROMIUM) $(BIN)/pytest $(BESIDE) tests/e2e
 
 screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.screenshot docs/screenshot.png

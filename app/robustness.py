@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import orjson
@@ -108,6 +108,12 @@ def build_router(compute: Compute) -> APIRouter:
     return router
 
 
+def _following(parts: Iterator[Cloud]) -> str | None:
+    """The next part as text, made in the pool too: twelve thousand poles would hold up the event loop."""
+    part = next(parts, None)
+    return None if part is None else json_bytes(cloud_reply(part)).decode()
+
+
 async def _answer(socket: WebSocket, text: str, compute: Compute) -> None:
     try:
         data = orjson.loads(text)
@@ -116,10 +122,8 @@ async def _answer(socket: WebSocket, text: str, compute: Compute) -> None:
             return
         request = RobustnessRequest.model_validate(data)
         parts = await compute.run(lambda: cloud_in_parts(request.to_spec(), request.to_uncertainty()))
-        part: Cloud | None = await compute.run(lambda: next(parts, None))
-        while part is not None:
-            await socket.send_text(json_bytes(cloud_reply(part)).decode())
-            part = await compute.run(lambda: next(parts, None))
+        while (part := await compute.run(_following, parts)) is not None:
+            await socket.send_text(part)
     except orjson.JSONDecodeError as error:
         refused = problem(422, f"Not JSON: {error}.", "invalid_json", hint="Send one JSON object.")
         await socket.send_text(json_bytes(refused).decode())

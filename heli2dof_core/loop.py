@@ -9,7 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from .design import Design
+from .engine import engine
 from .findings import Finding
+from .layout import POLYNOMIALS
 from .signals import AXES, Complexes, Floats
 from .spec import OuterLoop
 
@@ -82,6 +84,14 @@ class Loop:
         """Matrix from the references [θ_ref, ψ_ref] to the states' rates."""
         top = self.design.plant.B @ self.voltage_from_reference
         return np.vstack([top, np.eye(2)]) if self.has_integrators else top
+
+    @cached_property
+    def polynomials(self) -> Floats:
+        """Rig and law as 2×2 matrices of polynomials of s, (2, 2, 16), laid out as `kernels.frequency` says."""
+        plant, f = self.design.plant, np.empty(POLYNOMIALS)
+        A, B = np.array(plant.A), np.array(plant.B)  # writable: to Numba a read-only array is another type
+        engine().describe(A, B, self.voltage_from_state, self.has_integrators, f)
+        return f
 
     @cached_property
     def poles(self) -> Complexes:

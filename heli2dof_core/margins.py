@@ -8,9 +8,8 @@ from math import isnan
 import numpy as np
 
 from .engine import engine
-from .layout import MARGINS, POLYNOMIAL_WORKSPACE, POLYNOMIALS
+from .layout import MARGINS, POLYNOMIAL_WORKSPACE
 from .loop import Loop
-from .signals import Floats
 
 
 @dataclass(frozen=True)
@@ -38,15 +37,7 @@ def loop_margins(loop: Loop) -> tuple[Margins, Margins] | None:
     """
     if not loop.stable:
         return None
-    f, table = polynomials(loop), np.empty((2, MARGINS))
-    engine().margins(f, np.empty(POLYNOMIAL_WORKSPACE), table)
+    table = np.empty((2, MARGINS))
+    engine().margins(loop.polynomials, np.empty(POLYNOMIAL_WORKSPACE), table)
     pitch, yaw = ([None if isnan(v) else v for v in row] for row in table.tolist())
     return Margins(*pitch), Margins(*yaw)
-
-
-def polynomials(loop: Loop) -> Floats:
-    """The loop as `kernels.frequency` takes it, (2, 2, 16)."""
-    plant, f = loop.design.plant, np.empty(POLYNOMIALS)
-    A, B = np.array(plant.A), np.array(plant.B)  # writable: to Numba a read-only array is another type
-    engine().describe(A, B, loop.voltage_from_state, loop.has_integrators, f)
-    return f

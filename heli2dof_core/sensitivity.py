@@ -10,7 +10,6 @@ import numpy as np
 from .engine import engine
 from .layout import FREQUENCIES, SENSITIVITY
 from .loop import Loop
-from .margins import polynomials
 
 
 @dataclass(frozen=True)
@@ -53,5 +52,5 @@ def loop_sensitivity(loop: Loop) -> Sensitivity | None:
     if not loop.stable:
         return None
     both = np.empty(SENSITIVITY)
-    engine().peaks(polynomials(loop), loop.poles, np.empty(FREQUENCIES + 2 * len(loop.poles)), both)
+    engine().peaks(loop.polynomials, loop.poles, np.empty(FREQUENCIES + 2 * len(loop.poles)), both)
     return Sensitivity(*both.tolist())

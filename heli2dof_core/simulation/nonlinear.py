@@ -13,10 +13,12 @@ from ..engine import engine
 from ..findings import Finding
 from ..layout import (
     BACK_CALCULATION,
+    CLAMPING,
     CONSTANTS,
     DISTURBANCE,
     GAIN,
     LIMIT,
+    NO_ANTI_WINDUP,
     OFFSET,
     TRACKING,
     TRAVEL,
@@ -31,7 +33,11 @@ from .response import Response, hold_when_diverged
 ABSOLUTE_TOLERANCE = 0.1
 """Absolute tolerance of the integration as a share of the relative one (states are of order 1)."""
 
-_WINDUP: dict[AntiWindup, int] = {"none": 0, "clamping": 1, "back-calculation": 2}
+_WINDUP: dict[AntiWindup, int] = {
+    "none": NO_ANTI_WINDUP,
+    "clamping": CLAMPING,
+    "back-calculation": BACK_CALCULATION,
+}
 _OUTCOMES = {1: "more steps would be needed than are worth it", 2: "its modes switch without end"}
 
 

@@ -6,16 +6,16 @@ The bare exchange sends the same request to a socket that answers at once with a
 from __future__ import annotations
 
 import asyncio
-import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
+from socket import socket
 from statistics import median
-from time import monotonic, perf_counter, sleep
+from time import perf_counter, sleep
 
 import orjson
+from threadpoolctl import threadpool_limits
 from websockets.asyncio.client import connect
 
 from app.encoding import BINARY_SUBPROTOCOL
@@ -23,8 +23,9 @@ from app.live import _evaluate
 from app.requests import LiveRequest
 from heli2dof_core import evaluate, preset
 from tests.e2e.conftest import running_app
+from tests.scene_server import until
 
-EXCHANGES = 300
+EXCHANGES, WARM = 300, 20
 ECHO = """
 import sys, uvicorn
 async def app(scope, receive, send):
@@ -57,44 +58,37 @@ def echo(size: int, port: int) -> Iterator[None]:
         process.wait(10)
 
 
-async def exchanges(url: str, text: bytes, subprotocols: list | None = None) -> tuple[list[float], int]:
+async def exchanges(
+    url: str, text: bytes, subprotocols: list | None = None, count: int = EXCHANGES
+) -> tuple[list[float], int]:
     """Seconds of each exchange, and the size of the last answer."""
     times, answer = [], b""
-    async with connect(url, subprotocols=subprotocols, compression=None, max_size=None) as socket:
-        for _ in range(EXCHANGES + 20):
+    async with connect(url, subprotocols=subprotocols, compression=None, max_size=None) as peer:
+        for _ in range(count + WARM):
             begin = perf_counter()
-            await socket.send(text.decode())
-            answer = await socket.recv()
+            await peer.send(text.decode())
+            answer = await peer.recv()
             times.append(perf_counter() - begin)
-    return times[20:], len(answer)
+    return times[WARM:], len(answer)
 
 
 def kernels_ready(port: int) -> None:
     """Until updates are as quick as compiled ones are."""
-    deadline = monotonic() + 120
-    while monotonic() < deadline:
-        times, _ = asyncio.run(exchanges_few(port))
-        if median(times) < 0.05:
-            return
-        sleep(1.0)
-    raise TimeoutError("the kernels were not compiled in time")
+
+    def quick() -> bool:
+        times, _ = asyncio.run(exchanges(live(port), request(), [BINARY_SUBPROTOCOL], 3))
+        return median(times) < 0.05
+
+    until(quick, "the kernels are compiled", 120)
 
 
-async def exchanges_few(port: int) -> tuple[list[float], int]:
-    times = []
-    async with connect(f"ws://127.0.0.1:{port}/api/v1/live", subprotocols=[BINARY_SUBPROTOCOL]) as socket:
-        for _ in range(3):
-            begin = perf_counter()
-            await socket.send(request().decode())
-            await socket.recv()
-            times.append(perf_counter() - begin)
-    return times, 0
+def answers(port: int) -> bool:
+    with socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0
 
 
-def resident(pid: int) -> float:
-    """Resident memory, MB."""
-    pages = int(Path(f"/proc/{pid}/statm").read_text().split()[1])
-    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
+def live(port: int) -> str:
+    return f"ws://127.0.0.1:{port}/api/v1/live"
 
 
 def round_trips() -> dict[str, float]:
@@ -103,23 +97,14 @@ def round_trips() -> dict[str, float]:
     spec = LiveRequest.model_validate(orjson.loads(text)).to_spec()
     with running_app() as app:
         kernels_ready(app.port)
-        times, size = asyncio.run(
-            exchanges(f"ws://127.0.0.1:{app.port}/api/v1/live", text, [BINARY_SUBPROTOCOL])
-        )
-        free = app.port + 1
-        with echo(size, free):
-            deadline = monotonic() + 20
-            while monotonic() < deadline:
-                try:
-                    bare, _ = asyncio.run(exchanges(f"ws://127.0.0.1:{free}/", text))
-                    break
-                except OSError:
-                    sleep(0.1)
-        again, _ = asyncio.run(
-            exchanges(f"ws://127.0.0.1:{app.port}/api/v1/live", text, [BINARY_SUBPROTOCOL])
-        )
+        for _ in range(2):  # while the first ones run, the server derives the other structures
+            times, size = asyncio.run(exchanges(live(app.port), text, [BINARY_SUBPROTOCOL], 3 * EXCHANGES))
+        port = app.port + 1
+        with echo(size, port):
+            until(lambda: answers(port), "the bare socket answers")
+            bare, _ = asyncio.run(exchanges(f"ws://127.0.0.1:{port}/", text))
     return {
-        f"full update over the socket ({size / 1e3:.0f} kB)": median([*times, *again]),
+        f"full update over the socket ({size / 1e3:.0f} kB)": median(times),
         "bare exchange of the same size": median(bare),
         "evaluate alone, at the same pace": median(paced(lambda: evaluate(spec))),
         "request → evaluate → frame alone, at the same pace": median(paced(lambda: _evaluate(text, True))),
@@ -139,6 +124,7 @@ if __name__ == "__main__":
     from heli2dof_core import warm_up
 
     warm_up()
+    threadpool_limits(1, "blas")
     found = round_trips()
     for name, seconds in found.items():
         print(f"{name:45} {1e3 * seconds:8.3f} ms")

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import control
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from heli2dof_core import Scenario, Spec, Uncertainty, close_loop, cloud, evaluate, place, preset
 from heli2dof_core.engine import engine, warm_up
@@ -32,7 +33,7 @@ HEADER = """# Performance
 `make bench` makes this anew. Ratios hold better than times: machines drift. One update is K, the poles of the whole
 loop, the RGA, the linear responses of the 2×2 PI loop over 501 points with voltages, step metrics, classical margins,
 disk margin, and the nonlinear response of 5 s at a tolerance of 1e-6 with limits. `evaluate` computes all that and
-puts it, with its remarks in words, into a report.
+puts it, with its remarks in words, into a report. BLAS runs on one thread for all.
 """
 
 
@@ -96,6 +97,7 @@ def jobs() -> dict[str, dict[str, Callable[[], object]]]:
 
 def main() -> None:
     warm_up()
+    threadpool_limits(1, "blas")  # as the server does; python-control is quicker so, too
     warnings.simplefilter("ignore")
     text = f"{HEADER}\n{machine()}; medians of one run; the first row of a table is 1."
     for title, calls in [*jobs().items()]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import math
 from collections.abc import Iterator
 from typing import Any
@@ -111,17 +112,18 @@ def pixels(page: Page, frame: Frame) -> bytes:
 
 
 def picture(frame: Frame) -> bytes:
-    return bytes(
-        frame.evaluate(
-            """() => {
-              const source = window.__viserMutable.canvas;
-              const copy = new OffscreenCanvas(210, 165);
-              const draw = copy.getContext("2d");
-              draw.drawImage(source, 0, 0, 210, 165);
-              return [...draw.getImageData(0, 0, 210, 165).data];
-            }"""
-        )
+    text = frame.evaluate(
+        """() => {
+          const source = window.__viserMutable.canvas;
+          const copy = new OffscreenCanvas(210, 165);
+          const draw = copy.getContext("2d");
+          draw.drawImage(source, 0, 0, 210, 165);
+          let text = "";
+          for (const value of draw.getImageData(0, 0, 210, 165).data) text += String.fromCharCode(value);
+          return btoa(text);
+        }"""
     )
+    return base64.b64decode(text)
 
 
 def changed_share(before: bytes, after: bytes) -> float:
