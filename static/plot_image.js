@@ -64,7 +64,7 @@ export function drawPlot(signal, lines, pins, { x, y, subtitle, rules }) {
   const ghosts = lines.filter((l) => l.kind === 'pin').map((l) => ({ pin: pins.find((p) => p.index === l.index), axis: /** @type {'theta'|'psi'} */ (l.axis), t: l.t, values: l.values })).filter((g) => g.pin);
   ctx.save();
   ctx.translate(box.left, 0);
-  const badges = drawGhosts(ctx, ghosts, (t) => px(t) - box.left, py, { width: box.right - box.left, ratio: 1, color: (name) => LIGHT[name] });
+  const badges = drawGhosts(ctx, ghosts, (t) => px(t) - box.left, py, { width: box.right - box.left, type: 1, line: 1, color: (name) => LIGHT[name] });
   ctx.restore();
   for (const line of lines.filter((l) => l.kind !== 'pin' && l.kind !== 'played').reverse()) stroke(ctx, line, px, py);
   ctx.translate(box.left, 0);

@@ -5,7 +5,10 @@ import { dominanceWords, largest, logSpaced } from '../compare_math.js';
 import { h, setText, symbol } from '../dom.js';
 import { forField, significant } from '../format.js';
 import { Lazy } from '../lazy.js';
+import { followsPage, pictureScale } from '../picture_scale.js';
+import { drawLabel, drawRule } from '../plot_rules.js';
 import { bodyOf } from '../store.js';
+import { t } from '../words.js';
 
 const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const FREQUENCIES = logSpaced(0.01, 1000, 121);
@@ -50,20 +53,20 @@ class FrequencyPlot {
 
   #readColors() {
     const style = getComputedStyle(document.documentElement);
-    for (const name of ['series-0', 'series-1', 'muted', 'grid', 'danger', 'limit-fill']) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
+    for (const name of ['series-0', 'series-1', 'panel', 'muted', 'grid', 'danger', 'limit-fill']) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
   }
 
   #build() {
     const color = (/** @type {string} */ name) => () => this.#colors[name];
     const axis = { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1, filter: decades }, ticks: { show: false } };
-    this.chart = new Chart({
-      width: 300, height: 160, legend: { show: false }, pxAlign: 0, padding: [6, 18, 0, 0],
+    this.chart = followsPage(new Chart({
+      width: 300, height: 160, legend: { show: false }, pxAlign: 0, padding: [() => 6 * pictureScale().type, () => 18 * pictureScale().type, 0, 0],
       series: [{}, { stroke: color('series-0'), width: 2, points: { show: false } }, { stroke: color('series-1'), width: 2, dash: [7, 4], points: { show: false } }],
       scales: { x: { time: false, distr: 3, range: () => [FREQUENCIES[0], FREQUENCIES[FREQUENCIES.length - 1]] }, y: { distr: 3, range: () => this.#range } },
-      axes: [{ ...axis, gap: 6, size: 24, values: power }, { ...axis, gap: 5, size: 46, values: power }],
+      axes: [{ ...axis, gap: 6, size: () => 24 * pictureScale().type, values: power }, { ...axis, gap: 5, size: () => 46 * pictureScale().type, values: power }],
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false }, sync: { key: 'heli2dof-frequency' } },
       hooks: { drawClear: [() => this.#shade()], draw: [() => this.#drawLimit()], setCursor: [(/** @type {any} */ u) => this.onHover(u.cursor.left < 0 ? null : u.cursor.idx ?? null)] },
-    }, [FREQUENCIES, ...this.about.series.map(() => FREQUENCIES.map(() => null))], this.body);
+    }, [FREQUENCIES, ...this.about.series.map(() => FREQUENCIES.map(() => null))], this.body));
     new ResizeObserver(([entry]) => {
       const { width, height } = entry.contentRect;
       if (width > 60 && height > 40) this.chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
@@ -80,22 +83,11 @@ class FrequencyPlot {
 
   #drawLimit() {
     if (!this.about.limit) return;
-    const { ctx, bbox, valToPos } = this.chart;
-    const y = Math.round(valToPos(1, 'y', true));
-    const ratio = devicePixelRatio;
-    ctx.save();
-    ctx.strokeStyle = ctx.fillStyle = this.#colors.danger;
-    ctx.lineWidth = 1.25 * ratio;
-    ctx.setLineDash([]);
-    ctx.beginPath();
-    ctx.moveTo(bbox.left, y);
-    ctx.lineTo(bbox.left + bbox.width, y);
-    ctx.stroke();
-    ctx.font = `${10 * ratio}px system-ui, sans-serif`;
-    ctx.textBaseline = 'bottom';
-    ctx.textAlign = 'right';
-    ctx.fillText('below 1: diagonally dominant', bbox.left + bbox.width - 4 * ratio, y - 3 * ratio);
-    ctx.restore();
+    const y = Math.round(this.chart.valToPos(1, 'y', true));
+    this.chart.ctx.save();
+    drawRule(this.chart, y, this.#colors.danger, []);
+    drawLabel(this.chart, y, t('below 1: diagonally dominant'), -1, this.#colors.danger, this.#colors.panel);
+    this.chart.ctx.restore();
   }
 
   /** @param {any} reply */
