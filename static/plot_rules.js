@@ -1,6 +1,6 @@
 /**
  * What is drawn across a plot besides its lines: limits with what lies beyond them, the reference, the band of uncertain rigs. Shades lie under the lines; what
- * is written lies over them, on a hem of the paper's colour, so that it can be read where lines pass.
+ * is written lies over them on the paper's colour, so that it can be read where lines pass.
  * @typedef {{value: number, label: string, danger: boolean}} Rule  in the plot's unit
  * @typedef {(name: string) => string} Color
  */
@@ -75,15 +75,17 @@ export function drawRule({ ctx, bbox }, y, stroke, dash) {
   ctx.stroke();
 }
 
-/** What a line is called, at its right end. @param {any} u @param {number} y @param {string} label @param {1|-1} side 1: below it @param {string} ink @param {string} paper */
+/** What a line is called, at its right end, on paper. @param {any} u @param {number} y @param {string} label @param {1|-1} side 1: below it @param {string} ink @param {string} paper */
 export function drawLabel({ ctx, bbox }, y, label, side, ink, paper) {
   const size = devicePixelRatio * pictureScale().type;
   const [x, foot] = [bbox.left + bbox.width - 4 * size, y + side * 3 * size];
-  Object.assign(ctx, { font: `${10 * size}px system-ui, sans-serif`, textAlign: 'right', textBaseline: side > 0 ? 'top' : 'bottom', fillStyle: ink, strokeStyle: paper, lineWidth: 3.5 * size, lineJoin: 'round' });
-  ctx.setLineDash([]);
-  ctx.globalAlpha = 0.85;
-  ctx.strokeText(label, x, foot);
+  Object.assign(ctx, { font: `${10 * size}px system-ui, sans-serif`, textAlign: 'right', textBaseline: side > 0 ? 'top' : 'bottom' });
+  const width = ctx.measureText(label).width;
+  ctx.globalAlpha = 0.82;
+  ctx.fillStyle = paper;
+  ctx.fillRect(x - width - 2 * size, foot - (side > 0 ? size : 11 * size), width + 4 * size, 12 * size);
   ctx.globalAlpha = 1;
+  ctx.fillStyle = ink;
   ctx.fillText(label, x, foot);
 }
 

@@ -5,11 +5,13 @@
  * @typedef {import('./traces.js').Signal} Signal
  */
 import uPlot from './vendor/uplot/uPlot.esm.js';
+import { marksOf } from './characteristics.js';
 import { h, setText, symbol } from './dom.js';
 import { fixed } from './format.js';
 import { followsPage, pictureScale } from './picture_scale.js';
 import { COLORS, colorOf } from './pins.js';
 import { PlotGhosts } from './plot_ghosts.js';
+import { PlotMarks } from './plot_marks.js';
 import { plotMenu } from './plot_menu.js';
 import { drawBand, drawLabels, drawShades, limitOf, referenceOf, rulesOf } from './plot_rules.js';
 import { extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from './traces.js';
@@ -69,7 +71,7 @@ export class Plots {
     const values = ['theta', 'psi'].map((axis) => h('span', { class: `at ${axis === 'theta' ? 'pitch' : 'yaw'}`, title: `${axis === 'theta' ? 'pitch' : 'yaw'} step` }));
     const body = h('div', { class: 'plot-body', tabindex: 0, role: 'group', 'aria-label': `${about.title}: left and right move the time, plus and minus zoom, Escape shows the whole time`, onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e) });
     const first = signal === SIGNALS[0] ? [this.when, this.unzoom] : [];
-    const menu = plotMenu(this.store, signal, `${about.title} over time`, () => ({ x: this.#zoom ?? this.#time, y: this.#ranges[signal] ?? [0, 1], rules: rulesOf(this.store.state.reply, signal) }));
+    const menu = plotMenu(this.store, signal, `${about.title} over time`, () => ({ x: this.#zoom ?? this.#time, y: this.#ranges[signal] ?? [0, 1], rules: rulesOf(this.store.state.reply, signal), marks: this.#marks(signal) }));
     const figure = h('figure', { class: `plot ${isVoltage(signal) ? 'volts' : 'angle'}`, 'data-testid': `plot-${signal}`, 'data-signal': signal },
       h('figcaption', {}, symbol(about.base, about.sub), h('span', { class: 'what' }, `${about.title}, ${about.unit.trim() === '°' ? 'deg' : 'V'}`), first, h('span', { class: 'values' }, values), menu), body);
     this.root.append(figure);
@@ -79,6 +81,7 @@ export class Plots {
     const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({ stroke: color(name), width, dash, auto: false, points: { show: false } });
     const last = () => signal === 'V_y' || (signal === 'V_p' && this.root.classList.contains('two-columns'));
     /** @type {PlotGhosts|undefined} */ let ghosts;
+    /** @type {PlotMarks|undefined} */ let marks;
     // auto: false, as the ranges are ours: no trace is searched for its extremes a second time.
     const chart = followsPage(new Chart({
       width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [() => 6 * pictureScale().type, () => 10 * pictureScale().type, 2, 0],
@@ -95,12 +98,13 @@ export class Plots {
         bind: { dblclick: () => () => this.#zoomTo(null) } },
       hooks: {
         drawClear: [(/** @type {any} */ u) => drawShades(u, rules(), ink), (/** @type {any} */ u) => drawBand(u, signal, this.#cloud, ink)],
-        draw: [(/** @type {any} */ u) => drawLabels(u, rules(), ink), () => ghosts?.draw(ink)],
+        draw: [(/** @type {any} */ u) => drawLabels(u, rules(), ink), () => ghosts?.draw(ink), () => marks?.place()],
         setCursor: [(/** @type {any} */ u) => this.#hovered(u)],
         setSelect: [(/** @type {any} */ u) => this.#selected(u)],
       },
     }, [[0, 1], ...Array(5).fill([null, null])], body));
     ghosts = new PlotGhosts(chart, signal);
+    marks = new PlotMarks(chart, this.onSeek);
     const head = h('div', { class: 'playhead' });
     chart.over.append(head);
     chart.over.addEventListener('click', () => {
@@ -111,7 +115,7 @@ export class Plots {
       if (width > 60 && height > 40) chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
       this.#movePlayhead();
     }).observe(body);
-    return { signal, chart, values, head, ghosts };
+    return { signal, chart, values, head, ghosts, marks };
   }
 
   /** @param {State} state @returns {boolean} whether anything was drawn */
@@ -120,7 +124,7 @@ export class Plots {
       this.#cloud = state.cloud;
       for (const { signal, chart } of this.plots) if (!isVoltage(signal)) chart.redraw(false);
     }
-    const seen = [state.reply, state.motion, state.showLinear, state.pins];
+    const seen = [state.reply, state.motion, state.showLinear, state.showMarks, state.pins];
     if (!state.reply || seen.every((v, i) => v === this.#seen[i])) return false;
     this.#seen = seen;
     const fresh = this.#data === null;
@@ -130,7 +134,7 @@ export class Plots {
     this.#time = [0, end];
     if (whole && this.#zoom) this.#zoomTo(null);
     const empty = Array(data.t.length).fill(null);
-    for (const { signal, chart, ghosts } of this.plots) {
+    for (const { signal, chart, ghosts, marks } of this.plots) {
       ghosts.take(state.pins);
       const [played, dashPitch, dashYaw, yaw, pitch] = data.plots[signal];
       this.#ranges[signal] = rangeOf({
@@ -140,10 +144,17 @@ export class Plots {
       });
       const columns = /** @type {any} */ ([data.t, ...data.plots[signal].map((v) => v ?? empty)]);
       chart.batch(() => chart.setData(columns));
+      marks.show(this.#marks(signal));
     }
     this.#movePlayhead();
     this.#showValues();
     return true;
+  }
+
+  /** @param {Signal} signal */
+  #marks(signal) {
+    const { reply, showMarks } = this.store.state;
+    return showMarks ? marksOf(reply, signal) : [];
   }
 
   /** @param {any} u */

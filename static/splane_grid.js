@@ -23,7 +23,7 @@ export function drawGrid(layer, view) {
       svg('rect', { class: 'unstable-hatch', x: left, y: 0, width: view.width - left, height: view.height, fill: 'url(#hatch)' }),
     );
     if (view.width - left > 14) {
-      const x = Math.min(left + 13, view.width - 8);
+      const x = Math.max(left, view.width - 21); // far from the axis, where poles may be
       nodes.push(svg('text', { class: 'unstable-label', x, y: 10, transform: `rotate(90 ${x} 10)` }, 'unstable'));
     }
   }

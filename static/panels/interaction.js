@@ -6,6 +6,7 @@ import { h, setText, symbol } from '../dom.js';
 import { forField, significant } from '../format.js';
 import { Lazy } from '../lazy.js';
 import { followsPage, pictureScale } from '../picture_scale.js';
+import { pictureMenu, subtitle } from '../plot_menu.js';
 import { drawLabel, drawRule } from '../plot_rules.js';
 import { bodyOf } from '../store.js';
 import { t } from '../words.js';
@@ -18,15 +19,17 @@ const decades = (/** @type {any} */ _u, /** @type {number[]} */ splits) => split
 const power = (/** @type {any} */ u, /** @type {number[]} */ splits) => decades(u, splits).map((v) => (v === null ? '' : forField(v)));
 const size = (/** @type {string} */ sub) => h('span', { class: 'sym' }, '|', h('i', {}, 'λ'), h('sub', {}, sub), '|');
 
-/** @typedef {{id: string, title: string, limit: boolean, series: {name: () => (Node|string)[], title: string, of: (r: any) => number[]}[]}} About */
+const LIMIT = 'below 1: diagonally dominant';
+
+/** @typedef {{id: string, title: string, limit: boolean, series: {name: () => (Node|string)[], plain: string, title: string, of: (r: any) => number[]}[]}} About  plain: the name where only letters can be */
 /** @type {About[]} */
 const CHARTS = [
   { id: 'gains', title: 'Relative gains', limit: false, series: [
-    { name: () => [size('11')], title: 'relative gain of the diagonal pairing at this frequency', of: (r) => r.rga_magnitude.map((/** @type {number[][]} */ m) => m[0][0]) },
-    { name: () => [size('12')], title: 'relative gain of the crosswise pairing at this frequency', of: (r) => r.rga_magnitude.map((/** @type {number[][]} */ m) => m[0][1]) }] },
+    { name: () => [size('11')], plain: '|λ₁₁|', title: 'relative gain of the diagonal pairing at this frequency', of: (r) => r.rga_magnitude.map((/** @type {number[][]} */ m) => m[0][0]) },
+    { name: () => [size('12')], plain: '|λ₁₂|', title: 'relative gain of the crosswise pairing at this frequency', of: (r) => r.rga_magnitude.map((/** @type {number[][]} */ m) => m[0][1]) }] },
   { id: 'dominance', title: 'Off-diagonal over diagonal', limit: true, series: [
-    { name: () => ['rows'], title: 'larger of both rows of Ĝ(jω): an angle’s answer to the other input, over that to its own', of: (r) => largest(r.dominance?.rows ?? []) },
-    { name: () => ['columns'], title: 'larger of both columns of Ĝ(jω): an input’s effect on the other angle, over that on its own', of: (r) => largest(r.dominance?.columns ?? []) }] },
+    { name: () => ['rows'], plain: 'rows', title: 'larger of both rows of Ĝ(jω): an angle’s answer to the other input, over that to its own', of: (r) => largest(r.dominance?.rows ?? []) },
+    { name: () => ['columns'], plain: 'columns', title: 'larger of both columns of Ĝ(jω): an input’s effect on the other angle, over that on its own', of: (r) => largest(r.dominance?.columns ?? []) }] },
 ];
 
 class FrequencyPlot {
@@ -34,14 +37,15 @@ class FrequencyPlot {
   /** @type {[number, number]} */ #range = [0.001, 10];
   /** @type {number[][]} */ #data = [];
 
-  /** @param {About} about @param {(i: number|null) => void} onHover */
-  constructor(about, onHover) {
+  /** @param {About} about @param {(i: number|null) => void} onHover @param {() => string} subtitle of its picture */
+  constructor(about, onHover, subtitle) {
     this.about = about;
     this.onHover = onHover;
     this.values = about.series.map((s, i) => h('span', { class: 'value', 'data-testid': `interaction-${about.id}-${i}` }));
     this.body = h('div', { class: 'plot-body' });
     this.node = h('figure', { class: 'frequency-plot', 'data-testid': `interaction-${about.id}` },
-      h('figcaption', {}, h('span', { class: 'what' }, about.title), about.series.map((s, i) => h('span', { class: 'key', title: s.title }, h('span', { class: `line series-${i}`, 'aria-hidden': 'true' }), h('span', {}, s.name()), this.values[i]))), this.body);
+      h('figcaption', {}, h('span', { class: 'what' }, about.title), about.series.map((s, i) => h('span', { class: 'key', title: s.title }, h('span', { class: `line series-${i}`, 'aria-hidden': 'true' }), h('span', {}, s.name()), this.values[i])),
+        pictureMenu(`frequency-${about.id}`, about.title, () => this.#picture(subtitle()), 'omega [rad/s]')), this.body);
     this.#readColors();
     for (const query of ['(prefers-color-scheme: dark)', '(prefers-contrast: more)']) {
       matchMedia(query).addEventListener('change', () => {
@@ -73,6 +77,16 @@ class FrequencyPlot {
     }).observe(this.body);
   }
 
+  /** @param {string} subtitle @returns {import('../picture.js').Picture} */
+  #picture(subtitle) {
+    const { about } = this;
+    return {
+      title: t(about.title), subtitle, x: { range: [FREQUENCIES[0], FREQUENCIES[FREQUENCIES.length - 1]], title: t('ω in rad/s'), log: true }, y: { range: this.#range, title: t(about.title), log: true },
+      lines: about.series.map((s, i) => ({ name: t(s.plain), kind: /** @type {'series-0'|'series-1'} */ (`series-${i}`), t: FREQUENCIES, values: this.#data[i] ?? [] })),
+      rules: about.limit ? [{ value: 1, label: t(LIMIT), danger: true }] : [],
+    };
+  }
+
   /** Above 1 what is off the diagonal outweighs it. */
   #shade() {
     if (!this.about.limit) return;
@@ -86,7 +100,7 @@ class FrequencyPlot {
     const y = Math.round(this.chart.valToPos(1, 'y', true));
     this.chart.ctx.save();
     drawRule(this.chart, y, this.#colors.danger, []);
-    drawLabel(this.chart, y, t('below 1: diagonally dominant'), -1, this.#colors.danger, this.#colors.panel);
+    drawLabel(this.chart, y, t(LIMIT), -1, this.#colors.danger, this.#colors.panel);
     this.chart.ctx.restore();
   }
 
@@ -111,7 +125,7 @@ export class InteractionCard {
   constructor(root, store) {
     this.at = h('span', { class: 'at-frequency' });
     this.words = h('p', { class: 'claim', 'data-testid': 'dominance-words' });
-    this.plots = CHARTS.map((about) => new FrequencyPlot(about, (i) => this.#hover(i)));
+    this.plots = CHARTS.map((about) => new FrequencyPlot(about, (i) => this.#hover(i), () => subtitle(store)));
     this.figures = h('div', {}, h('p', { class: 'caption' }, 'Of the inner loop ', symbol('Ĝ'), '(', symbol('jω'), '), ', symbol('ω'), ' in rad/s. Values at ', this.at), h('div', { class: 'frequency-plots' }, this.plots.map((p) => p.node)));
     const content = h('div', {}, this.figures, this.words);
     root.append(content);
