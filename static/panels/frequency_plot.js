@@ -64,7 +64,7 @@ export class FrequencyPlot {
       scales: { x: { time: false, distr: 3, range: () => [frequencies[0], frequencies[frequencies.length - 1]] }, y: { distr: about.steps ? 1 : 3, range: () => this.#range } },
       axes: [{ ...axis, ...log, gap: 6, size: () => 24 * pictureScale().type }, { ...axis, ...(about.steps ? even : log), gap: 5, size: () => 46 * pictureScale().type, space: () => 26 * pictureScale().type }],
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false }, sync: { key: `frequency-${frequencies.length}` } },
-      hooks: { drawClear: [() => this.#shade()], draw: [() => this.#drawRule(), () => this.#drawSpans()], setCursor: [(/** @type {any} */ u) => this.onHover(u.cursor.left < 0 ? null : u.cursor.idx ?? null)] },
+      hooks: { drawAxes: [() => this.#shade()], draw: [() => this.#drawRule(), () => this.#drawSpans()], setCursor: [(/** @type {any} */ u) => this.onHover(u.cursor.left < 0 ? null : u.cursor.idx ?? null)] },
     }, [frequencies, ...about.series.map(() => frequencies.map(() => null))], this.body));
     new ResizeObserver(([entry]) => {
       const { width, height } = entry.contentRect;

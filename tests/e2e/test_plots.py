@@ -169,6 +169,26 @@ def test_an_unstable_loop_has_no_margins(chromium: Browser, app: App):
         )
 
 
+def test_responses_are_held_to_the_requirements_as_well(page: Page):
+    amber = """() => {
+      const canvas = document.querySelector('[data-testid=plot-theta] canvas:not(.ghosts)');
+      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4) count += data[i] > data[i + 2] + 60 && data[i + 1] > data[i + 2] + 20;
+      return count;
+    }"""
+    before = page.evaluate(amber)
+    page.get_by_test_id("require-overshoot").fill("4")
+    page.wait_for_function(f"(n) => ({amber})() > n + 300", arg=before)
+    expect(page.get_by_test_id("requirements-verdict")).to_have_text(
+        "✓ met"
+    )  # the poles do; the whole loop not
+    overshoot = page.get_by_test_id("metric-overshoot-theta")
+    expect(overshoot).to_have_text(re.compile(r"^✕ 4\.\d %$"))
+    page.get_by_test_id("require-overshoot").fill("6")
+    expect(overshoot).to_have_text(re.compile(r"^4\.\d %$"))
+
+
 def type_of(page: Page) -> list[float]:
     """The sizes of the letters at the axes of every chart, CSS pixels."""
     return page.evaluate(
