@@ -13,7 +13,6 @@ import { motionOf } from './traces.js';
 const KEY = 'heli2dof-scene';
 const QUIET_MS = 450; // after the last change, before the motion plays afresh
 const LATE_MS = 100; // between two frames: three such in a row, and drawing the rig is slow here
-const REST_MS = 900; // between two rounds of a loop
 
 /** A name that nobody guesses: whoever knows it sees this tab's rig. */
 function newSession() {
@@ -49,7 +48,7 @@ export class SceneView {
   #dragging = false;
   #rests = false;
   #slow = false;
-  #last = { playing: false, time: 0, duration: 0, ready: false, reason: '' };
+  #last = { playing: false, time: 0, duration: 0, speed: 1, loop: false, ready: false, reason: '' };
   #calm = matchMedia('(prefers-reduced-motion: reduce)');
 
   /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onTime: (t: number) => void}} handlers */
@@ -69,7 +68,7 @@ export class SceneView {
     this.replay = h('button', { type: 'button', 'data-testid': 'replay', title: 'Play from the start', onclick: () => this.player.replay() }, 'Replay');
     this.time = h('input', { type: 'range', min: 0, max: 5, step: 0.01, value: 0, 'aria-label': 'Time in the motion', 'data-testid': 'time', oninput: () => this.#seek(Number(this.time.value)) });
     this.clock = h('output', { class: 'clock', 'data-testid': 'clock' });
-    this.loop = h('input', { type: 'checkbox', 'data-testid': 'loop' });
+    this.loop = h('input', { type: 'checkbox', 'data-testid': 'loop', onchange: () => this.player.setLoop(this.loop.checked) });
     this.seen = h('input', { type: 'checkbox', checked: true, 'data-testid': 'show-scene', onchange: () => this.#state(this.#last) });
     root.append(h('div', { class: 'stage' }, this.webgl ? this.frame : null, this.notice, hud, h('div', { class: 'motion' }, this.motion.node)),
       h('div', { class: 'transport' }, this.play, this.replay, this.time, this.clock, h('label', { class: 'check', title: 'Play again and again' }, this.loop, 'loop'),
@@ -181,10 +180,11 @@ export class SceneView {
     this.onTime(s.t);
   }
 
-  /** @param {{playing: boolean, time: number, duration: number, ready: boolean, reason: string}} last */
+  /** @param {import('./scene.js').PlayerState} last */
   #state(last) {
     this.#last = last;
-    const { playing, time, duration, ready, reason } = last;
+    const { playing, duration, loop, ready, reason } = last;
+    this.loop.checked = loop;
     setText(this.play, playing ? 'Pause' : 'Play');
     setAttr(this.play, 'aria-pressed', String(playing));
     if (duration > 0) setAttr(this.time, 'max', duration);
@@ -195,6 +195,5 @@ export class SceneView {
       const off = this.#rests ? 'The rig rests while you drag: drawing it is slow here.' : 'The rig is switched off. All else works.';
       setText(this.notice, seen ? reason || 'Building the rig…' : off);
     }
-    if (!playing && duration > 0 && time >= duration && this.loop.checked) this.#timer = setTimeout(() => this.loop.checked && this.player.replay(), REST_MS);
   }
 }
