@@ -36,10 +36,9 @@ export class Plots {
   /** @type {import('./types.js').Cloud|null} */ #cloud = null;
   /** @type {{t: import('./types.js').Series, plots: Record<Signal, any[]>}|null} */ #data = null;
 
-  /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onSeek: (t: number) => void}} handlers */
-  constructor(root, store, { onSeek }) {
-    this.store = store;
-    this.onSeek = onSeek;
+  /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onSeek: (t: number) => void, onPeek: (t: number|null) => void}} handlers */
+  constructor(root, store, { onSeek, onPeek }) {
+    [this.store, this.onSeek, this.onPeek] = [store, onSeek, onPeek];
     this.root = root;
     this.at = h('span');
     this.played = h('span', { class: 'played' });
@@ -230,7 +229,9 @@ export class Plots {
   /** @param {any} u */
   #hovered(u) {
     const { left } = u.cursor;
-    this.#hover = left === undefined || left < 0 ? null : u.posToVal(left, 'x');
+    const hover = left === undefined || left < 0 ? null : u.posToVal(left, 'x');
+    if (hover === this.#hover) return; // the plots share one cursor, and each tells of it
+    this.onPeek((this.#hover = hover));
     this.#showValues();
   }
 
