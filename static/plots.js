@@ -38,7 +38,9 @@ export class Plots {
 
   /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onSeek: (t: number) => void, onPeek: (t: number|null) => void}} handlers */
   constructor(root, store, { onSeek, onPeek }) {
-    [this.store, this.onSeek, this.onPeek] = [store, onSeek, onPeek];
+    this.store = store;
+    this.onSeek = onSeek;
+    this.onPeek = onPeek;
     this.root = root;
     this.at = h('span');
     this.played = h('span', { class: 'played' });
@@ -229,9 +231,8 @@ export class Plots {
   /** @param {any} u */
   #hovered(u) {
     const { left } = u.cursor;
-    const hover = left === undefined || left < 0 ? null : u.posToVal(left, 'x');
-    if (hover === this.#hover) return; // the plots share one cursor, and each tells of it
-    this.onPeek((this.#hover = hover));
+    this.#hover = left === undefined || left < 0 ? null : u.posToVal(left, 'x');
+    this.onPeek(this.#hover);
     this.#showValues();
   }
 

@@ -184,10 +184,11 @@ export class ScenePlayer {
     this.#move();
   }
 
-  /** @param {RigView} view what cameras need to know of the rig that is shown */
+  /** @param {RigView} view what cameras need to know of the rig that is shown: another rig is looked at as at first */
   setView(view) {
+    const other = this.#view !== null && view !== this.#view;
     this.#view = view;
-    this.#aim(this.#camera, true);
+    this.#aim(other && this.#camera === "free" ? "home" : this.#camera, true);
   }
 
   /** @param {CameraName} camera where the rig is looked at from, from now on */

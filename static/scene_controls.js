@@ -14,7 +14,7 @@ export class SceneControls {
     this.camera = cameraNamed(recall(CAMERA));
     this.cameras = new Choice({ label: 'Camera', testid: 'camera', options: CAMERAS, onChange: (name) => this.#choose(cameraNamed(name)) });
     this.cameras.set(this.camera);
-    this.reset = h('button', { type: 'button', class: 'quiet', title: 'Look at the rig as at first', 'data-testid': 'camera-reset', onclick: () => { this.freed(); onReset(); } }, 'reset');
+    this.reset = h('button', { type: 'button', class: 'quiet', title: 'Look at the rig as at first', 'aria-label': 'Reset the camera', 'data-testid': 'camera-reset', onclick: () => { this.freed(); onReset(); } }, '⌂');
     const toggle = (/** @type {string} */ name, /** @type {boolean} */ standard) => {
       const box = h('input', { type: 'checkbox', 'data-testid': name, checked: (recall(name) ?? String(standard)) === 'true', onchange: () => { remember(name, String(box.checked)); onFlights(); } });
       return box;

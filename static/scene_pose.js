@@ -153,13 +153,20 @@ export function slotOf({ type, name, updates }) {
 /** @param {boolean | undefined} dark */
 const colors = (dark) => COLORS[dark ? "dark" : "light"];
 
+/** The ground's grid, and how dark shadows fall on it. */
+const GROUND = {
+  light: { cell_color: [196, 200, 206], section_color: [176, 181, 188], shadow_opacity: 0.3 },
+  dark: { cell_color: [66, 74, 84], section_color: [88, 97, 109], shadow_opacity: 0.6 },
+};
+
 /**
- * Returns the messages that give the drawing about the rig its colours.
+ * Returns the messages that give the ground and the drawing about the rig their colours.
  * @param {boolean} dark @returns {SceneMessage[]}
  */
 export function themeMessages(dark) {
   const { scale, pitch, yaw, stop, reference } = colors(dark);
   return [
+    change("/ground", GROUND[dark ? "dark" : "light"]),
     ...["/rig/scale", `${YOKE}/pitch_scale`].map((name) => change(name, { color: scale })),
     change(`${BODY}/pointer`, { color: pitch }),
     change(`${YOKE}/pointer`, { color: yaw }),

@@ -31,6 +31,7 @@ export class SceneView {
   #rests = false;
   #slow = false;
   /** The time that is held while the plots' cursor is elsewhere; null: it is not. @type {number|null} */ #held = null;
+  /** Where the plots' cursor is. @type {number|null} */ #peeked = null;
   /** @type {import('./scene.js').PlayerState} */ #last = { playing: false, time: 0, duration: 0, speed: 1, loop: false, ready: false, reason: '' };
   /** @type {unknown[]} */ #flown = [];
   /** @type {Record<string, import('./scene_cameras.js').RigView>|null} */ #views = null;
@@ -97,6 +98,8 @@ export class SceneView {
 
   /** Shows the rig at the plots' cursor, where time does not run, and where it was when the cursor has left. @param {number|null} t */
   peek(t) {
+    if (t === this.#peeked) return; // the plots share one cursor, and each tells of it
+    this.#peeked = t;
     if (this.player.playing) this.#held = null;
     else if (t !== null) {
       this.#held ??= this.player.time;

@@ -136,13 +136,13 @@ def ghost_body(rig: RigGeometry) -> Mesh:
     return merged([beam, *bands, nose_pointer(rig)])
 
 
-def ghost_label(rig: RigGeometry) -> tuple[float, float, float]:
-    """Return where a ghost's name stands in the body's frame (metres)."""
-    return (
-        rig.pitch_rotor.distance + rig.pitch_rotor.guard_radius,
-        0.0,
-        rig.pitch_rotor.guard_height + 0.055,
-    )
+def ghost_label(rig: RigGeometry, place: int) -> tuple[float, float, float]:
+    """Return where a ghost's name stands in the body's frame (metres).
+
+    Each place is higher than the one before, so that names of ghosts that fly together are apart.
+    """
+    nose = rig.pitch_rotor
+    return (nose.distance + nose.guard_radius, 0.0, nose.guard_height + 0.040 + 0.034 * place)
 
 
 def _haze(color: str, opacity: float) -> Material:

@@ -66,8 +66,8 @@ def yaw_scale(radius: float) -> Mesh:
         angle = -math.radians(degrees)
         pieces.append(stroke([(radius, 0.0), (radius + length, 0.0)], width).turned("z", angle))
         if major:
-            number = text(f"{degrees}°", 0.027).turned("z", math.pi / 2)
-            pieces.append(number.moved(x=radius + 0.042).turned("z", angle))
+            number = text(f"{degrees}°", 0.033).turned("z", math.pi / 2)
+            pieces.append(number.moved(x=radius + 0.046).turned("z", angle))
     return merged(pieces)
 
 

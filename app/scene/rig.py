@@ -111,11 +111,11 @@ def _build(server: ViserServer, rig: RigGeometry) -> None:
 
     # The page shows the reference's ghost where it differs from the pose, and others as asked.
     _ghost(server, rig, "/ghost", graphics.reference_yoke(rig), opacity=0.34)
-    for name in GHOSTS:
-        ghost = _ghost(server, rig, f"/ghosts/{name}", graphics.ghost_yoke(rig), opacity=0.5)
+    for place, name in enumerate(GHOSTS):
+        ghost = _ghost(server, rig, f"/ghosts/{name}", graphics.ghost_yoke(rig), opacity=0.56)
         ghost.wireframe = name == "linear"
         label = f"/ghosts/{name}/yoke/body/label"
-        scene.add_label(label, name, position=graphics.ghost_label(rig), anchor="bottom-center")
+        scene.add_label(label, name, position=graphics.ghost_label(rig, place), anchor="bottom-center")
 
     _light(server, rig)
     _frame(server, rig)

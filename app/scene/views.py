@@ -33,10 +33,10 @@ class RigView(TypedDict):
 
 def first_view(rig: RigGeometry) -> View:
     """Return the view in which the rig fills a small window and does not leave it."""
-    distance = 0.80 + 1.24 * rig.reach
+    distance = 0.98 + 0.98 * rig.reach
     return {
-        "position": (0.42 * distance, -0.96 * distance, rig.pivot_height + 0.30 * distance),
-        "look_at": (0.015, -0.01, 0.60 * rig.pivot_height),
+        "position": (0.36 * distance, -0.94 * distance, rig.pivot_height + 0.40 * distance),
+        "look_at": (-0.015, -0.01, 0.11 + 0.30 * rig.pivot_height),
         "fov": 0.62,
     }
 
