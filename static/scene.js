@@ -218,18 +218,16 @@ export class ScenePlayer {
 
   /** @param {Cause} cause */
   #changed(cause) {
-    this.#run();
+    this.#run(cause !== "load" || !this.playing); // a drag's responses come faster than frames
     this.#onTransport(this.#clock.snapshot(), cause);
   }
 
-  /** Shows where time stands: at once where it is held, in the next frame where it runs. */
-  #run() {
+  /** Asks for frames while time runs. @param {boolean} [atOnce] whether the pose is not left to the next one */
+  #run(atOnce = true) {
     cancelAnimationFrame(this.#request);
     if (this.playing) this.#request = requestAnimationFrame(this.#tick);
-    else {
-      this.#before = NaN;
-      this.#show();
-    }
+    else this.#before = NaN;
+    if (atOnce) this.#show();
     this.#report();
   }
 
