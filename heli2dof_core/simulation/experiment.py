@@ -36,8 +36,7 @@ def experiment(loop: Loop, limits: Limits | None, scenario: Scenario) -> Floats:
         stop = limits.theta
     volts = (0.0, 0.0) if disturbance is None else (disturbance.V_p, disturbance.V_y)
     fed = float(scenario.trim_feedforward)
-    reference, start = scenario.resolved(theta_0)
-    return np.array([*reference, *start, *bounds, stop, fed, windup, *back, *volts])
+    return np.array([*scenario.resolved(theta_0), *bounds, stop, fed, windup, *back, *volts])
 
 
 def _tracking(loop: Loop, tracking_time: float | None) -> list[float]:
