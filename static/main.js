@@ -46,7 +46,7 @@ const pins = new PinKeeper(store);
 
 const scene = new SceneView(byId('scene'), store, { onTime: (t) => plots.setTime(t) });
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t) });
-const projector = new Projector(plots);
+const projector = new Projector();
 const moving = [new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store)]; // what the hand moves
 const figures = [
   new HeaderPanel(byId('header'), store, address, { tour, projector }),

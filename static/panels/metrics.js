@@ -1,6 +1,6 @@
 /** How well it does, in figures: one column for the step of each axis, from the nonlinear rig; the linear model's in parentheses where they differ. */
 import { h, setAttr, setText, symbol } from '../dom.js';
-import { decibel, DEGREE, degrees, fixed, percent, seconds, significant } from '../format.js';
+import { brief, decibel, DEGREE, degrees, fixed, percent, seconds, significant } from '../format.js';
 import { differs } from '../limits_cost.js';
 import { recall, remember } from '../memory.js';
 import { say } from '../words.js';
@@ -132,7 +132,7 @@ export class MetricsPanel {
         const most = row.most?.(metrics);
         setText(own, most ?? row.text(value));
         const beside = showLinear && ideal !== undefined && (most !== undefined || differs(value, ideal, row.least));
-        setText(linear, beside ? `(${row.text(ideal).replace(/ [V%s]$/, '')})` : '');
+        setText(linear, beside ? `(${brief(row.text(ideal)).replace(/ [V%s]$/, '')})` : '');
         cell.classList.toggle('warn', most !== undefined);
       });
       const margin = reply.margins?.[axis === 'theta' ? 'pitch' : 'yaw'];
