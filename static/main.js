@@ -45,7 +45,7 @@ const address = new Address(store);
 const pins = new PinKeeper(store);
 
 const scene = new SceneView(byId('scene'), store, { onTime: (t) => plots.setTime(t) });
-const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t) });
+const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t), onPeek: (t) => scene.peek(t) });
 const projector = new Projector();
 const moving = [new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store)]; // what the hand moves
 const figures = [

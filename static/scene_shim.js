@@ -10,6 +10,8 @@
     "SetPositionMessage",
     "SetSceneNodeVisibilityMessage",
     "SceneNodeUpdateMessage",
+    "SetCameraPositionMessage",
+    "SetCameraLookAtMessage",
   ]);
   const framed = window.parent !== window;
 
