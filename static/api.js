@@ -58,6 +58,8 @@ function socketAddress(path) {
 }
 
 export const liveAddress = () => socketAddress('api/v1/live');
+/** @param {string} session */
+export const hubAddress = (session) => socketAddress(`scene/${encodeURIComponent(session)}/hub?page=true`);
 export const cloudAddress = () => socketAddress('api/v1/robustness');
 
 /**

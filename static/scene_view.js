@@ -51,8 +51,8 @@ export class SceneView {
   #last = { playing: false, time: 0, duration: 0, speed: 1, loop: false, ready: false, reason: '' };
   #calm = matchMedia('(prefers-reduced-motion: reduce)');
 
-  /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onTime: (t: number) => void}} handlers */
-  constructor(root, store, { onTime }) {
+  /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onTime: (t: number) => void, onTransport: NonNullable<ConstructorParameters<typeof ScenePlayer>[1]>['onTransport']}} handlers */
+  constructor(root, store, { onTime, onTransport }) {
     this.store = store;
     this.onTime = onTime;
     this.session = session();
@@ -74,7 +74,7 @@ export class SceneView {
       h('div', { class: 'transport' }, this.play, this.replay, this.time, this.clock, h('label', { class: 'check', title: 'Play again and again' }, this.loop, 'loop'),
         this.webgl ? h('label', { class: 'check', title: 'Draw the rig: switch it off where the graphics are slow' }, this.seen, '3D') : null));
     const target = this.webgl ? this.frame : /** @type {HTMLIFrameElement} */ (/** @type {unknown} */ ({ contentWindow: null }));
-    this.player = new ScenePlayer(target, { onFrame: (s) => this.#show(s), onState: (s) => this.#state(s) });
+    this.player = new ScenePlayer(target, { onFrame: (s) => this.#show(s), onState: (s) => this.#state(s), onTransport });
     if (this.webgl) this.#followTheme();
     this.#state(this.#last);
   }
