@@ -50,6 +50,15 @@ export const walkThrough = (design) => call('api/v1/walkthrough', { method: 'POS
 /** @param {string} session @param {string} rig */
 export const putRig = (session, rig) => call(`scene/${encodeURIComponent(session)}/rig`, { method: 'PUT', body: { rig } });
 
+/** The motion of a design as a file. @param {'html'|'viser'} format @param {unknown} design with scenario @returns {Promise<Blob>} */
+export async function recordMotion(format, design) {
+  const response = await fetch(at(`api/v1/recording?format=${format}`), { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(design) });
+  if (!response.ok) throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
+  return response.blob();
+}
+/** The rig in a window of its own. @param {string} session */
+export const windowAddress = (session) => at(`scene/${encodeURIComponent(session)}/`).href;
+
 /** @param {string} path */
 function socketAddress(path) {
   const url = at(path);

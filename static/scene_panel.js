@@ -2,7 +2,7 @@
  * What the panel beside the rig asks for, as changes of the design and of playing. The names are those of app/scene/panel.py. Pure.
  * @typedef {import('./types.js').Poles} Poles
  * @typedef {import('./types.js').Loops} Loops
- * @typedef {Record<string, number|boolean>} Edits
+ * @typedef {Record<string, number|boolean|string>} Edits
  */
 import { isComplex, LIMIT, setComplex, setMode, setReal } from './poles.js';
 
@@ -46,16 +46,14 @@ export function edited(design, edits) {
   return poles === design.poles && loops === design.loops ? design : { ...design, poles, loops };
 }
 
-/** What the edits do to playing. @param {{playing: boolean, play: () => void, pause: () => void, replay: () => void, setSpeed: (s: number) => void, setLoop: (l: boolean) => void}} player @param {Edits} edits */
+/** What the edits do to playing. @param {{play: () => void, pause: () => void, replay: () => void, setSpeed: (s: number) => void, setLoop: (l: boolean) => void}} player @param {Edits} edits */
 export function steer(player, edits) {
   const { speed, loop } = edits;
   if (typeof speed === 'number') player.setSpeed(speed);
   if (typeof loop === 'boolean') player.setLoop(loop);
-  if (edits.replay) player.replay();
-  else if (edits.toggle) {
-    if (player.playing) player.pause();
-    else player.play();
-  }
+  if (edits.play === 'Play') player.play();
+  else if (edits.play === 'Pause') player.pause();
+  else if (edits.play === 'Replay') player.replay();
 }
 
 /**

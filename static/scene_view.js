@@ -8,6 +8,7 @@ import { Choice } from './fields.js';
 import { degrees, fixed } from './format.js';
 import { putRig } from './api.js';
 import { ScenePlayer } from './scene.js';
+import { sceneMenu } from './scene_menu.js';
 import { motionOf } from './traces.js';
 
 const KEY = 'heli2dof-scene';
@@ -72,7 +73,7 @@ export class SceneView {
     this.seen = h('input', { type: 'checkbox', checked: true, 'data-testid': 'show-scene', onchange: () => this.#state(this.#last) });
     root.append(h('div', { class: 'stage' }, this.webgl ? this.frame : null, this.notice, hud, h('div', { class: 'motion' }, this.motion.node)),
       h('div', { class: 'transport' }, this.play, this.replay, this.time, this.clock, h('label', { class: 'check', title: 'Play again and again' }, this.loop, 'loop'),
-        this.webgl ? h('label', { class: 'check', title: 'Draw the rig: switch it off where the graphics are slow' }, this.seen, '3D') : null));
+        this.webgl ? h('label', { class: 'check', title: 'Draw the rig: switch it off where the graphics are slow' }, this.seen, '3D') : null, this.webgl ? sceneMenu(store, this.session) : null));
     const target = this.webgl ? this.frame : /** @type {HTMLIFrameElement} */ (/** @type {unknown} */ ({ contentWindow: null }));
     this.player = new ScenePlayer(target, { onFrame: (s) => this.#show(s), onState: (s) => this.#state(s), onTransport });
     if (this.webgl) this.#followTheme();

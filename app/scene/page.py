@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import gzip
 import hashlib
+import html
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -16,24 +17,29 @@ from fastapi import Request, Response
 
 _MARKER = "<title>Viser</title>"
 
-# In the page's frame, hides viser's panel (a bottom sheet in narrow windows), its notices and its logo;
-# everywhere lets the canvas stand on the page's own ground instead of on white.
-_STYLE = """
+# The canvas stands on the page's own ground instead of on white.
+_GROUND = """
 html, body { background: #eef0f2 radial-gradient(circle at 50% 38%, #fbfcfc, #e4e7ea) fixed; }
 html[data-theme=dark], html[data-theme=dark] body {
   background: #2a2f36 radial-gradient(circle at 50% 38%, #474e58, #24282e) fixed; }
 #root :has(canvas) { background: transparent !important; }
-html[data-place=frame] :is([data-floating-window], [data-dock-region], .mantine-Notifications-root,
-  .mantine-ScrollAreaAutosize-root, .mantine-Paper-root) { display: none !important; }
-.window-notes { position: fixed; left: 12px; top: 10px; z-index: 1; pointer-events: none;
+"""
+_NOTES = """
+.window-notes { position: fixed; left: 12px; top: 10px; max-width: calc(100vw - 24px); pointer-events: none;
   font: 15px/1.4 system-ui, sans-serif; font-variant-numeric: tabular-nums; color: #2b3138; }
 html[data-theme=dark] .window-notes { color: #e6e9ec; }
 .window-notes p { margin: 0; }
 .window-time { white-space: pre; }
 """
+# In the page's frame, viser's panel (a bottom sheet in narrow windows), its notices and its logo are hidden.
+_BARE = """
+html[data-place=frame] :is([data-floating-window], [data-dock-region], .mantine-Notifications-root,
+  .mantine-ScrollAreaAutosize-root, .mantine-Paper-root) { display: none !important; }
+.mantine-Notifications-root { top: auto !important; bottom: 0; }
+"""
 _INJECTED = (
     "<title>heli2dof: the rig</title>\n"
-    f"<style>{_STYLE}</style>\n"
+    f"<style>{_GROUND}{_NOTES}{_BARE}</style>\n"
     '<script src="../../static/scene_shim.js"></script>'
 )
 
@@ -80,3 +86,11 @@ class ViewerPage:
             headers["Content-Encoding"] = "gzip"
             return Response(self.compressed, media_type="text/html", headers=headers)
         return Response(self.body, media_type="text/html", headers=headers)
+
+
+def taken_away(page: str, title: str) -> str:
+    """Return viser's page with a recording in it, on our ground and under a title (plain text)."""
+    words = html.escape(title)
+    head = f"<title>{words}</title>\n<style>{_GROUND}{_NOTES}</style>"
+    note = f'<div class="window-notes">{words}</div>'
+    return page.replace(_MARKER, head, 1).replace("</body>", f"{note}</body>", 1)

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any
 
 from viser import (
-    GuiButtonHandle,
+    GuiButtonGroupHandle,
     GuiCheckboxHandle,
     GuiDropdownHandle,
     GuiEvent,
@@ -25,11 +25,12 @@ from heli2dof_core.signals import INPUTS, STATES, Signal
 from .hub import Design, Shown, Transport
 
 SPEEDS = {"¼×": 0.25, "½×": 0.5, "1×": 1.0, "2×": 2.0, "4×": 4.0}
+PLAY = ("Play", "Pause", "Replay")
 _REAL, _IMAGINARY = (-20.0, 2.0), (0.0, 20.0)
-_KP, _TI = (0.0, 200.0), (0.01, 5.0)
+_KP, _TI = (0.0, 100.0), (0.01, 2.0)
 _SUBSCRIPTS = "₁₂₃₄"
 
-Input = GuiSliderHandle[float] | GuiCheckboxHandle | GuiDropdownHandle[Any] | GuiButtonHandle
+Input = GuiSliderHandle[float] | GuiCheckboxHandle | GuiDropdownHandle[Any] | GuiButtonGroupHandle
 
 
 class Panel:
@@ -55,11 +56,9 @@ class Panel:
             return None
         value = updates["value"]
         match known:
-            case GuiButtonHandle():
-                right = value is True
             case GuiCheckboxHandle():
                 right = isinstance(value, bool)
-            case GuiDropdownHandle():
+            case GuiDropdownHandle() | GuiButtonGroupHandle():
                 right = isinstance(value, str) and value in known.options
             case _:
                 right = (
@@ -117,8 +116,7 @@ class Panel:
         gui = self._server.gui
         gui.set_panel_label("heli2dof")
         with gui.add_folder("Motion"):
-            self._add("toggle", gui.add_button("Play / pause"))
-            self._add("replay", gui.add_button("Replay"))
+            self._add("play", gui.add_button_group("Play", PLAY))
             self._add("speed", gui.add_dropdown("Speed", [*SPEEDS], initial_value="1×"))
             self._add("loop", gui.add_checkbox("Loop", initial_value=False))
         for pair, first in (("pitch", 0), ("yaw", 2)):
@@ -150,10 +148,10 @@ class Panel:
         async def said(event: GuiEvent[Any]) -> None:
             if event.client_id is None:
                 return  # set by us, not by a visitor
-            value: Any = True if isinstance(event.target, GuiButtonHandle) else event.target.value
+            value: Any = event.target.value
             self._wished({name: SPEEDS[value] if name == "speed" else value})
 
-        if isinstance(handle, GuiButtonHandle):
+        if isinstance(handle, GuiButtonGroupHandle):
             handle.on_click(said)
         else:
             handle.on_update(said)
