@@ -45,7 +45,7 @@ const stats = new Stats();
 const address = new Address(store);
 const pins = new PinKeeper(store);
 
-const scene = new SceneView(byId('scene'), store, { onTime: (t) => plots.setTime(t), onTransport: (snapshot, cause) => sharing.run(snapshot, cause) });
+const scene = new SceneView(byId('scene'), store, { onTime: (t) => { plots.setTime(t); sharing.correct(); }, onTransport: (snapshot, cause) => sharing.run(snapshot, cause) });
 const sharing = new SceneSharing(store, scene);
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t) });
 const projector = new Projector(plots);

@@ -154,7 +154,7 @@ export class ScenePlayer {
       return;
     }
     this.#clock.apply(snapshot, elapsed);
-    this.#before = NaN;
+    this.#before = performance.now();
     this.#run();
   }
 

@@ -6,6 +6,7 @@
 import { hubAddress } from './api.js';
 import { Hub } from './hub.js';
 import { edited, shownOf, steer } from './scene_panel.js';
+import { InStep } from './scene_step.js';
 import { evaluationOf } from './store.js';
 import { motionOf } from './traces.js';
 
@@ -13,29 +14,29 @@ export class SceneSharing {
   /** How many of the panel's messages each design contains. @type {WeakMap<object, number>} */ #counts = new WeakMap();
   #count = 0;
   /** @type {unknown} */ #told = null;
-  /** How time ran, and when that was, ms. @type {{snapshot: import('./scene_clock.js').Snapshot, since: number}|null} */ #last = null;
   #calm = matchMedia('(prefers-reduced-motion: reduce)');
 
   /** @param {import('./store.js').Store} store @param {import('./scene_view.js').SceneView} scene */
   constructor(store, scene) {
     this.store = store;
     this.scene = scene;
+    this.step = new InStep(scene.player);
     this.hub = new Hub({
       open: () => new WebSocket(hubAddress(scene.session)),
       onShown: () => {}, // the page has the design
-      onTransport: (snapshot, elapsed) => this.#follow(snapshot, elapsed),
+      onTransport: (snapshot, elapsed) => this.step.follow(snapshot, elapsed),
       onEdits: (edits, count) => this.#edit(edits, count),
       onWindows: (windows) => this.#windows(windows),
     });
     store.addEventListener('design', () => this.store.state.design && this.#counts.set(this.store.state.design, this.#count));
     store.addEventListener('change', () => this.#show());
-    document.addEventListener('visibilitychange', () => document.hidden || this.#catchUp());
+    document.addEventListener('visibilitychange', () => this.correct());
   }
 
   /** @param {import('./scene_clock.js').Snapshot} snapshot @param {import('./scene.js').Cause} cause */
   run(snapshot, cause) {
     if (cause === 'load') return; // each window loads by itself and stays where it is
-    this.#last = { snapshot, since: performance.now() };
+    this.step.keep(snapshot);
     this.hub.run(snapshot);
   }
 
@@ -49,15 +50,9 @@ export class SceneSharing {
     this.run(this.scene.player.snapshot(), 'play');
   }
 
-  /** @param {import('./scene_clock.js').Snapshot} snapshot @param {number} elapsed s */
-  #follow(snapshot, elapsed) {
-    this.#last = { snapshot, since: performance.now() - 1000 * elapsed };
-    this.scene.player.follow(snapshot, elapsed);
-  }
-
-  /** A hidden page's time stands still; the others' went on. */
-  #catchUp() {
-    if (this.hub.others && this.#last) this.scene.player.follow(this.#last.snapshot, (performance.now() - this.#last.since) / 1000);
+  /** A hidden page's time stands still, and a slow one's; the others' went on. */
+  correct() {
+    if (this.hub.others) this.step.correct();
   }
 
   /** @param {Record<string, any>} edits @param {number} count */
@@ -70,7 +65,7 @@ export class SceneSharing {
       this.#told = null; // what was refused goes back to what it is
       this.#show();
     }
-    if (document.hidden) this.#catchUp();
+    this.correct();
     steer(this.scene.player, edits);
   }
 

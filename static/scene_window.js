@@ -8,6 +8,7 @@ import { degrees, fixed } from './format.js';
 import { Hub } from './hub.js';
 import { ScenePlayer } from './scene.js';
 import { edited, shownOf, steer, trajectoryIn } from './scene_panel.js';
+import { InStep } from './scene_step.js';
 import { designOf, evaluationOf } from './store.js';
 import { motionOf } from './traces.js';
 
@@ -34,14 +35,18 @@ class SceneWindow {
     this.time = h('output', { class: 'window-time', 'data-testid': 'window-time' });
     document.body.append(h('div', { class: 'window-notes' }, this.words, this.time));
     this.player = new ScenePlayer(/** @type {any} */ ({ contentWindow: window }), {
-      onFrame: ({ t, theta, psi }) => setText(this.time, `${fixed(t, 2)} s   θ ${degrees(theta)}   ψ ${degrees(psi)}`),
-      onTransport: (snapshot, cause) => cause !== 'load' && this.hub.run(snapshot),
+      onFrame: ({ t, theta, psi }) => {
+        setText(this.time, `${fixed(t, 2)} s   θ ${degrees(theta)}   ψ ${degrees(psi)}`);
+        this.step.correct();
+      },
+      onTransport: (snapshot, cause) => cause !== 'load' && this.#run(snapshot),
     });
+    this.step = new InStep(this.player);
     this.hub = new Hub({
       open: () => new WebSocket(socketAddress('hub', new URL('./', location.href))),
       always: true,
       onShown: (shown) => this.#show(shown),
-      onTransport: (snapshot, elapsed) => this.player.follow(snapshot, elapsed),
+      onTransport: (snapshot, elapsed) => this.step.follow(snapshot, elapsed),
       onEdits: (edits, count) => this.#edit(edits, count),
       onWindows: (windows) => this.#windows(windows),
     });
@@ -49,6 +54,13 @@ class SceneWindow {
     const tell = () => this.player.setTheme(dark.matches);
     dark.addEventListener('change', tell);
     tell();
+    document.addEventListener('visibilitychange', () => this.step.correct());
+  }
+
+  /** @param {import('./scene_clock.js').Snapshot} snapshot */
+  #run(snapshot) {
+    this.step.keep(snapshot);
+    this.hub.run(snapshot);
   }
 
   /** @param {any} shown */

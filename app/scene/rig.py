@@ -7,6 +7,7 @@ Nodes that the page moves: /rig/yoke (ψ), /rig/yoke/body (θ), its pitch_rotor 
 from __future__ import annotations
 
 import functools
+import logging
 
 import rich
 from viser import GlbHandle, ViserServer
@@ -38,6 +39,13 @@ class RigServer(ViserServer):
 
     def disconnect_share_url(self) -> None:
         """Do nothing: there never is a tunnel."""
+
+    def stop(self) -> None:
+        """Stop, and take back what viser hangs into the logger of its sockets, one filter a server."""
+        super().stop()
+        logger = logging.getLogger("websockets.server")
+        for extra in [f for f in logger.filters if type(f).__module__.startswith("viser.")][:-1]:
+            logger.removeFilter(extra)
 
     def show(self, rig: RigName) -> None:
         """Replace all nodes by those of the named rig, in one atomic change."""

@@ -70,7 +70,7 @@ def field(window: Page, label: str) -> Callable[[], float]:
     return lambda: float(panel_input(window, label).input_value())
 
 
-def panel_input(window: Page, label: str):  # noqa: ANN201
+def panel_input(window: Page, label: str):
     row = window.locator("[data-floating-window], [data-dock-region]").get_by_text(label, exact=True)
     return row.locator("xpath=ancestor::*[.//input[@type='text' or @inputmode]][1]//input").last
 
@@ -107,7 +107,9 @@ def test_panel_moves_the_page_and_the_page_the_panel(page: Page, app: App):
         shows(window, "p₁", poles(page)[0])
         panel_input(window, "p₁").fill("-6.5")
         panel_input(window, "p₁").press("Enter")
-        page.wait_for_function("() => JSON.parse(document.documentElement.dataset.state).poles[0].re === -6.5")
+        page.wait_for_function(
+            "() => JSON.parse(document.documentElement.dataset.state).poles[0].re === -6.5"
+        )
         settled(page)
         gain = f"{state(page)['K'][0][0]:.4g}"
         window.wait_for_selector(f"td:has-text('{gain}')")
@@ -135,7 +137,9 @@ def test_panel_works_on_where_the_page_has_gone(page: Page, app: App):
         before = window.locator("table td").nth(1).inner_text()
         panel_input(window, "p₁").fill("-5")
         panel_input(window, "p₁").press("Enter")
-        window.wait_for_function("before => document.querySelectorAll('table td')[1].innerText !== before", arg=before)
+        window.wait_for_function(
+            "before => document.querySelectorAll('table td')[1].innerText !== before", arg=before
+        )
 
 
 def test_two_sessions_stay_apart(page: Page, app: App, chromium: Browser):
@@ -148,7 +152,9 @@ def test_two_sessions_stay_apart(page: Page, app: App, chromium: Browser):
         shows(other, "p₁", -12)
         panel_input(window, "p₁").fill("-6.5")
         panel_input(window, "p₁").press("Enter")
-        page.wait_for_function("() => JSON.parse(document.documentElement.dataset.state).poles[0].re === -6.5")
+        page.wait_for_function(
+            "() => JSON.parse(document.documentElement.dataset.state).poles[0].re === -6.5"
+        )
         seek(page, 0.0)
         stands_at(window, 0.0, 0.0)
         panel_input(other, "p₂").fill("-4.5")
