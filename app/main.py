@@ -52,6 +52,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(recording.build_router(compute))
     app.include_router(live.build_router(compute))
     app.include_router(robustness.build_router(compute))
+    app.include_router(scene.build_views_router())
     app.include_router(scene.build_router(sessions))
     app.mount("/static", RevalidatedFiles(directory=settings.static), name="static")
     problems.install(app)

@@ -49,6 +49,8 @@ export const getPaper = () => call('api/v1/paper');
 export const walkThrough = (design) => call('api/v1/walkthrough', { method: 'POST', body: design });
 /** @param {string} session @param {string} rig */
 export const putRig = (session, rig) => call(`scene/${encodeURIComponent(session)}/rig`, { method: 'PUT', body: { rig } });
+/** What cameras need to know of each rig. @returns {Promise<Record<string, import('./scene_cameras.js').RigView>>} */
+export const getRigViews = () => call('scene/rigs');
 
 /** The motion of a design as a file. @param {'html'|'viser'} format @param {unknown} design with scenario @returns {Promise<Blob>} */
 export async function recordMotion(format, design) {

@@ -47,7 +47,7 @@ const pins = new PinKeeper(store);
 
 const scene = new SceneView(byId('scene'), store, { onTime: (t) => { plots.setTime(t); sharing.correct(); }, onTransport: (snapshot, cause) => sharing.run(snapshot, cause) });
 const sharing = new SceneSharing(store, scene);
-const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t) });
+const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t), onPeek: (t) => scene.peek(t) });
 const projector = new Projector(plots);
 const moving = [new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store)]; // what the hand moves
 const figures = [

@@ -1,10 +1,17 @@
 // The page's side of the scene: plays a trajectory in real time and moves the rig's nodes.
+import { cameraMessages, cameraPose } from "./scene_cameras.js";
 import { SceneClock } from "./scene_clock.js";
-import { interpolate, poseMessages, rotorAngles, sampleTrajectory } from "./scene_pose.js";
+import { ghostMessages } from "./scene_ghosts.js";
+import { SceneLink } from "./scene_link.js";
+import { interpolate, poseMessages, rotorAngles, sampleTrajectory, themeMessages } from "./scene_pose.js";
 
 /** @typedef {import("./scene_pose.js").Trajectory} Trajectory */
 /** @typedef {import("./scene_pose.js").Sample} Sample */
+/** @typedef {import("./scene_pose.js").Limits} Limits */
 /** @typedef {import("./scene_clock.js").Snapshot} Snapshot */
+/** @typedef {import("./scene_ghosts.js").Flight} Flight */
+/** @typedef {import("./scene_cameras.js").CameraName} CameraName */
+/** @typedef {import("./scene_cameras.js").RigView} RigView */
 /** @typedef {"load" | "play" | "pause" | "restart" | "seek" | "speed" | "loop"} Cause */
 
 /**
@@ -18,7 +25,6 @@ import { interpolate, poseMessages, rotorAngles, sampleTrajectory } from "./scen
  * @property {string} reason why it does not, where the server said so
  */
 
-const CHANNEL = "heli2dof-scene";
 /** Longest step of the clock in seconds: a stalled page goes on where it was. */
 const LONGEST_STEP = 1;
 
@@ -33,17 +39,15 @@ export class ScenePlayer {
    *   this page has changed how time runs, so that other windows can follow; not while it just runs
    */
   constructor(iframe, { onFrame = () => {}, onState = () => {}, onTransport = () => {} } = {}) {
-    this.#iframe = iframe;
     this.#onFrame = onFrame;
     this.#onState = onState;
     this.#onTransport = onTransport;
-    window.addEventListener("message", this.#listen);
     document.addEventListener("visibilitychange", this.#visibility);
-    this.#post({ kind: "hello" }); // The scene may have been ready before the player.
+    this.#link = new SceneLink(iframe, { onRebuilt: () => this.#retell(), onState: () => this.#report() });
   }
 
-  /** @type {HTMLIFrameElement} */
-  #iframe;
+  /** @type {SceneLink} */
+  #link;
   /** @type {(sample: Sample) => void} */
   #onFrame;
   /** @type {(state: PlayerState) => void} */
@@ -55,10 +59,14 @@ export class ScenePlayer {
   #trajectory = null;
   /** @type {{pitch: Float64Array, yaw: Float64Array}} */
   #angles = { pitch: new Float64Array(0), yaw: new Float64Array(0) };
-  #ready = false;
-  /** Whether the scene holds the rig's nodes: also while its connection is lost. */
-  #drawn = false;
-  #reason = "";
+  /** @type {Limits} */
+  #limits = {};
+  /** @type {Flight[]} */
+  #flights = [];
+  /** @type {CameraName} */
+  #camera = "free";
+  /** @type {RigView | null} */
+  #view = null;
   /** @type {boolean | null} */
   #dark = null;
   /** The last frame's time in milliseconds; NaN where time has not run since. */
@@ -66,8 +74,6 @@ export class ScenePlayer {
   #request = 0;
   /** @type {{snapshot: Snapshot, since: number} | null} What was to be followed before there was a trajectory. */
   #awaited = null;
-  /** @type {Map<string, string>} What each node was told last. */
-  #sent = new Map();
 
   /** Seconds since the step. */
   get time() {
@@ -161,14 +167,52 @@ export class ScenePlayer {
   /** @param {boolean} dark whether the scene stands on a dark ground */
   setTheme(dark) {
     this.#dark = dark;
-    this.#post({ kind: "theme", dark });
+    this.#link.post({ kind: "theme", dark });
+    this.#link.send(themeMessages(dark));
+    this.#move();
+  }
+
+  /** @param {Limits} limits what the motors give at most and where pitch stops */
+  setLimits(limits) {
+    this.#limits = limits;
+    this.#move();
+  }
+
+  /** @param {Flight[]} flights who flies beside the rig */
+  setFlights(flights) {
+    this.#flights = flights;
+    this.#move();
+  }
+
+  /** @param {RigView} view what cameras need to know of the rig that is shown: another rig is looked at as at first */
+  setView(view) {
+    const other = this.#view !== null && view !== this.#view;
+    this.#view = view;
+    this.#aim(other && this.#camera === "free" ? "home" : this.#camera, true);
+  }
+
+  /** @param {CameraName} camera where the rig is looked at from, from now on */
+  setCamera(camera) {
+    this.#camera = camera;
+    this.#aim(camera, true);
+  }
+
+  /** Looks at the rig as at first, and leaves the camera to the viewer. */
+  resetCamera() {
+    this.#camera = "free";
+    this.#aim("home", true);
+  }
+
+  /** Looks from where it was to be looked from in a picture of another shape. */
+  resized() {
+    this.#aim(this.#camera, true);
   }
 
   /** Stops and lets go of the page's events. */
   destroy() {
     this.#clock.pause();
     cancelAnimationFrame(this.#request);
-    window.removeEventListener("message", this.#listen);
+    this.#link.destroy();
     document.removeEventListener("visibilitychange", this.#visibility);
   }
 
@@ -204,22 +248,20 @@ export class ScenePlayer {
     this.#before = NaN;
   };
 
-  /** @param {MessageEvent} event */
-  #listen = (event) => {
-    const ours = event.source === this.#iframe.contentWindow && event.origin === location.origin;
-    if (!ours || event.data?.channel !== CHANNEL || event.data.state === undefined) return;
-    const { state, reason } = event.data;
-    this.#ready = state === "ready";
-    this.#drawn = this.#ready || (this.#drawn && state === "closed");
-    this.#reason = reason ?? "";
-    // The scene was built anew and has forgotten what it was told.
-    if (this.#ready) {
-      this.#sent.clear();
-      if (this.#dark !== null) this.setTheme(this.#dark);
-      this.#move();
-    }
-    this.#report();
-  };
+  /** Tells a scene that was built anew all that it has to know. */
+  #retell() {
+    if (this.#dark !== null) this.setTheme(this.#dark);
+    else this.#move();
+    this.#aim(this.#camera, true);
+  }
+
+  /** @param {CameraName | "home"} camera @param {boolean} again also where the viewer has moved it since */
+  #aim(camera, again) {
+    const psi = this.#trajectory === null ? 0 : sampleTrajectory(this.#trajectory, this.time).psi;
+    const aspect = this.#link.aspect || undefined;
+    const pose = this.#view && cameraPose(camera, this.#view, { aspect, psi });
+    if (pose) this.#link.send(cameraMessages(pose), { again });
+  }
 
   #show() {
     if (this.#trajectory === null) return;
@@ -230,28 +272,18 @@ export class ScenePlayer {
   /** Sends the pose at the present time, as far as the scene does not show it already. */
   #move() {
     const trajectory = this.#trajectory;
-    if (trajectory === null || !this.#drawn) return;
+    if (trajectory === null) return;
     const sample = sampleTrajectory(trajectory, this.time);
     const { pitch, yaw } = this.#angles;
     const [pitchRotor, yawRotor] = interpolate(trajectory.t, [pitch, yaw], this.time);
-    const pose = { ...sample, pitchRotor, yawRotor, reference: trajectory.reference };
-    const messages = poseMessages(pose).filter((message) => {
-      const key = `${message.type} ${message.name}`;
-      const value = JSON.stringify(message);
-      if (this.#sent.get(key) === value) return false;
-      this.#sent.set(key, value);
-      return true;
-    });
-    if (messages.length > 0) this.#post({ kind: "pose", messages });
-  }
-
-  /** @param {object} message */
-  #post(message) {
-    this.#iframe.contentWindow?.postMessage({ channel: CHANNEL, ...message }, location.origin);
+    const { reference } = trajectory;
+    const pose = { ...sample, pitchRotor, yawRotor, reference, limits: this.#limits, dark: this.#dark === true };
+    this.#link.send([...poseMessages(pose), ...ghostMessages(this.#flights, this.time)]);
+    if (this.#camera === "follow") this.#aim("follow", false);
   }
 
   #report() {
     const { playing, time, duration, speed, loop } = this.#clock;
-    this.#onState({ playing, time, duration, speed, loop, ready: this.#ready, reason: this.#reason });
+    this.#onState({ playing, time, duration, speed, loop, ready: this.#link.ready, reason: this.#link.reason });
   }
 }

@@ -63,7 +63,7 @@ export function steer(player, edits) {
  */
 export function shownOf(request, reply, motion, more) {
   const series = Object.fromEntries(/** @type {const} */ (['t', 'theta', 'psi', 'V_p', 'V_y']).map((name) => [name, Float32Array.from(motion[name])]));
-  return { design: request, K: reply.gains.K, ...more, trajectory: { ...series, reference: motion.reference } };
+  return { design: request, K: reply.gains.K, limits: reply.limits, ...more, trajectory: { ...series, reference: motion.reference } };
 }
 
 /** A trajectory from another window, if it is one. @param {any} shown @returns {import('./scene_pose.js').Trajectory|null} */

@@ -35,7 +35,7 @@ export class SceneSharing {
 
   /** @param {import('./scene_clock.js').Snapshot} snapshot @param {import('./scene.js').Cause} cause */
   run(snapshot, cause) {
-    if (cause === 'load') return; // each window loads by itself and stays where it is
+    if (cause === 'load' && this.step.expects(snapshot.time)) return; // each window loads by itself and stays where it is
     this.step.keep(snapshot);
     this.hub.run(snapshot);
   }

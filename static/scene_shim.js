@@ -11,6 +11,8 @@
     "SetPositionMessage",
     "SetSceneNodeVisibilityMessage",
     "SceneNodeUpdateMessage",
+    "SetCameraPositionMessage",
+    "SetCameraLookAtMessage",
   ]);
   const framed = window.parent !== window;
   document.documentElement.dataset.place = framed ? "frame" : "window";

@@ -29,14 +29,18 @@ export class InStep {
 
   /** Puts the player where it should be, if it is elsewhere. @returns {boolean} whether it was */
   correct() {
+    if (!this.#last || this.expects(this.player.time)) return false;
+    this.player.follow(this.#last.snapshot, this.now() - this.#last.since);
+    return true;
+  }
+
+  /** Whether the others believe that time stands about there. @param {number} time */
+  expects(time) {
     if (!this.#last) return false;
     const { snapshot, since } = this.#last;
-    const elapsed = this.now() - since;
     const clock = new SceneClock();
     clock.setDuration(this.player.duration);
-    clock.apply(snapshot, elapsed);
-    if (Math.abs(clock.time - this.player.time) <= TOLERATED * clock.speed) return false;
-    this.player.follow(snapshot, elapsed);
-    return true;
+    clock.apply(snapshot, this.now() - since);
+    return Math.abs(clock.time - time) <= TOLERATED * clock.speed;
   }
 }

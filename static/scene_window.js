@@ -34,12 +34,13 @@ class SceneWindow {
     this.words = h('p', { class: 'window-words', role: 'status', 'data-testid': 'window-words' }, 'Waiting for the page that this scene belongs to…');
     this.time = h('output', { class: 'window-time', 'data-testid': 'window-time' });
     document.body.append(h('div', { class: 'window-notes' }, this.words, this.time));
-    this.player = new ScenePlayer(/** @type {any} */ ({ contentWindow: window }), {
+    const frame = { contentWindow: window, get clientWidth() { return innerWidth; }, get clientHeight() { return innerHeight; } };
+    this.player = new ScenePlayer(/** @type {any} */ (frame), {
       onFrame: ({ t, theta, psi }) => {
         setText(this.time, `${fixed(t, 2)} s   θ ${degrees(theta)}   ψ ${degrees(psi)}`);
         this.step.correct();
       },
-      onTransport: (snapshot, cause) => cause !== 'load' && this.#run(snapshot),
+      onTransport: (snapshot, cause) => this.#run(snapshot, cause),
     });
     this.step = new InStep(this.player);
     this.hub = new Hub({
@@ -57,8 +58,9 @@ class SceneWindow {
     document.addEventListener('visibilitychange', () => this.step.correct());
   }
 
-  /** @param {import('./scene_clock.js').Snapshot} snapshot */
-  #run(snapshot) {
+  /** @param {import('./scene_clock.js').Snapshot} snapshot @param {import('./scene.js').Cause} cause */
+  #run(snapshot, cause) {
+    if (cause === 'load' && (!this.step || !this.#alone || this.step.expects(snapshot.time))) return;
     this.step.keep(snapshot);
     this.hub.run(snapshot);
   }
@@ -74,6 +76,7 @@ class SceneWindow {
 
   /** @param {import('./scene_pose.js').Trajectory} trajectory */
   #load(trajectory) {
+    this.player.setLimits(this.#shown.limits ?? {});
     this.player.load(trajectory, { keepTime: true });
     this.words.hidden = true;
   }
