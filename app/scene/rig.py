@@ -57,11 +57,22 @@ class RigServer(ViserServer):
         """Do nothing: there never is a tunnel."""
 
     def stop(self) -> None:
-        """Stop, and take back what viser hangs into the logger of its sockets, one filter a server."""
+        """Stop, and let go of everything at once; a stopped server is good for nothing.
+
+        Its parts refer to one another. Left to the collector of cycles, which looks at old objects
+        seldom, the scenes of a hundred sessions would lie about. viser also hangs a filter into the
+        logger of its sockets for each server and leaves it there.
+        """
+        if "scene" not in vars(self):
+            return
         super().stop()
         logger = logging.getLogger("websockets.server")
         for extra in [f for f in logger.filters if type(f).__module__.startswith("viser.")][:-1]:
             logger.removeFilter(extra)
+        for part in list(vars(self).values()):
+            if type(part).__module__.startswith("viser.") and hasattr(part, "__dict__"):
+                vars(part).clear()
+        vars(self).clear()
 
     def show(self, rig: RigName) -> None:
         """Replace all nodes by those of the named rig, in one atomic change."""

@@ -233,13 +233,15 @@ async def phase(
         await asyncio.gather(
             *(drag.run(server, seconds, k / (RATE * clients)) for k, drag in enumerate(drags))
         )
-        share = (server.processor() - before) / (perf_counter() - began)
+        spent = server.processor() - before
+        share = spent / (perf_counter() - began)
         standing = server.standing()
     took = 1e3 * np.array([t for drag in drags for t in drag.took])
     asked = sum(len(drag.asked) for drag in drags)
     print(
         f"{title:42} p50 {np.median(took):7.1f} ms  p99 {np.quantile(took, 0.99):7.1f} ms  "
-        f"answered {len(took) / asked:4.0%}  processor {100 * share:5.1f} %  {standing}",
+        f"answered {len(took) / asked:4.0%}  processor {100 * share:5.1f} %, {1e3 * spent / len(took):5.2f} ms each  "
+        f"{standing}",
         flush=True,
     )
 
@@ -278,8 +280,9 @@ async def main(server: Server, seconds: float, clients: int) -> None:
     await freed(server)
     await come_and_go(server, WAVE, 1000)
     print(f"{'before the sessions':42} {server.standing()}", flush=True)
-    await come_and_go(server, SESSIONS, 2000)
-    print(f"{f'after {SESSIONS} sessions came and went':42} {server.standing()}", flush=True)
+    for k in (1, 2):
+        await come_and_go(server, SESSIONS, 1000 * (k + 1))
+        print(f"{f'after {k * SESSIONS} sessions came and went':42} {server.standing()}", flush=True)
 
 
 if __name__ == "__main__":
