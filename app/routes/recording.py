@@ -14,7 +14,8 @@ from heli2dof_core.spec import Model
 from ..compute import Compute
 from ..models import described
 from ..requests import StepRequest
-from ..scene.recording import Format, Motion, record
+from ..scene.poses import Motion
+from ..scene.recording import Format, record
 
 MOST_WAITING = 8
 _TYPES: dict[Format, str] = {"html": "text/html; charset=utf-8", "viser": "application/octet-stream"}
@@ -57,7 +58,8 @@ def _motion(spec: Spec, model: Model) -> Motion:
     response = simulate(close_loop(place(spec), spec.outer), spec, model).response
     theta, psi = response.angles
     V_p, V_y = response.voltages
-    return Motion(response.t, theta, psi, V_p, V_y, response.reference)
+    limits = (spec.limits.V_p, spec.limits.V_y, spec.limits.theta)
+    return Motion(response.t, theta, psi, V_p, V_y, response.reference, limits)
 
 
 def _title(rig: str, spec: Spec) -> str:

@@ -154,14 +154,31 @@ def name(k: int) -> str:
     return f"session-{os.getpid()}-{k}".ljust(24, "_")
 
 
+received = 0
+"""Frames of scenes, counted to know when every viewer has its whole scene."""
+
+
 async def viewer(stack: AsyncExitStack, server: Server, session: str) -> None:
     """A browser's view of a scene: drains it, and orbits once a second."""
+
+    async def count(_: str | bytes) -> None:
+        global received  # noqa: PLW0603
+        received += 1
+
     url = server.socket(session)
     socket = await stack.enter_async_context(
         connect(url, subprotocols=[VISER], compression=None, max_size=None)
     )
-    tasks = [asyncio.create_task(drain(socket)), asyncio.create_task(orbit(socket))]
+    tasks = [asyncio.create_task(drain(socket, count)), asyncio.create_task(orbit(socket))]
     stack.callback(lambda: [task.cancel() for task in tasks])
+
+
+async def quiet() -> None:
+    """Waits until no viewer has been sent anything for a while."""
+    last = -1
+    while received != last:
+        last = received
+        await asyncio.sleep(1.5)
 
 
 async def orbit(socket: ClientConnection) -> None:
@@ -228,7 +245,7 @@ async def phase(
             await page(stack, server, name(k), drag)
             if windows:
                 await window(stack, server, name(k))
-        await asyncio.sleep(1.0)
+        await quiet()
         before, began = server.processor(), perf_counter()
         await asyncio.gather(
             *(drag.run(server, seconds, k / (RATE * clients)) for k, drag in enumerate(drags))
