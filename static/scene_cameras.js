@@ -39,14 +39,14 @@ export function cameraPose(name, rig, { aspect = 1.25, psi = 0 } = {}) {
     return { position: [d, 0, middle + 0.30 * d], lookAt: [0, 0, 0.9 * middle] };
   }
   if (name === "side") {
-    const d = away(outer, tall) + 0.35 * outer;
+    const d = away(outer, tall) + 0.65 * outer;
     return { position: [0, -d, middle + 0.10 * d], lookAt: [0, 0, middle] };
   }
   if (name === "top") {
     // A little to the rear, as from straight above no direction is up.
     return { position: [-1e-3, 0, pivot + away(outer, outer)], lookAt: [0, 0, 0] };
   }
-  const d = away(outer, tall) + 0.35 * outer;
+  const d = away(outer, tall) + 0.8 * outer;
   const [x, y, z] = [-0.42 * d, -0.88 * d, middle + 0.30 * d];
   const [c, s] = [Math.cos(psi), Math.sin(psi)];
   return { position: [c * x + s * y, c * y - s * x, z], lookAt: [0, 0, middle] };

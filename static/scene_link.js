@@ -39,9 +39,15 @@ export class SceneLink {
     return this.#iframe.clientWidth / this.#iframe.clientHeight;
   }
 
-  /** @param {object} message */
+  /**
+   * At once rather than by postMessage: the frame's own animation callbacks come after the page's in
+   * each frame, so that the scene draws a pose in the frame that it was sampled for.
+   * @param {object} message
+   */
   post(message) {
-    this.#iframe.contentWindow?.postMessage({ channel: CHANNEL, ...message }, location.origin);
+    const data = { channel: CHANNEL, ...message };
+    const { origin } = location;
+    this.#iframe.contentWindow?.dispatchEvent(new MessageEvent("message", { data, origin, source: window }));
   }
 
   /**

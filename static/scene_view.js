@@ -145,7 +145,7 @@ export class SceneView {
   /** A response: the first plays from its start, as does a drag's, which goes on with each that follows. @param {import('./types.js').Step} step */
   #load(step) {
     const first = this.#loaded === null;
-    const afresh = first || this.#fresh;
+    const afresh = first || (this.#fresh && !this.#calm.matches);
     this.#loaded = step;
     this.#fresh = false;
     this.player.load(step, { keepTime: !afresh });
