@@ -160,7 +160,7 @@ export class ScenePlayer {
       return;
     }
     this.#clock.apply(snapshot, elapsed);
-    this.#before = performance.now();
+    this.#before = NaN;
     this.#run();
   }
 

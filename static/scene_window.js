@@ -29,6 +29,7 @@ class SceneWindow {
   #seq = 0;
   #count = 0;
   #alone = false;
+  /** @type {string|null} The rig that the camera was aimed at. */ #aimed = null;
 
   constructor() {
     this.words = h('p', { class: 'window-words', role: 'status', 'data-testid': 'window-words' }, 'Waiting for the page that this scene belongs to…');
@@ -79,6 +80,16 @@ class SceneWindow {
     this.player.setLimits(this.#shown.limits ?? {});
     this.player.load(trajectory, { keepTime: true });
     this.words.hidden = true;
+    if (this.#shown.rig !== this.#aimed) this.#aim(this.#shown.rig);
+  }
+
+  /** Looks at the rig as the page does at first, in a window of any shape. @param {string} rig */
+  async #aim(rig) {
+    this.#aimed = rig;
+    const views = await (await fetch(new URL('scene/rigs', APP))).json();
+    if (rig !== this.#aimed || !Object.hasOwn(views, rig)) return;
+    this.player.setView(views[rig]);
+    this.player.resetCamera();
   }
 
   /** @param {import('./hub.js').Windows} windows */
