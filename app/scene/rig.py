@@ -10,6 +10,7 @@ from __future__ import annotations
 import functools
 import logging
 import math
+from typing import Any
 
 import numpy as np
 import rich
@@ -69,16 +70,27 @@ class RigServer(ViserServer):
         logger = logging.getLogger("websockets.server")
         for extra in [f for f in logger.filters if type(f).__module__.startswith("viser.")][:-1]:
             logger.removeFilter(extra)
-        for part in list(vars(self).values()):
-            if type(part).__module__.startswith("viser.") and hasattr(part, "__dict__"):
-                vars(part).clear()
-        vars(self).clear()
+        _empty(self)
 
     def show(self, rig: RigName) -> None:
         """Replace all nodes by those of the named rig, in one atomic change."""
         with self.atomic():
             self.scene.reset()
             _build(self, geometry(rig))
+
+
+def _empty(root: object) -> None:
+    """Empty an object and all of viser's objects in it, so that none holds another."""
+    waiting: list[Any] = [root]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, dict):
+            waiting += part.values()
+        elif isinstance(part, (list, tuple)):
+            waiting += part
+        elif type(part).__module__.startswith(("viser.", __name__)) and getattr(part, "__dict__", None):
+            waiting += vars(part).values()
+            vars(part).clear()
 
 
 @functools.cache

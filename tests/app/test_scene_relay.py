@@ -368,7 +368,13 @@ def test_slow_visitor_slows_the_source_instead_of_filling_memory():
 
 def test_stopped_rig_lets_go_of_its_scene_at_once():
     rig = sessions._make_server("aero")
+    sessions._make_panel(rig, lambda _: None)
     body = weakref.ref(rig.scene.get_handle_by_name("/rig/yoke/body"))
+    with connect(
+        f"ws://127.0.0.1:{rig.get_port()}", subprotocols=[Subprotocol(VISER)], compression=None
+    ) as viewer:
+        assert replay(viewer)
+        told = [weakref.ref(m) for m in rig._websock_server._broadcast_buffer.message_from_id.values()]
     threads = threading.active_count()
     gc.collect()
     gc.disable()
@@ -376,6 +382,8 @@ def test_stopped_rig_lets_go_of_its_scene_at_once():
         rig.stop()
         rig.stop()  # twice does no harm
         assert body() is None
+        kept = [m() for m in told if m() is not None]
+        assert not any(vars(m) for m in kept)
         assert threading.active_count() < threads
     finally:
         gc.enable()

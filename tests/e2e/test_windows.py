@@ -10,7 +10,7 @@ from statistics import median
 import pytest
 from playwright.sync_api import Browser, Download, Page
 
-from tests.e2e.conftest import PATIENCE, App, settled, state
+from tests.e2e.conftest import PATIENCE, App, opened, running_app, settled, state
 from tests.e2e.test_scene import ANGLES
 
 PLAYED = """selector => new Promise((done) => {
@@ -209,3 +209,32 @@ def test_menu_gives_the_link_of_the_window(page: Page):
     with page.context.expect_page() as opened:
         page.get_by_test_id("open-window").click()
     assert opened.value.url.endswith(f"/scene/{session}/")
+
+
+def test_window_is_rebuilt_after_the_server_was_started_anew(chromium: Browser):
+    context = chromium.new_context()
+    page = context.new_page()
+    page.route("**/scene/*/", lambda route: route.fulfill(content_type="text/html", body="<title>-</title>"))
+    with running_app() as first:
+        opened(page, first.url)
+        page.get_by_test_id("preset").select_option("quanser-aero-2")
+        settled(page)
+        session = page.evaluate("() => sessionStorage.getItem('heli2dof-scene')")
+        window = context.new_page()
+        window.set_default_timeout(PATIENCE)
+        window.goto(f"{first.url}scene/{session}/")
+        drawn(window)
+        window.evaluate("() => { window.kept = true; }")
+    lifted = "() => window.__viserMutable.nodePoseData['/rig/yoke/body']?.position?.[2]"
+    with running_app(first.port):
+        page.wait_for_function(
+            "() => JSON.parse(document.documentElement.dataset.state).connection === 'open'"
+        )
+        page.get_by_test_id("pole-field-0").fill("-5.5")
+        page.get_by_test_id("pole-field-0").press("Enter")
+        shows(window, "p₁", -5.5)
+        window.wait_for_function(f"() => Math.abs(({lifted})() - 0.295) < 1e-9")  # the Aero's, again
+        seek(page, 0.0)
+        stands_at(window, 0.0, 0.0)
+        assert window.evaluate("() => window.kept")  # by itself, without a reload
+        context.close()
