@@ -218,8 +218,8 @@ export class ScenePlayer {
 
   /** @param {Cause} cause */
   #changed(cause) {
+    this.#onTransport(this.#clock.snapshot(), cause); // before it is shown: who listens may correct what is not as told
     this.#run();
-    this.#onTransport(this.#clock.snapshot(), cause);
   }
 
   /** Shows where time stands: at once where it is held, in the next frame where it runs. */
