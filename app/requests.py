@@ -242,6 +242,14 @@ class RgaRequest(DesignRequest):
     )
 
 
+class LoopsRequest(DesignRequest):
+    """A design with its outer loop, and frequencies at which L(jω) is wanted."""
+
+    frequencies: list[Annotated[float, Field(gt=0, le=1e6)]] = Field(
+        min_length=1, max_length=2000, description="rad/s"
+    )
+
+
 class Reference(Strict):
     """Reference angles after t = 0, absolute."""
 

@@ -43,6 +43,8 @@ export const compareMethods = (design) => call('api/v1/compare', { method: 'POST
 export const compareSplits = (design) => call('api/v1/splits', { method: 'POST', body: design });
 /** The relative gains, at the frequencies that it names too. @param {unknown} design */
 export const relativeGain = (design) => call('api/v1/rga', { method: 'POST', body: design });
+/** The loops opened at each motor, at the frequencies that it names. @param {unknown} design */
+export const openLoops = (design) => call('api/v1/loops', { method: 'POST', body: design });
 /** The paper as data: its equations, numbers, errata and figures, recomputed. */
 export const getPaper = () => call('api/v1/paper');
 /** The derivation in numbers. @param {unknown} design */

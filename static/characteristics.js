@@ -70,9 +70,9 @@ function couplingMark(step, stepped, other) {
   return [{ kind: 'coupling', axis: stepped, t: step.t[k], value: values[k] * DEGREE, brief: say`moves ${figure}`, text }];
 }
 
-/** The marks of a plot in the order of time. @param {Reply|null} reply @param {Signal} signal @returns {Mark[]} */
+/** The marks of a plot in the order of time; none where the loop is unstable, as then what is largest says only how long one has looked. @param {Reply|null} reply @param {Signal} signal @returns {Mark[]} */
 export function marksOf(reply, signal) {
-  if (!reply || isVoltage(signal)) return [];
+  if (!reply?.stable || isVoltage(signal)) return [];
   const own = /** @type {'theta'|'psi'} */ (signal);
   const other = own === 'theta' ? 'psi' : 'theta';
   const [step, cross] = [reply.axis_steps?.[own]?.nonlinear, reply.axis_steps?.[other]?.nonlinear];

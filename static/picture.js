@@ -1,14 +1,15 @@
 /** A picture of lines for a report: title, axes with units, legend; on white, whatever the page's own colours. */
 import { forField } from './format.js';
 import { drawGhosts } from './plot_ghosts.js';
+import { hatch } from './plot_rules.js';
 import { niceStep, ticks } from './splane_math.js';
 
 /** @typedef {import('./plot_export.js').Line} Line @typedef {import('./plot_rules.js').Rule} Rule @typedef {import('./characteristics.js').Mark} Mark */
 /** @typedef {{range: [number, number], title: string, log?: boolean}} Axis */
-/** @typedef {{title: string, subtitle: string, x: Axis, y: Axis, lines: Line[], rules?: Rule[], pins?: any[], marks?: Mark[]}} Picture  pins: those of the lines, for their letters */
+/** @typedef {{title: string, subtitle: string, x: Axis, y: Axis, lines: Line[], rules?: Rule[], regions?: import('./plot_rules.js').Region[], pins?: any[], marks?: Mark[]}} Picture  pins: those of the lines, for their letters */
 
 /** style.css's, sharing.css's and compare.css's own for a light page. @type {Record<string, string>} */
-const LIGHT = { panel: '#ffffff', ink: '#18222a', muted: '#4a5862', grid: '#e3e9ec', pitch: '#b94a2c', yaw: '#24689b', halo: '#dcdedf', danger: '#b3261e', 'limit-fill': '#fbeeed', 'series-0': '#16726b', 'series-1': '#7a4bb0',
+const LIGHT = { panel: '#ffffff', ink: '#18222a', muted: '#4a5862', grid: '#e3e9ec', pitch: '#b94a2c', yaw: '#24689b', halo: '#dcdedf', danger: '#b3261e', warn: '#8a5a00', 'limit-fill': '#fbeeed', 'series-0': '#16726b', 'series-1': '#7a4bb0',
   'pin-0': '#7a3fb0', 'pin-1': '#11706a', 'pin-2': '#8a5a00', 'pin-3': '#ab2468', 'pin-4': '#4a6a1c', 'pin-5': '#4d5a6b' };
 const SCALE = 2; // dots per pixel
 const [WIDTH, HEIGHT] = [800, 450];
@@ -38,7 +39,7 @@ function ticksOf({ range: [low, high], log }, about) {
 const share = ({ range: [low, high], log }, v) => (log ? Math.log(v / low) / Math.log(high / low) : (v - low) / (high - low));
 
 /** @param {Picture} picture @returns {HTMLCanvasElement} */
-export function drawPicture({ title, subtitle, x, y, lines, rules = [], pins = [], marks = [] }) {
+export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions = [], pins = [], marks = [] }) {
   const canvas = document.createElement('canvas');
   const height = HEIGHT + 20 * Math.ceil(lines.length / 3);
   Object.assign(canvas, { width: WIDTH * SCALE, height: height * SCALE });
@@ -67,6 +68,7 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], pins = [
   ctx.beginPath();
   ctx.rect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   ctx.clip();
+  for (const r of regions) hatch(ctx, { left: px(r.left), right: px(r.right), inner: py(r.inner), outer: py(r.outer) }, LIGHT.warn, 1);
   for (const line of lines.filter((l) => l.kind === 'played')) stroke(ctx, line, px, py);
   const ghosts = lines.filter((l) => l.kind === 'pin').map((l) => ({ pin: pins.find((p) => p.index === l.index), axis: /** @type {'theta'|'psi'} */ (l.axis), t: l.t, values: l.values })).filter((g) => g.pin);
   ctx.save();

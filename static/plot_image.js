@@ -5,13 +5,13 @@ import { isVoltage } from './traces.js';
 import { say, t } from './words.js';
 
 /** @typedef {import('./plot_export.js').Line} Line @typedef {import('./traces.js').Signal} Signal */
-/** @typedef {{x: [number, number], y: [number, number], rules: import('./plot_rules.js').Rule[], marks?: import('./characteristics.js').Mark[]}} Seen  ranges in s and in the plot's unit */
+/** @typedef {{x: [number, number], y: [number, number], rules: import('./plot_rules.js').Rule[], regions?: import('./plot_rules.js').Region[], marks?: import('./characteristics.js').Mark[]}} Seen  ranges in s and in the plot's unit */
 
 /** @param {Signal} signal @param {Line[]} lines @param {any[]} pins their pins, for the letters @param {Seen & {subtitle: string}} how @returns {HTMLCanvasElement} */
-export function drawPlot(signal, lines, pins, { x, y, subtitle, rules, marks }) {
+export function drawPlot(signal, lines, pins, { x, y, subtitle, rules, regions, marks }) {
   const symbol = TITLES[signal].split(' ').pop();
   return drawPicture({
-    title: t(TITLES[signal]), subtitle, lines, pins, rules, marks,
+    title: t(TITLES[signal]), subtitle, lines, pins, rules, regions, marks,
     x: { range: x, title: t('Time in s') }, y: { range: y, title: isVoltage(signal) ? `${symbol} in V` : say`${symbol} in degrees` },
   });
 }

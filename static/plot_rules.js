@@ -3,6 +3,7 @@
  * is written lies over them on the paper's colour, so that it can be read where lines pass.
  * @typedef {{value: number, label: string, danger: boolean}} Rule  in the plot's unit
  * @typedef {(name: string) => string} Color
+ * @typedef {{left: number, right: number, inner: number, outer: number}} Region  s, and in the plot's unit: the border, and how far it is drawn
  */
 import { DEGREE, fixed } from './format.js';
 import { pictureScale } from './picture_scale.js';
@@ -33,13 +34,74 @@ export function rulesOf(reply, signal) {
   return reference ? [...rules, { value: reference, label: say`reference ${fixed(reference, 1)}°`, danger: false }] : rules;
 }
 
+const SETTLED = 0.02; // of the step
+const WALL = 0.25; // of the step: how thick what is forbidden is drawn, as the other axis' step has its line in the same plot
+
+/**
+ * Where this axis' own response may not be if it is to meet what is asked of the poles: past the overshoot, and off the reference once it should have settled.
+ * @param {Reply|null} reply @param {Signal} signal @param {import('./types.js').Requirements} asked @returns {Region[]}
+ */
+export function regionsOf(reply, signal, { settling, overshoot }) {
+  if (!reply || isVoltage(signal)) return [];
+  const axis = /** @type {'theta'|'psi'} */ (signal);
+  const step = reply.axis_steps?.[axis]?.nonlinear;
+  if (!step) return [];
+  const [from, to, end] = [step[axis][0] * DEGREE, step.reference[axis] * DEGREE, step.t[step.t.length - 1]];
+  const size = to - from;
+  if (Math.abs(size) < 1e-9) return [];
+  const wall = (/** @type {number} */ left, /** @type {number} */ right, /** @type {number} */ inner, /** @type {number} */ away) => (right > left ? [{ left, right, inner: to + inner * size, outer: to + (inner + away * WALL) * size }] : []);
+  const most = overshoot === null ? undefined : overshoot / 100;
+  const late = settling ?? end;
+  return [...(most === undefined ? [] : wall(0, Math.min(late, end), most, 1)), ...(settling === null ? [] : [...wall(late, end, Math.min(SETTLED, most ?? SETTLED), 1), ...wall(late, end, -SETTLED, -1)])];
+}
+
+/** Hatched as in the s-plane, over the grid and under the lines. @param {any} u @param {Region[]} regions @param {Color} color */
+export function drawRegions(u, regions, color) {
+  const { ctx, bbox } = u;
+  const size = devicePixelRatio * pictureScale().line;
+  const x = (/** @type {number} */ v) => Math.max(bbox.left, Math.min(bbox.left + bbox.width, u.valToPos(v, 'x', true)));
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  for (const region of regions) {
+    const [left, right, inner, outer] = [x(region.left), x(region.right), u.valToPos(region.inner, 'y', true), u.valToPos(region.outer, 'y', true)];
+    hatch(ctx, { left, right, inner, outer }, color('warn'), size);
+  }
+  ctx.restore();
+}
+
+/** @param {CanvasRenderingContext2D} ctx @param {Region} box pixels @param {string} color @param {number} size of a pixel */
+export function hatch(ctx, { left, right, inner, outer }, color, size) {
+  const [top, height] = [Math.min(inner, outer), Math.abs(outer - inner)];
+  if (right - left < 1) return;
+  ctx.save();
+  ctx.setLineDash([]);
+  Object.assign(ctx, { strokeStyle: color, lineWidth: 1.5 * size });
+  ctx.beginPath();
+  ctx.moveTo(left, inner);
+  ctx.lineTo(right, inner);
+  ctx.stroke();
+  ctx.beginPath();
+  ctx.rect(left, top, right - left, height);
+  ctx.clip();
+  ctx.globalAlpha = 0.32;
+  ctx.beginPath();
+  for (let x = left - height; x < right; x += 7 * size) {
+    ctx.moveTo(x, top + height);
+    ctx.lineTo(x + height, top);
+  }
+  ctx.stroke();
+  ctx.restore();
+}
+
 /** @param {any} u @param {Rule} rule @returns {boolean} */
 const seen = (u, { value }) => value <= u.scales.y.max && value >= u.scales.y.min;
 
 /** @param {any} u @param {Rule} rule */
 const heightOf = (u, { value }) => Math.round(u.valToPos(value, 'y', true));
 
-/** Limits and what lies beyond them, before the lines are drawn. @param {any} u @param {Rule[]} rules @param {Color} color */
+/** Limits and what lies beyond them, over the grid and under the lines. @param {any} u @param {Rule[]} rules @param {Color} color */
 export function drawShades(u, rules, color) {
   const { ctx, bbox } = u;
   ctx.save();

@@ -13,7 +13,7 @@ import { COLORS, colorOf } from './pins.js';
 import { PlotGhosts } from './plot_ghosts.js';
 import { PlotMarks } from './plot_marks.js';
 import { plotMenu } from './plot_menu.js';
-import { drawBand, drawLabels, drawShades, limitOf, referenceOf, rulesOf } from './plot_rules.js';
+import { drawBand, drawLabels, drawRegions, drawShades, limitOf, referenceOf, regionsOf, rulesOf } from './plot_rules.js';
 import { extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from './traces.js';
 import { say, t as word } from './words.js';
 
@@ -38,6 +38,7 @@ export class Plots {
   /** @type {number|null} */ #hover = null;
   #playhead = 0;
   /** @type {import('./types.js').Cloud|null} */ #cloud = null;
+  /** @type {import('./types.js').Requirements|null} */ #asked = null;
   /** @type {{t: import('./types.js').Series, plots: Record<Signal, any[]>}|null} */ #data = null;
 
   /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onSeek: (t: number) => void, onPeek: (t: number|null) => void}} handlers */
@@ -63,7 +64,7 @@ export class Plots {
   #readColors() {
     const style = getComputedStyle(document.documentElement);
     const pins = Array.from({ length: COLORS }, (_, i) => colorOf(i));
-    for (const name of ['panel', 'pitch', 'yaw', 'ink', 'muted', 'grid', 'halo', 'danger', 'limit-fill', ...pins]) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
+    for (const name of ['panel', 'pitch', 'yaw', 'ink', 'muted', 'grid', 'halo', 'danger', 'warn', 'limit-fill', ...pins]) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
   }
 
   /** @param {Signal} signal */
@@ -72,20 +73,21 @@ export class Plots {
     const values = ['theta', 'psi'].map((axis) => h('span', { class: `at ${axis === 'theta' ? 'pitch' : 'yaw'}`, title: `${axis === 'theta' ? 'pitch' : 'yaw'} step` }));
     const body = h('div', { class: 'plot-body', tabindex: 0, role: 'group', 'aria-label': `${about.title}: left and right move the time, plus and minus zoom, Escape shows the whole time`, onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e) });
     const first = signal === SIGNALS[0] ? [this.when, this.unzoom] : [];
-    const menu = plotMenu(this.store, signal, `${about.title} over time`, () => ({ x: this.#zoom ?? this.#time, y: this.#ranges[signal] ?? [0, 1], rules: rulesOf(this.store.state.reply, signal), marks: this.#marks(signal) }));
+    const menu = plotMenu(this.store, signal, `${about.title} over time`, () => ({ x: this.#zoom ?? this.#time, y: this.#ranges[signal] ?? [0, 1], rules: rulesOf(this.store.state.reply, signal), regions: regions(), marks: this.#marks(signal) }));
     const figure = h('figure', { class: `plot ${isVoltage(signal) ? 'volts' : 'angle'}`, 'data-testid': `plot-${signal}`, 'data-signal': signal },
       h('figcaption', {}, symbol(about.base, about.sub), h('span', { class: 'what' }, `${about.title}, ${about.unit.trim() === '°' ? 'deg' : 'V'}`), first, h('span', { class: 'values' }, values), menu), body);
     this.root.append(figure);
     const color = (/** @type {string} */ name) => () => this.#colors[name];
     const ink = (/** @type {string} */ name) => this.#colors[name];
     const rules = () => rulesOf(this.store.state.reply, signal);
+    const regions = () => regionsOf(this.store.state.reply, signal, this.store.state.requirements);
     const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({ stroke: color(name), width, dash, auto: false, points: { show: false } });
     const last = () => signal === 'V_y' || (signal === 'V_p' && this.root.classList.contains('two-columns'));
     /** @type {PlotGhosts|undefined} */ let ghosts;
     /** @type {PlotMarks|undefined} */ let marks;
     // auto: false, as the ranges are ours: no trace is searched for its extremes a second time.
     const chart = followsPage(new Chart({
-      width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [() => 6 * pictureScale().type, () => 10 * pictureScale().type, 2, 0],
+      width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [() => 6 * pictureScale().type, () => 12 * pictureScale().type, 2, 0],
       series: [{}, { stroke: color('halo'), width: 7, auto: false, points: { show: false } }, line('pitch', 1.25, [7, 4]), line('yaw', 1.25, [2, 3]), line('yaw', 1.5), line('pitch', 2.4)],
       scales: { x: { time: false, range: () => this.#zoom ?? this.#time }, y: { range: () => this.#ranges[signal] ?? [0, 1] } },
       axes: [
@@ -98,7 +100,7 @@ export class Plots {
         sync: { key: 'heli2dof', filters: { pub: (/** @type {string} */ type) => type === 'mousemove' || type === 'mouseleave' } },
         bind: { dblclick: () => () => this.#zoomTo(null) } },
       hooks: {
-        drawClear: [(/** @type {any} */ u) => drawShades(u, rules(), ink), (/** @type {any} */ u) => drawBand(u, signal, this.#cloud, ink)],
+        drawAxes: [(/** @type {any} */ u) => drawShades(u, rules(), ink), (/** @type {any} */ u) => drawRegions(u, regions(), ink), (/** @type {any} */ u) => drawBand(u, signal, this.#cloud, ink)],
         draw: [(/** @type {any} */ u) => drawLabels(u, rules(), ink), () => ghosts?.draw(ink), () => marks?.place()],
         setCursor: [(/** @type {any} */ u) => this.#hovered(u)],
         setSelect: [(/** @type {any} */ u) => this.#selected(u)],
@@ -121,8 +123,9 @@ export class Plots {
 
   /** @param {State} state @returns {boolean} whether anything was drawn */
   render(state) {
-    if (state.cloud !== this.#cloud) {
+    if (state.cloud !== this.#cloud || state.requirements !== this.#asked) {
       this.#cloud = state.cloud;
+      this.#asked = state.requirements;
       for (const { signal, chart } of this.plots) if (!isVoltage(signal)) chart.redraw(false);
     }
     const seen = [state.reply, state.motion, state.showLinear, state.showMarks, state.pins];

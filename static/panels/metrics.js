@@ -119,7 +119,7 @@ export class MetricsPanel {
   }
 
   /** @param {import('../types.js').State} state */
-  render({ reply, showLinear }) {
+  render({ reply, showLinear, requirements }) {
     if (!reply) return;
     this.key.hidden = !showLinear;
     AXES.forEach((axis, j) => {
@@ -130,10 +130,13 @@ export class MetricsPanel {
         const value = row.value(metrics, axis);
         const ideal = row.linear ? row.linear(pair?.linear, axis) : row.value(pair?.linear.metrics, axis);
         const most = row.most?.(metrics);
-        setText(own, most ?? row.text(value));
+        const asked = row.id === 'settling' || row.id === 'overshoot' ? requirements[row.id] : null;
+        const missed = asked !== null && !((value ?? Infinity) <= asked);
+        setText(own, most ?? (missed ? `✕ ${row.text(value)}` : row.text(value)));
+        setAttr(own, 'title', missed ? 'misses the requirement' : '');
         const beside = showLinear && ideal !== undefined && (most !== undefined || differs(value, ideal, row.least));
         setText(linear, beside ? `(${brief(row.text(ideal)).replace(/ [V%s]$/, '')})` : '');
-        cell.classList.toggle('warn', most !== undefined);
+        cell.classList.toggle('warn', most !== undefined || missed);
       });
       const margin = reply.margins?.[axis === 'theta' ? 'pitch' : 'yaw'];
       ROBUSTNESS.forEach((row, i) => {

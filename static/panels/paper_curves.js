@@ -63,7 +63,7 @@ export class PaperCurves {
       series: [{}, ...curves.map((c) => ({ stroke: color(styleOf(c.name).color), width: styleOf(c.name).width, dash: styleOf(c.name).dash, points: { show: false } }))],
       scales: { x: { time: false }, y: { range: () => [0, top] } },
       axes: [axis({ space: () => 50 * pictureScale().type, size: () => 26 * pictureScale().type, values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((s, i) => `${Number(s.toFixed(3))}${i === v.length - 1 ? ' s' : ''}`) }), axis({ space: () => 30 * pictureScale().type, size: () => 40 * pictureScale().type, values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((d) => `${d}°`) })],
-      hooks: { drawClear: [(/** @type {any} */ u) => this.#under(u, rules)], draw: [(/** @type {any} */ u) => this.#over(u, rules)] },
+      hooks: { drawAxes: [(/** @type {any} */ u) => this.#under(u, rules)], draw: [(/** @type {any} */ u) => this.#over(u, rules)] },
     }, [t, ...curves.map((c) => c.angle.map((v) => v * DEGREE))], body));
     this.#charts.push(chart);
     new ResizeObserver(([entry]) => {

@@ -107,6 +107,25 @@ def test_structures_differ_in_the_rga(client):
     assert triangular == pytest.approx(1 + 73 / 7127 * 29 / 25, abs=1e-9)
 
 
+def test_loops_over_frequency(client):
+    frequencies = np.logspace(-1, 2, 61).tolist()
+    reply = post(client, "loops", {**PAPER, "frequencies": frequencies})
+    models.OpenLoops.model_validate(reply)
+    margins = post(client, "evaluate", PAPER)["margins"]
+    assert reply["margins"] == margins
+    for axis in ("pitch", "yaw"):
+        gain, phase = np.array(reply[axis]["gain"]), np.array(reply[axis]["phase"])
+        assert gain[0] > 10 and gain[-1] < 1 and -2 * np.pi < phase[0] <= 0
+        assert np.max(np.abs(np.diff(phase))) < 1
+        k = int(np.argmin(np.abs(np.log(gain))))
+        assert np.pi + phase[k] == pytest.approx(margins[axis]["phase_margin"], abs=0.1)
+
+
+def test_loops_need_frequencies_above_zero(client):
+    for frequencies in ([], [0.0], [-1.0]):
+        assert client.post("/api/v1/loops", json={"frequencies": frequencies}).status_code == 422
+
+
 def test_rga_over_frequency(client):
     reply = post(client, "rga", {**PAPER, "frequencies": [0, 1, 100]})
     assert np.shape(reply["rga_magnitude"]) == (3, 2, 2)

@@ -127,6 +127,68 @@ def test_plots_over_frequency_are_saved_as_picture_and_numbers(page: Page, app: 
     assert picture[:8] == b"\x89PNG\r\n\x1a\n" and len(picture) > 20_000
 
 
+def test_bode_plots_show_the_loops_and_their_margins(page: Page, app: App):
+    card = page.get_by_test_id("open-loops")
+    card.scroll_into_view_if_needed()
+    card.locator("canvas").first.wait_for()
+    rows = list(csv.reader(io.StringIO(saved(page, "frequency-loop-phase", "CSV").read_text("utf-8"))))
+    assert rows[0] == ["omega [rad/s]", "pitch motor", "yaw motor"]
+    table = np.array(rows[1:], dtype=float)
+    reply = page.request.post(app.url + "api/v1/loops", data={"frequencies": table[:, 0].tolist()}).json()
+    np.testing.assert_allclose(table[:, 1], np.degrees(reply["pitch"]["phase"]), rtol=1e-6)
+    words = page.get_by_test_id("margin-words").inner_text()
+    pitch, yaw = words.split("Yaw")
+    for said, axis in ((pitch, "pitch"), (yaw, "yaw")):
+        margin, frequency = numbers(said)[:2]
+        assert margin == pytest.approx(np.degrees(reply["margins"][axis]["phase_margin"]), abs=0.51)
+        nearest = int(np.argmin(np.abs(np.log(reply[axis]["gain"]))))
+        assert frequency == pytest.approx(table[nearest, 0], rel=0.05)
+        assert "gain margin ∞" in said
+
+
+def test_plots_over_frequency_are_read_by_keys(page: Page):
+    card = page.get_by_test_id("open-loops")
+    card.scroll_into_view_if_needed()
+    card.locator("canvas").first.wait_for()
+    shown = page.get_by_test_id("interaction-loop-gain-0")
+    expect(card.locator(".at-frequency")).to_contain_text("the lowest")
+    page.get_by_test_id("interaction-loop-gain").locator(".plot-body").focus()
+    page.keyboard.press("ArrowRight")
+    expect(card.locator(".at-frequency")).to_have_text("10.0 rad/s")
+    before = numbers(shown.inner_text())[0]
+    page.keyboard.press("Shift+ArrowRight")
+    expect(card.locator(".at-frequency")).not_to_have_text("10.0 rad/s")
+    assert numbers(shown.inner_text())[0] < before
+
+
+def test_an_unstable_loop_has_no_margins(chromium: Browser, app: App):
+    with visit(chromium, app, UNSTABLE) as page:
+        page.get_by_test_id("open-loops").scroll_into_view_if_needed()
+        expect(page.get_by_test_id("margin-words")).to_have_text(
+            "The whole loop is unstable: it has no margins."
+        )
+
+
+def test_responses_are_held_to_the_requirements_as_well(page: Page):
+    amber = """() => {
+      const canvas = document.querySelector('[data-testid=plot-theta] canvas:not(.ghosts)');
+      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4) count += data[i] > data[i + 2] + 60 && data[i + 1] > data[i + 2] + 20;
+      return count;
+    }"""
+    before = page.evaluate(amber)
+    page.get_by_test_id("require-overshoot").fill("4")
+    page.wait_for_function(f"(n) => ({amber})() > n + 300", arg=before)
+    expect(page.get_by_test_id("requirements-verdict")).to_have_text(
+        "✓ met"
+    )  # the poles do; the whole loop not
+    overshoot = page.get_by_test_id("metric-overshoot-theta")
+    expect(overshoot).to_have_text(re.compile(r"^✕ 4\.\d %$"))
+    page.get_by_test_id("require-overshoot").fill("6")
+    expect(overshoot).to_have_text(re.compile(r"^4\.\d %$"))
+
+
 def type_of(page: Page) -> list[float]:
     """The sizes of the letters at the axes of every chart, CSS pixels."""
     return page.evaluate(
@@ -207,7 +269,9 @@ def test_what_is_painted_passes_through_the_words_too(chromium: Browser, app: Ap
         )
         page.locator("#compare").scroll_into_view_if_needed()
         page.locator("[data-testid=interaction-gains] canvas").wait_for()
-        for name in ("frequency-dominance", "theta", "V_y"):
+        page.get_by_test_id("open-loops").scroll_into_view_if_needed()
+        page.locator("[data-testid=interaction-loop-phase] canvas").wait_for()
+        for name in ("frequency-loop-phase", "frequency-dominance", "theta", "V_y"):
             saved(page, name, "PNG")
         painted = page.evaluate("() => [...window.painted]")
         words = [text for text in painted if re.search(r"[^\W\d_]{3}", text)]

@@ -6,7 +6,7 @@ import { marksOf, reaches, valueAt } from "../../static/characteristics.js";
 import pseudo from "../../static/languages/pseudo.js";
 import { DEGREE } from "../../static/format.js";
 import { scaleOf } from "../../static/picture_scale.js";
-import { limitOf, referenceOf, rulesOf } from "../../static/plot_rules.js";
+import { limitOf, referenceOf, regionsOf, rulesOf } from "../../static/plot_rules.js";
 import { useWords } from "../../static/words.js";
 
 afterEach(() => useWords(null));
@@ -24,7 +24,7 @@ const peak_time = Math.PI / WD;
 const metrics = { rise_time: first(0.9) - first(0.1), settling_time: 2.0, overshoot: 100 * overshoot, peak: TO + overshoot * (TO - FROM), peak_time };
 const other = t.map((s) => -0.02 * Math.sin(s) * Math.exp(-s));
 const step = (axis, own) => ({ nonlinear: { t, theta: axis === "theta" ? angle : other, psi: axis === "psi" ? angle : other, reference: { theta: axis === "theta" ? TO : 0, psi: axis === "psi" ? TO : 0 }, metrics: own } });
-const reply = { axis_steps: { theta: step("theta", { theta: metrics }), psi: step("psi", { psi: metrics }) } };
+const reply = { stable: true, axis_steps: { theta: step("theta", { theta: metrics }), psi: step("psi", { psi: metrics }) } };
 
 test("rise, peak, settling and the other axis' move lie on their curves, in the order of time", () => {
   const marks = marksOf(reply, "theta");
@@ -48,11 +48,12 @@ test("a step downwards rises as well, and overshoots below", () => {
 });
 
 test("what does not happen has no mark", () => {
-  const slow = { axis_steps: { theta: step("theta", { theta: { overshoot: 0.02, peak: TO, peak_time: 5 } }) } };
+  const slow = { stable: true, axis_steps: { theta: step("theta", { theta: { overshoot: 0.02, peak: TO, peak_time: 5 } }) } };
   assert.deepEqual(marksOf(slow, "theta"), []);
-  assert.deepEqual(marksOf({ axis_steps: { theta: step("theta", {}) } }, "theta"), []);
+  assert.deepEqual(marksOf({ stable: true, axis_steps: { theta: step("theta", {}) } }, "theta"), []);
   assert.deepEqual(marksOf(reply, "V_p"), []);
   assert.deepEqual(marksOf(null, "theta"), []);
+  assert.deepEqual(marksOf({ ...reply, stable: false }, "theta"), []);
   assert.equal(reaches(t, t.map(() => 0), 0, 1, 0.9), undefined);
 });
 
@@ -77,4 +78,18 @@ test("pictures grow as the stylesheets say", () => {
   const { type, line } = scaleOf(style("18px", 2, "1.7"));
   close(type, 36 / 11);
   close(line, 3.06);
+});
+
+test("what is asked of the poles walls in the response: overshoot until it should have settled, 2 % from then on", () => {
+  const [from, to] = [FROM * DEGREE, TO * DEGREE];
+  const size = to - from;
+  const walls = regionsOf(reply, "theta", { settling: 2, overshoot: 10 });
+  assert.deepEqual(walls.map((r) => [r.left, r.right]), [[0, 2], [2, 5], [2, 5]]);
+  [to + 0.1 * size, to + 0.02 * size, to - 0.02 * size].forEach((v, i) => close(walls[i].inner, v));
+  assert.ok(walls[0].outer > walls[0].inner && walls[1].outer > walls[1].inner && walls[2].outer < walls[2].inner);
+  close(regionsOf(reply, "theta", { settling: 2, overshoot: 1 })[1].inner, to + 0.01 * size);
+  assert.deepEqual(regionsOf(reply, "theta", { settling: null, overshoot: 10 }).map((r) => [r.left, r.right]), [[0, 5]]);
+  assert.equal(regionsOf(reply, "theta", { settling: 60, overshoot: null }).length, 0);
+  assert.deepEqual(regionsOf(reply, "V_p", { settling: 2, overshoot: 10 }), []);
+  assert.deepEqual(regionsOf(reply, "theta", { settling: null, overshoot: null }), []);
 });
