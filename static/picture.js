@@ -5,8 +5,8 @@ import { hatch } from './plot_rules.js';
 import { niceStep, ticks } from './splane_math.js';
 
 /** @typedef {import('./plot_export.js').Line} Line @typedef {import('./plot_rules.js').Rule} Rule @typedef {import('./characteristics.js').Mark} Mark */
-/** @typedef {{range: [number, number], title: string, log?: boolean}} Axis */
-/** @typedef {{title: string, subtitle: string, x: Axis, y: Axis, lines: Line[], rules?: Rule[], regions?: import('./plot_rules.js').Region[], pins?: any[], marks?: Mark[]}} Picture  pins: those of the lines, for their letters */
+/** @typedef {{range: [number, number], title: string, log?: boolean, steps?: number[]}} Axis  steps: between its numbers, where not any round one will do */
+/** @typedef {{title: string, subtitle: string, x: Axis, y: Axis, lines: Line[], rules?: Rule[], regions?: import('./plot_rules.js').Region[], pins?: any[], marks?: (Mark & {to?: number})[]}} Picture  to: where a line leads from the mark. pins: those of the lines, for their letters */
 
 /** style.css's, sharing.css's and compare.css's own for a light page. @type {Record<string, string>} */
 const LIGHT = { panel: '#ffffff', ink: '#18222a', muted: '#4a5862', grid: '#e3e9ec', pitch: '#b94a2c', yaw: '#24689b', halo: '#dcdedf', danger: '#b3261e', warn: '#8a5a00', 'limit-fill': '#fbeeed', 'series-0': '#16726b', 'series-1': '#7a4bb0',
@@ -15,6 +15,7 @@ const SCALE = 2; // dots per pixel
 const [WIDTH, HEIGHT] = [800, 450];
 const [LEFT, TOP, RIGHT, BOTTOM] = [64, 46, 20, 50];
 const FONT = 'system-ui, sans-serif';
+const AXIS = { theta: 'pitch', psi: 'yaw' };
 /** Where a mark's words stand. @type {Record<Mark['kind'], [CanvasTextAlign, number, number]>} */
 const BESIDE = { peak: ['center', 0, -14], coupling: ['center', 0, -14], rise: ['left', 9, 5], settling: ['left', 7, 15] };
 
@@ -29,8 +30,8 @@ function styleOf({ kind, linear, index = 0, axis }) {
 }
 
 /** Decades, or steps of a round number. @param {Axis} axis @param {number} about how many @returns {number[]} */
-function ticksOf({ range: [low, high], log }, about) {
-  if (!log) return ticks(low, high, niceStep(high - low, about));
+function ticksOf({ range: [low, high], log, steps }, about) {
+  if (!log) return ticks(low, high, steps?.find((step) => (high - low) / step <= about + 1) ?? niceStep(high - low, about));
   const [first, last] = [Math.ceil(Math.log10(low) - 1e-9), Math.floor(Math.log10(high) + 1e-9)];
   return Array.from({ length: Math.max(0, last - first + 1) }, (_, i) => 10 ** (first + i));
 }
@@ -54,6 +55,16 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions 
     Object.assign(ctx, { textAlign: align, textBaseline: 'middle', font: `${font} ${FONT}`, fillStyle: color });
     ctx.fillText(words, left, top);
   };
+  /** On paper, so that it can be read over lines. @type {typeof text} */
+  const label = (words, left, top, align, font, color) => {
+    ctx.font = `${font} ${FONT}`;
+    const width = ctx.measureText(words).width + 4;
+    ctx.globalAlpha = 0.82;
+    ctx.fillStyle = LIGHT.panel;
+    ctx.fillRect(left - 2 - (align === 'right' ? width - 4 : align === 'center' ? width / 2 - 2 : 0), top - 7, width, 14);
+    ctx.globalAlpha = 1;
+    text(words, left, top, align, font, color);
+  };
   text(title, box.left, 16, 'left', '600 15px', LIGHT.ink);
   text(subtitle, box.left, 34, 'left', '11px', LIGHT.muted);
   drawAxes(ctx, box, { x, y, px, py, text });
@@ -76,14 +87,17 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions 
   const badges = drawGhosts(ctx, ghosts, (v) => px(v) - box.left, py, { width: box.right - box.left, type: 1, line: 1, color: (name) => LIGHT[name] });
   ctx.restore();
   for (const line of lines.filter((l) => l.kind !== 'pin' && l.kind !== 'played').reverse()) stroke(ctx, line, px, py);
-  for (const mark of marks) drawMark(ctx, mark, px(mark.t), py(mark.value), text);
+  for (const mark of marks) {
+    if (mark.to !== undefined) stroke(ctx, { t: [mark.t, mark.t], values: [mark.value, mark.to], style: { color: LIGHT[AXIS[mark.axis]], width: 1.5, dash: [] } }, px, py);
+    drawMark(ctx, mark, px(mark.t), py(mark.value), label);
+  }
   ctx.translate(box.left, 0);
   badges();
   ctx.restore();
-  for (const { value, label, danger } of rules) {
+  for (const { value, label: words, danger } of rules) {
     if (value < y.range[0] || value > y.range[1]) continue;
     stroke(ctx, { t: x.range, values: [value, value], style: { color: danger ? LIGHT.danger : LIGHT.ink, width: 1.2, dash: danger ? [] : [1, 4] } }, px, py);
-    text(label, box.right - 4, py(value) + (value > 0 && !y.log ? 9 : -9), 'right', '11px', danger ? LIGHT.danger : LIGHT.ink);
+    label(words, box.right - 4, py(value) + (value > 0 && !y.log ? 9 : -9), 'right', '11px', danger ? LIGHT.danger : LIGHT.ink);
   }
   lines.forEach((line, i) => {
     const [left, top] = [box.left + (i % 3) * ((box.right - box.left) / 3), HEIGHT + 4 + 20 * Math.floor(i / 3)];
@@ -101,7 +115,7 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions 
 
 /** Round on a pitch step's curve, square on a yaw step's, with its figure beside it. @param {CanvasRenderingContext2D} ctx @param {Mark} mark @param {number} x @param {number} y @param {any} text */
 function drawMark(ctx, { kind, axis, brief }, x, y, text) {
-  const color = LIGHT[axis === 'theta' ? 'pitch' : 'yaw'];
+  const color = LIGHT[AXIS[axis]];
   ctx.setLineDash([]);
   for (const [size, fill] of /** @type {const} */ ([[5, color], [4, LIGHT.panel], [2.6, color]])) {
     ctx.beginPath();

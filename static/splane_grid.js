@@ -53,7 +53,7 @@ export function drawGrid(layer, view) {
   for (const re of ticks(b.left, b.right, step)) {
     const [x] = toPixel(view, { re, im: 0 });
     if (x < 14 || x > view.width - 14) continue;
-    nodes.push(svg('text', { class: 'tick', x, y: baseline, 'text-anchor': 'middle' }, fixed(re, decimals)));
+    nodes.push(svg('text', { class: 'tick', x, y: baseline, 'text-anchor': 'middle' }, Math.abs(re) < step / 2 ? '0' : fixed(re, decimals)));
   }
   const column = Math.max(4, Math.min(view.width - 4, x0 - 5));
   for (const im of ticks(b.bottom, b.top, step)) {

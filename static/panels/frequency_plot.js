@@ -5,7 +5,7 @@ import { forField, significant } from '../format.js';
 import { followsPage, pictureScale } from '../picture_scale.js';
 import { pictureMenu } from '../plot_menu.js';
 import { drawLabel, drawRule } from '../plot_rules.js';
-import { t } from '../words.js';
+import { say, t } from '../words.js';
 
 const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const FONT = '11px system-ui, sans-serif';
@@ -19,8 +19,8 @@ const plain = (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.
  * @typedef {'series-0'|'series-1'|'pitch'|'yaw'} Kind
  * @typedef {{kind: Kind, name: () => (Node|string)[], plain: string, title: string, of: (reply: any) => number[]}} Series  plain: the name where only letters can be
  * @typedef {{kind: Kind, at: number, from: number, to: number, label: string}} Span  a measured height at a frequency
- * @typedef {{id: string, title: string, unit?: string, steps?: number[], rule?: {value: number, every?: number, label: string, above: boolean}, range: (data: number[][]) => [number, number], spans?: (reply: any) => Span[], series: Series[]}} About
- *   steps: between the numbers of a linear axis; a logarithmic one without. rule: a border, where it comes again, and whether what lies above it is shaded
+ * @typedef {{id: string, title: string, full?: string, unit?: string, steps?: number[], rule?: {value: number, every?: number, label: string, above: boolean}, range: (data: number[][]) => [number, number], spans?: (reply: any) => Span[], series: Series[]}} About
+ *   full: the title where it stands alone. steps: between the numbers of a linear axis; a logarithmic one without. rule: a border, where it comes again, and whether what lies above it is shaded
  */
 
 export class FrequencyPlot {
@@ -86,12 +86,12 @@ export class FrequencyPlot {
   /** @param {string} subtitle @returns {import('../picture.js').Picture} */
   #picture(subtitle) {
     const { about, frequencies } = this;
-    const title = about.unit ? `${t(about.title)}, ${about.unit}` : t(about.title);
+    const title = about.unit ? say`${t(about.title)} in ${about.unit.trim()}` : t(about.title);
     return {
-      title: t(about.title), subtitle, x: { range: [frequencies[0], frequencies[frequencies.length - 1]], title: t('ω in rad/s'), log: true }, y: { range: this.#range, title, log: !about.steps },
+      title: t(about.full ?? about.title), subtitle, x: { range: [frequencies[0], frequencies[frequencies.length - 1]], title: t('ω in rad/s'), log: true }, y: { range: this.#range, title, log: !about.steps, steps: about.steps },
       lines: about.series.map((s, i) => ({ name: t(s.plain), kind: s.kind, t: frequencies, values: this.#data[i] ?? [] })),
       rules: this.#borders().map((value) => ({ value, label: t(about.rule?.label ?? ''), danger: true })),
-      marks: this.#spans.map((s) => ({ kind: 'rise', axis: s.kind === 'yaw' ? 'psi' : 'theta', t: s.at, value: s.from, brief: s.label, text: s.label })),
+      marks: this.#spans.map((s) => ({ kind: 'rise', axis: s.kind === 'yaw' ? 'psi' : 'theta', t: s.at, value: s.from, to: s.to, brief: s.label, text: s.label })),
     };
   }
 

@@ -32,8 +32,8 @@ const series = (of) => AXES.map((axis) => ({ kind: axis, name: () => [NAMES[axis
 
 /** @type {import('./frequency_plot.js').About[]} */
 const CHARTS = [
-  { id: 'loop-gain', title: 'Gain', unit: ' dB', steps: [10, 20, 40, 60, 100], range: around(20, -100, 120), rule: { value: 0, label: 'crossover', above: false }, spans: spans('gain', (m) => decibel(m.gain_margin)), series: series((own) => decibels(own.gain)) },
-  { id: 'loop-phase', title: 'Phase', unit: '°', steps: [15, 30, 45, 90, 180, 360], range: around(45, -1080, 360), rule: { value: -180, every: 360, label: 'critical', above: false }, spans: spans('phase', (m) => degrees(m.phase_margin, 0)),
+  { id: 'loop-gain', title: 'Gain', full: 'Gain of the loop opened at each motor', unit: ' dB', steps: [10, 20, 40, 60, 100], range: around(20, -100, 120), rule: { value: 0, label: 'crossover', above: false }, spans: spans('gain', (m) => decibel(m.gain_margin)), series: series((own) => decibels(own.gain)) },
+  { id: 'loop-phase', title: 'Phase', full: 'Phase of the loop opened at each motor', unit: '°', steps: [15, 30, 45, 90, 180, 360], range: around(45, -1080, 360), rule: { value: -180, every: 360, label: 'critical', above: false }, spans: spans('phase', (m) => degrees(m.phase_margin, 0)),
     series: series((own) => own.phase.map((/** @type {number} */ v) => v * DEGREE)) },
 ];
 
