@@ -15,10 +15,19 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 VENDOR = {
-    "uplot": ["dist/uPlot.esm.js", "dist/uPlot.min.css", "LICENSE"],
-    "swagger-ui-dist": ["swagger-ui-bundle.js", "swagger-ui.css", "LICENSE", "NOTICE"],
+    "uplot": {
+        "uPlot.esm.js": "dist/uPlot.iife.min.js",
+        "uPlot.min.css": "dist/uPlot.min.css",
+        "LICENSE": "LICENSE",
+    },
+    "swagger-ui-dist": {
+        name: name for name in ("swagger-ui-bundle.js", "swagger-ui.css", "LICENSE", "NOTICE")
+    },
 }
-"""The files that the page needs, per npm package; all others stay out of the wheel."""
+"""The files that the page needs and where they stand, per npm package; all others stay out of the wheel."""
+
+EXPORTS = {"uPlot.esm.js": "\nexport default uPlot;\n"}
+"""What makes a module of a script: uPlot comes minified only as a script, in half the size of its module."""
 
 
 class VendorHook(BuildHookInterface):
@@ -30,24 +39,26 @@ class VendorHook(BuildHookInterface):
         """Hatchling's entry: runs before the files of the wheel are collected."""
         root = Path(self.root)
         vendor = root / "static" / "vendor"
-        stamp = vendor / "package-lock.json"
-        lock = (root / "package-lock.json").read_bytes()
-        if stamp.is_file() and stamp.read_bytes() == lock and all(p.is_file() for p in wanted(vendor)):
+        stamp = vendor / "made-from"
+        made_from = (root / "package-lock.json").read_text("utf-8") + repr((VENDOR, EXPORTS))
+        known = stamp.is_file() and stamp.read_text("utf-8") == made_from
+        if known and all(p.is_file() for p in wanted(vendor)):
             return
         shutil.rmtree(vendor, ignore_errors=True)
         with tempfile.TemporaryDirectory() as scratch:
             install(root, Path(scratch))
             for package, files in VENDOR.items():
-                for name in files:
-                    target = vendor / package / Path(name).name
+                for name, source in files.items():
+                    target = vendor / package / name
                     target.parent.mkdir(parents=True, exist_ok=True)
-                    shutil.copyfile(Path(scratch) / "node_modules" / package / name, target)
-        stamp.write_bytes(lock)
+                    content = (Path(scratch) / "node_modules" / package / source).read_bytes()
+                    target.write_bytes(content + EXPORTS.get(name, "").encode())
+        stamp.write_text(made_from, "utf-8")
 
 
 def wanted(vendor: Path) -> list[Path]:
     """Every vendored file that must exist."""
-    return [vendor / package / Path(name).name for package, names in VENDOR.items() for name in names]
+    return [vendor / package / name for package, files in VENDOR.items() for name in files]
 
 
 def install(root: Path, scratch: Path) -> None:

@@ -174,6 +174,23 @@ class LoopMargins(Model):
     yaw: Margins | None = None
 
 
+class FrequencyResponse(Model):
+    """L(jω) of the loop opened at one motor's input, the rest closed; the phase without jumps, rad."""
+
+    gain: list[float]
+    phase: list[float]
+
+
+class OpenLoops(Model):
+    """The loops opened at each motor, over frequency, rad/s; −1 is critical."""
+
+    frequencies: list[float]
+    pitch: FrequencyResponse
+    yaw: FrequencyResponse
+    margins: LoopMargins
+    stable: bool
+
+
 class Sensitivity(Model):
     """Sensitivity peak and disk margin at both motors at once, rad/s; what the disk margin guarantees."""
 

@@ -30,7 +30,7 @@ from heli2dof_core.controllability import controllability_indices
 from heli2dof_core.evaluate import Step
 from heli2dof_core.findings import merged
 from heli2dof_core.interaction import dominance_over_frequency
-from heli2dof_core.margins import Margins
+from heli2dof_core.margins import Margins, loop_margins, open_loop_response
 from heli2dof_core.metrics import StepMetrics
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.sensitivity import Sensitivity
@@ -250,11 +250,22 @@ def symbolic_reply(report: SymbolicReport) -> Reply:
     }
 
 
+def open_loops_reply(loop: Loop, frequencies: Sequence[float]) -> Reply:
+    """L(jω) at each motor and its margins; the phase starts between −2π and 0 and has no jumps."""
+    responses = open_loop_response(loop, np.array(frequencies))
+    reply: Reply = {"frequencies": list(frequencies), "stable": loop.stable}
+    for axis, response in zip(AXES, responses, strict=True):
+        phase = np.unwrap(np.angle(response))
+        phase -= 2 * np.pi * np.ceil(phase[0] / (2 * np.pi))
+        reply[axis] = {"gain": np.abs(response).tolist(), "phase": phase.tolist()}
+    return reply | {"margins": margins_reply(loop_margins(loop))}
+
+
 def margins_reply(margins: tuple[Margins, Margins] | None) -> Reply:
     """Margins at each motor; empty where the loop is unstable."""
     if margins is None:
         return {}
-    return {axis: present(asdict(own)) for axis, own in zip(AXES, margins, strict=True)}
+    return {axis: present(vars(own)) for axis, own in zip(AXES, margins, strict=True)}
 
 
 def sensitivity_reply(sensitivity: Sensitivity | None) -> Reply:
@@ -264,13 +275,13 @@ def sensitivity_reply(sensitivity: Sensitivity | None) -> Reply:
     low, high = sensitivity.gain_range
     return {
         "sensitivity": present(
-            {**asdict(sensitivity), "gain_low": low, "gain_high": high, "phase": sensitivity.phase}
+            {**vars(sensitivity), "gain_low": low, "gain_high": high, "phase": sensitivity.phase}
         )
     }
 
 
 def _limits(limits: Limits) -> Reply:
-    return present(asdict(limits))
+    return present(vars(limits))
 
 
 def _voltages(values: Floats) -> Reply:

@@ -1,4 +1,4 @@
-"""Classical margins of each motor's loop, from polynomials instead of a frequency grid."""
+"""Each motor's loop: its classical margins, from polynomials and no grid, and its frequency response."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 from .engine import engine
 from .layout import MARGINS, POLYNOMIAL_WORKSPACE
 from .loop import Loop
+from .signals import Complexes, Floats
 
 
 @dataclass(frozen=True)
@@ -41,3 +42,24 @@ def loop_margins(loop: Loop) -> tuple[Margins, Margins] | None:
     engine().margins(loop.polynomials, np.empty(POLYNOMIAL_WORKSPACE), table)
     pitch, yaw = ([None if isnan(v) else v for v in row] for row in table.tolist())
     return Margins(*pitch), Margins(*yaw)
+
+
+def open_loop_response(loop: Loop, frequencies: Floats) -> Complexes:
+    """L(jω) of the loop opened at each motor's input, the rest closed, shape (2, n); −1 is critical.
+
+    With u = c [x, z] the motor's own law, b its input and A that of the whole loop, opening takes the law out
+    again: L(s) = −c (sI − A + bc)⁻¹ b (Skogestad & Postlethwaite, Multivariable Feedback Control, 2005, 3.2).
+
+    Args:
+        loop: stable or not.
+        frequencies: above 0, rad/s, shape (n,).
+    """
+    order = len(loop.A)
+    s = 1j * frequencies[:, None, None] * np.eye(order)
+    B = np.zeros((order, 2))
+    B[:4] = loop.design.plant.B
+    response = np.empty((2, len(frequencies)), dtype=np.complex128)
+    for motor, law in enumerate(loop.voltage_from_state):
+        b = B[:, [motor]]
+        response[motor] = -(law @ np.linalg.solve(s - (loop.A - b * law), b))[:, 0]
+    return response

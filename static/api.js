@@ -43,6 +43,8 @@ export const compareMethods = (design) => call('api/v1/compare', { method: 'POST
 export const compareSplits = (design) => call('api/v1/splits', { method: 'POST', body: design });
 /** The relative gains, at the frequencies that it names too. @param {unknown} design */
 export const relativeGain = (design) => call('api/v1/rga', { method: 'POST', body: design });
+/** The loops opened at each motor, at the frequencies that it names. @param {unknown} design */
+export const openLoops = (design) => call('api/v1/loops', { method: 'POST', body: design });
 /** The paper as data: its equations, numbers, errata and figures, recomputed. */
 export const getPaper = () => call('api/v1/paper');
 /** The derivation in numbers. @param {unknown} design */
@@ -52,6 +54,15 @@ export const putRig = (session, rig) => call(`scene/${encodeURIComponent(session
 /** What cameras need to know of each rig. @returns {Promise<Record<string, import('./scene_cameras.js').RigView>>} */
 export const getRigViews = () => call('scene/rigs');
 
+/** The motion of a design as a file. @param {'html'|'viser'} format @param {unknown} design with scenario @returns {Promise<Blob>} */
+export async function recordMotion(format, design) {
+  const response = await fetch(at(`api/v1/recording?format=${format}`), { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(design) });
+  if (!response.ok) throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
+  return response.blob();
+}
+/** The rig in a window of its own. @param {string} session */
+export const windowAddress = (session) => at(`scene/${encodeURIComponent(session)}/`).href;
+
 /** @param {string} path */
 function socketAddress(path) {
   const url = at(path);
@@ -60,6 +71,8 @@ function socketAddress(path) {
 }
 
 export const liveAddress = () => socketAddress('api/v1/live');
+/** @param {string} session */
+export const hubAddress = (session) => socketAddress(`scene/${encodeURIComponent(session)}/hub?page=true`);
 export const cloudAddress = () => socketAddress('api/v1/robustness');
 
 /**

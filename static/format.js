@@ -22,6 +22,9 @@ export function significant(v, digits = 4) {
   return fixed(v, Math.max(0, digits - whole));
 }
 
+/** A figure in few characters: from 100 on without decimals, from 10⁵ on as a power of ten. @param {string} text with one number in it */
+export const brief = (text) => text.replace(/\d{3,}(\.\d+)?/, (v) => (Number(v) >= 99999.5 ? Number(v).toExponential(0).replace('e+', 'e') : String(Math.round(Number(v)))));
+
 /** For an input field: plain minus, no trailing zeros. @param {number} v */
 export const forField = (v) => String(Number(v.toPrecision(7)));
 

@@ -2,7 +2,7 @@
  * The whole state as the fragment of an address, and back: `#v1&preset=quanser-aero&p=-5,-4,-3+2j,-3-2j&step.theta=5deg`. Pure.
  *
  * Written is what differs from the preset's proposal. `p`: the four poles. `pi`: k_p, T_i of pitch, k_p, T_i of yaw. `set.…`: parameters; `limits.…`; `step.…`: references;
- * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `spread`, `req.…`: what is shown. `lock`: what is
+ * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`, `spread`, `req.…`: what is shown. `lock`: what is
  * locked. `pin`: a pinned design, its parts parted by `~`. `at`: the place on the page. A part that cannot be read is named and left out; the rest is restored.
  *
  * The format is part of the page's contract: a change that an old reader would misread takes a new version, and the reader of the old one stays.
@@ -11,7 +11,7 @@
  * @typedef {import('./types.js').Preset} Preset
  * @typedef {{part: string, why: string}} Trouble
  * @typedef {{index: number, name: string, design: Design}} PinnedDesign
- * @typedef {Pick<State, 'motion'|'showLinear'|'spread'|'requirements'|'locks'>} Shown
+ * @typedef {Pick<State, 'motion'|'showLinear'|'showMarks'|'spread'|'requirements'|'locks'>} Shown
  * @typedef {{design?: Design, shown?: Shown, pins?: PinnedDesign[], place?: string, trouble: Trouble[]}} Link
  * @typedef {{presets: Preset[], methods: {name: string}[]}} Known
  */
@@ -52,11 +52,12 @@ const joined = (parts, separator) => parts.map(([key, text]) => `${key}=${escape
 
 /** @param {State} state @param {Known} known @param {string|null} [place] @param {number} [most] the length that pins may make it @returns {string} with its #; empty while there is no design */
 export function linkOf(state, { presets }, place = null, most = MOST) {
-  const { design, motion, showLinear, spread, requirements, locks, pins } = state;
+  const { design, motion, showLinear, showMarks, spread, requirements, locks, pins } = state;
   if (!design) return '';
   const parts = designParts(design, presets);
   if (motion !== 'both') parts.push(['motion', motion]);
   if (!showLinear) parts.push(['linear', 'false']);
+  if (!showMarks) parts.push(['marks', 'false']);
   if (spread) parts.push(['spread', String(spread)]);
   for (const [path, text] of differences(requirements, NONE)) parts.push([`req.${path}`, text]);
   if (locks.length) parts.push(['lock', locks.join()]);
@@ -139,7 +140,7 @@ function readPin(raw, known, trouble, order) {
 /** @param {string} body @param {Known} known @returns {Link} */
 function readFirst(body, known) {
   /** @type {Trouble[]} */ const trouble = [];
-  /** @type {Shown} */ const shown = { motion: 'both', showLinear: true, spread: 0, requirements: NONE, locks: [] };
+  /** @type {Shown} */ const shown = { motion: 'both', showLinear: true, showMarks: true, spread: 0, requirements: NONE, locks: [] };
   /** @type {[string, string][]} */ const design = [];
   /** @type {PinnedDesign[]} */ const pins = [];
   let place;
@@ -149,6 +150,7 @@ function readFirst(body, known) {
     const refuse = (/** @type {string} */ why) => trouble.push({ part: key, why });
     if (key === 'motion') MOTIONS.includes(value) ? (shown.motion = /** @type {State['motion']} */ (value)) : refuse(`neither ${MOTIONS.join(' nor ')}`);
     else if (key === 'linear') shown.showLinear = value !== 'false';
+    else if (key === 'marks') shown.showMarks = value !== 'false';
     else if (key === 'spread') Number(value) >= 0 && Number(value) <= 0.5 ? (shown.spread = Number(value)) : refuse('not between 0 and 0.5');
     else if (key === 'lock') {
       shown.locks = value.split(',').filter((name) => Object.hasOwn(LOCKS, name));

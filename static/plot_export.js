@@ -3,12 +3,13 @@
  * @typedef {import('./types.js').State} State
  * @typedef {import('./types.js').Series} Series
  * @typedef {import('./traces.js').Signal} Signal
- * @typedef {'pitch'|'yaw'|'played'|'pin'} Kind
+ * @typedef {'pitch'|'yaw'|'played'|'pin'|'series-0'|'series-1'} Kind
  * @typedef {{name: string, kind: Kind, linear?: boolean, index?: number, axis?: 'theta'|'psi', t: Series, values: Series}} Line
  */
 import { letterOf } from './pins.js';
 import { ghostsOf } from './plot_ghosts.js';
 import { isVoltage, tracesOf } from './traces.js';
+import { t as word } from './words.js';
 
 export const NAMES = { theta: 'theta', psi: 'psi', V_p: 'V_p', V_y: 'V_y' };
 export const TITLES = { theta: 'Pitch angle θ', psi: 'Yaw angle ψ', V_p: 'Pitch motor voltage V_p', V_y: 'Yaw motor voltage V_y' };
@@ -22,8 +23,8 @@ export function linesOf({ reply, motion, showLinear, pins }, signal) {
   if (!reply) return [];
   const { t, plots } = tracesOf(reply, motion, showLinear);
   const [played, linearPitch, linearYaw, yaw, pitch] = plots[signal];
-  const line = (/** @type {string} */ name, /** @type {Kind} */ kind, /** @type {Series|undefined} */ values, linear = false) => (values ? [{ name, kind, linear, t, values }] : []);
-  const ghosts = ghostsOf(pins, signal).map(({ pin, axis, t: own, values }) => /** @type {Line} */ ({ name: `${letterOf(pin.index)} ${pin.name}, ${STEPS[axis]}`, kind: 'pin', index: pin.index, axis, t: own, values }));
+  const line = (/** @type {string} */ name, /** @type {Kind} */ kind, /** @type {Series|undefined} */ values, linear = false) => (values ? [{ name: word(name), kind, linear, t, values }] : []);
+  const ghosts = ghostsOf(pins, signal).map(({ pin, axis, t: own, values }) => /** @type {Line} */ ({ name: `${letterOf(pin.index)} ${pin.name}, ${word(STEPS[axis])}`, kind: 'pin', index: pin.index, axis, t: own, values }));
   return [...line(STEPS.theta, 'pitch', pitch), ...line(STEPS.psi, 'yaw', yaw), ...line('pitch step, linear', 'pitch', linearPitch, true), ...line('yaw step, linear', 'yaw', linearYaw, true),
     ...ghosts, ...(motion === 'both' ? line(STEPS.both, 'played', played) : [])];
 }
@@ -38,13 +39,16 @@ const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"
 const alike = (a, b) => a === b || (a.length === b.length && Math.abs(a[a.length - 1] - b[b.length - 1]) < 1e-6);
 
 /** RFC 4180 with units in the header; lines over another time get a column of that time before them. @param {Signal} signal @param {Line[]} lines */
-export function csvOf(signal, lines) {
+export const csvOf = (signal, lines) => tableOf(lines, 't [s]', (name) => `${NAMES[signal]}, ${name} [${unitOf(signal)}]`);
+
+/** The same for lines over anything. @param {Line[]} lines @param {string} over the header of what they are over @param {(name: string) => string} header */
+export function tableOf(lines, over, header) {
   /** @type {{name: string, values: Series}[]} */ const columns = [];
   /** @type {Series|null} */ let t = null;
   for (const line of lines) {
-    if (!t || !alike(t, line.t)) columns.push({ name: 't [s]', values: line.t });
+    if (!t || !alike(t, line.t)) columns.push({ name: over, values: line.t });
     t = line.t;
-    columns.push({ name: `${NAMES[signal]}, ${line.name} [${unitOf(signal)}]`, values: line.values });
+    columns.push({ name: header(line.name), values: line.values });
   }
   const rows = Math.max(0, ...columns.map((c) => c.values.length));
   const body = Array.from({ length: rows }, (_, i) => columns.map((c) => digits(c.values[i])).join(','));

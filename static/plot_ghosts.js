@@ -5,6 +5,7 @@
  * @typedef {import('./traces.js').Signal} Signal
  */
 import { h } from './dom.js';
+import { pictureScale } from './picture_scale.js';
 import { colorOf, letterOf } from './pins.js';
 import { extent, trace } from './traces.js';
 
@@ -47,7 +48,8 @@ export class PlotGhosts {
   draw(color) {
     const { chart } = this;
     const { x, y } = chart.scales;
-    const key = `${chart.width} ${chart.height} ${x.min} ${x.max} ${y.min} ${y.max} ${this.ghosts.length} ${color('pin-0')} ${devicePixelRatio}`;
+    const scale = pictureScale();
+    const key = `${chart.width} ${chart.height} ${x.min} ${x.max} ${y.min} ${y.max} ${this.ghosts.length} ${color('pin-0')} ${devicePixelRatio} ${scale.type} ${scale.line}`;
     if (key === this.#key) return;
     this.#key = key;
     const { left, top, width, height } = chart.bbox;
@@ -60,17 +62,17 @@ export class PlotGhosts {
     if (!ctx) return;
     ctx.clearRect(0, 0, w, t);
     if (!this.ghosts.length) return;
-    drawGhosts(ctx, this.ghosts, (v) => chart.valToPos(v, 'x', true) - left, (v) => chart.valToPos(v, 'y', true) - top, { width: w, ratio, color })();
+    drawGhosts(ctx, this.ghosts, (v) => chart.valToPos(v, 'x', true) - left, (v) => chart.valToPos(v, 'y', true) - top, { width: w, type: ratio * scale.type, line: ratio * scale.line, color })();
   }
 }
 
-/** @param {CanvasRenderingContext2D} ctx @param {Ghost[]} ghosts @param {(t: number) => number} px @param {(v: number) => number} py @param {{width: number, ratio: number, color: (name: string) => string}} how @returns {() => void} draws their letters, over what may come between */
-export function drawGhosts(ctx, ghosts, px, py, { width, ratio, color }) {
+/** @param {CanvasRenderingContext2D} ctx @param {Ghost[]} ghosts @param {(t: number) => number} px @param {(v: number) => number} py @param {{width: number, type: number, line: number, color: (name: string) => string}} how  its size, and that of letters and lines, to a CSS pixel each @returns {() => void} draws their letters, over what may come between */
+export function drawGhosts(ctx, ghosts, px, py, { width, type, line, color }) {
   ctx.lineJoin = 'round';
   const badges = ghosts.map(({ pin, axis, t, values }, k) => {
     ctx.strokeStyle = color(colorOf(pin.index));
     ctx.globalAlpha = 0.85;
-    ctx.lineWidth = (axis === 'theta' ? 1.6 : 1.1) * ratio;
+    ctx.lineWidth = (axis === 'theta' ? 1.6 : 1.1) * line;
     ctx.beginPath();
     for (let i = 0; i < t.length; i++) ctx.lineTo(px(t[i]), py(values[i]));
     ctx.stroke();
@@ -80,7 +82,7 @@ export function drawGhosts(ctx, ghosts, px, py, { width, ratio, color }) {
     return { x: px(t[i]), y: py(values[i]), round: axis === 'theta', letter: letterOf(pin.index), ink: ctx.strokeStyle };
   });
   ctx.globalAlpha = 1;
-  return () => drawBadges(ctx, badges, ratio, color('panel'));
+  return () => drawBadges(ctx, badges, type, color('panel'));
 }
 
 /** @param {CanvasRenderingContext2D} ctx @param {{x: number, y: number, round: boolean, letter: string, ink: string|CanvasGradient|CanvasPattern}[]} badges @param {number} ratio @param {string} paper */

@@ -3,18 +3,21 @@ import { saveFile } from './clipboard.js';
 import { fixed } from './format.js';
 import { h } from './dom.js';
 import { nameOf } from './methods.js';
-import { csvOf, linesOf } from './plot_export.js';
+import { drawPicture } from './picture.js';
+import { csvOf, linesOf, tableOf } from './plot_export.js';
 import { drawPlot, fileName } from './plot_image.js';
 import { icon, popupButton } from './popup.js';
+import { say } from './words.js';
 
-/** @typedef {import('./traces.js').Signal} Signal @typedef {{x: [number, number], y: [number, number], rules: {value: number, label: string, danger: boolean}[]}} Seen */
+/** @typedef {import('./traces.js').Signal} Signal @typedef {import('./plot_image.js').Seen} Seen @typedef {import('./picture.js').Picture} Picture */
 
 /** What the picture is of. @param {import('./store.js').Store} store */
-function subtitle(store) {
+export function subtitle(store) {
   const { design } = store.state;
   if (!design) return '';
   const poles = design.poles.filter((p) => p.im >= 0).map((p) => (p.im ? `${fixed(p.re)} ± ${fixed(p.im)}j` : fixed(p.re))).join(', ');
-  return `${store.preset?.title ?? design.preset} · poles ${poles} rad/s · ${nameOf(design)}${design.outer === 'pi' ? ', PI loops' : ''}`;
+  const about = say`${store.preset?.title ?? design.preset} · poles ${poles} rad/s · ${nameOf(design)}`;
+  return design.outer === 'pi' ? say`${about}, PI loops` : about;
 }
 
 const WORDS = { PNG: 'Picture: what is seen, with title, axes and legend, on white', CSV: 'Numbers: time and every line, units in the header' };
@@ -37,3 +40,6 @@ export const plotMenu = (store, signal, title, seen) => saveButton(signal, title
 
 /** The same for lines that are not the design's. @param {string} name of the file @param {string} title @param {Signal} signal @param {import('./plot_export.js').Line[]} lines @param {Seen & {subtitle: string}} seen */
 export const linesMenu = (name, title, signal, lines, seen) => saveButton(name, title, { PNG: () => savePicture(drawPlot(signal, lines, [], seen), name), CSV: () => saveNumbers(csvOf(signal, lines), name) });
+
+/** The same for what is not over time. @param {string} name of the file @param {string} title @param {() => Picture} picture @param {string} over header of what the lines are over */
+export const pictureMenu = (name, title, picture, over) => saveButton(name, title, { PNG: () => savePicture(drawPicture(picture()), name), CSV: () => saveNumbers(tableOf(picture().lines, over, (line) => line), name) });

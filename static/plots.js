@@ -5,12 +5,17 @@
  * @typedef {import('./traces.js').Signal} Signal
  */
 import uPlot from './vendor/uplot/uPlot.esm.js';
+import { marksOf } from './characteristics.js';
 import { h, setText, symbol } from './dom.js';
-import { DEGREE, fixed } from './format.js';
+import { fixed } from './format.js';
+import { followsPage, pictureScale } from './picture_scale.js';
 import { COLORS, colorOf } from './pins.js';
 import { PlotGhosts } from './plot_ghosts.js';
+import { PlotMarks } from './plot_marks.js';
 import { plotMenu } from './plot_menu.js';
+import { drawBand, drawLabels, drawRegions, drawShades, limitOf, referenceOf, regionsOf, rulesOf } from './plot_rules.js';
 import { extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from './traces.js';
+import { say, t as word } from './words.js';
 
 /** @type {Record<Signal, {base: string, sub?: string, title: string, unit: string}>} */
 const ABOUT = {
@@ -32,8 +37,8 @@ export class Plots {
   /** @type {any[]} */ #seen = [];
   /** @type {number|null} */ #hover = null;
   #playhead = 0;
-  /** Of the type and the axes; other than 1 for a lecture hall. */ scale = 1;
   /** @type {import('./types.js').Cloud|null} */ #cloud = null;
+  /** @type {import('./types.js').Requirements|null} */ #asked = null;
   /** @type {{t: import('./types.js').Series, plots: Record<Signal, any[]>}|null} */ #data = null;
 
   /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onSeek: (t: number) => void, onPeek: (t: number|null) => void}} handlers */
@@ -59,7 +64,7 @@ export class Plots {
   #readColors() {
     const style = getComputedStyle(document.documentElement);
     const pins = Array.from({ length: COLORS }, (_, i) => colorOf(i));
-    for (const name of ['panel', 'pitch', 'yaw', 'ink', 'muted', 'grid', 'halo', 'danger', 'limit-fill', ...pins]) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
+    for (const name of ['panel', 'pitch', 'yaw', 'ink', 'muted', 'grid', 'halo', 'danger', 'warn', 'limit-fill', ...pins]) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
   }
 
   /** @param {Signal} signal */
@@ -68,36 +73,41 @@ export class Plots {
     const values = ['theta', 'psi'].map((axis) => h('span', { class: `at ${axis === 'theta' ? 'pitch' : 'yaw'}`, title: `${axis === 'theta' ? 'pitch' : 'yaw'} step` }));
     const body = h('div', { class: 'plot-body', tabindex: 0, role: 'group', 'aria-label': `${about.title}: left and right move the time, plus and minus zoom, Escape shows the whole time`, onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e) });
     const first = signal === SIGNALS[0] ? [this.when, this.unzoom] : [];
-    const menu = plotMenu(this.store, signal, `${about.title} over time`, () => ({ x: this.#zoom ?? this.#time, y: this.#ranges[signal] ?? [0, 1], rules: this.#rules(signal) }));
+    const menu = plotMenu(this.store, signal, `${about.title} over time`, () => ({ x: this.#zoom ?? this.#time, y: this.#ranges[signal] ?? [0, 1], rules: rulesOf(this.store.state.reply, signal), regions: regions(), marks: this.#marks(signal) }));
     const figure = h('figure', { class: `plot ${isVoltage(signal) ? 'volts' : 'angle'}`, 'data-testid': `plot-${signal}`, 'data-signal': signal },
       h('figcaption', {}, symbol(about.base, about.sub), h('span', { class: 'what' }, `${about.title}, ${about.unit.trim() === '°' ? 'deg' : 'V'}`), first, h('span', { class: 'values' }, values), menu), body);
     this.root.append(figure);
     const color = (/** @type {string} */ name) => () => this.#colors[name];
+    const ink = (/** @type {string} */ name) => this.#colors[name];
+    const rules = () => rulesOf(this.store.state.reply, signal);
+    const regions = () => regionsOf(this.store.state.reply, signal, this.store.state.requirements);
     const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({ stroke: color(name), width, dash, auto: false, points: { show: false } });
     const last = () => signal === 'V_y' || (signal === 'V_p' && this.root.classList.contains('two-columns'));
     /** @type {PlotGhosts|undefined} */ let ghosts;
+    /** @type {PlotMarks|undefined} */ let marks;
     // auto: false, as the ranges are ours: no trace is searched for its extremes a second time.
-    const chart = new Chart({
-      width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [6, () => 10 * this.scale, 2, 0],
+    const chart = followsPage(new Chart({
+      width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [() => 6 * pictureScale().type, () => 12 * pictureScale().type, 2, 0],
       series: [{}, { stroke: color('halo'), width: 7, auto: false, points: { show: false } }, line('pitch', 1.25, [7, 4]), line('yaw', 1.25, [2, 3]), line('yaw', 1.5), line('pitch', 2.4)],
       scales: { x: { time: false, range: () => this.#zoom ?? this.#time }, y: { range: () => this.#ranges[signal] ?? [0, 1] } },
       axes: [
-        { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 4, size: () => (last() ? 22 * this.scale : 4),
+        { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 4, space: () => 50 * pictureScale().type, size: () => (last() ? 22 * pictureScale().type : 4),
           values: (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => (last() ? `${Number(v.toFixed(3))}${v === splits[splits.length - 1] ? ' s' : ''}` : '')) },
-        { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, size: () => AXIS_WIDTH * this.scale, space: 26,
+        { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, size: () => AXIS_WIDTH * pictureScale().type, space: () => 26 * pictureScale().type,
           values: (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => `${String(Number(v.toPrecision(6))).replace('-', '\u2212')}`) },
       ],
       cursor: { y: false, points: { show: false }, drag: { x: true, y: false, setScale: false },
         sync: { key: 'heli2dof', filters: { pub: (/** @type {string} */ type) => type === 'mousemove' || type === 'mouseleave' } },
         bind: { dblclick: () => () => this.#zoomTo(null) } },
       hooks: {
-        drawClear: [(/** @type {any} */ u) => this.#drawLimits(u, signal), (/** @type {any} */ u) => this.#drawBand(u, signal)],
-        draw: [(/** @type {any} */ u) => this.#drawReference(u, signal), () => ghosts?.draw((name) => this.#colors[name])],
+        drawAxes: [(/** @type {any} */ u) => drawShades(u, rules(), ink), (/** @type {any} */ u) => drawRegions(u, regions(), ink), (/** @type {any} */ u) => drawBand(u, signal, this.#cloud, ink)],
+        draw: [(/** @type {any} */ u) => drawLabels(u, rules(), ink), () => ghosts?.draw(ink), () => marks?.place()],
         setCursor: [(/** @type {any} */ u) => this.#hovered(u)],
         setSelect: [(/** @type {any} */ u) => this.#selected(u)],
       },
-    }, [[0, 1], ...Array(5).fill([null, null])], body);
+    }, [[0, 1], ...Array(5).fill([null, null])], body));
     ghosts = new PlotGhosts(chart, signal);
+    marks = new PlotMarks(chart, this.onSeek);
     const head = h('div', { class: 'playhead' });
     chart.over.append(head);
     chart.over.addEventListener('click', () => {
@@ -108,16 +118,17 @@ export class Plots {
       if (width > 60 && height > 40) chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
       this.#movePlayhead();
     }).observe(body);
-    return { signal, chart, values, head, ghosts };
+    return { signal, chart, values, head, ghosts, marks };
   }
 
   /** @param {State} state @returns {boolean} whether anything was drawn */
   render(state) {
-    if (state.cloud !== this.#cloud) {
+    if (state.cloud !== this.#cloud || state.requirements !== this.#asked) {
       this.#cloud = state.cloud;
+      this.#asked = state.requirements;
       for (const { signal, chart } of this.plots) if (!isVoltage(signal)) chart.redraw(false);
     }
-    const seen = [state.reply, state.motion, state.showLinear, state.pins];
+    const seen = [state.reply, state.motion, state.showLinear, state.showMarks, state.pins];
     if (!state.reply || seen.every((v, i) => v === this.#seen[i])) return false;
     this.#seen = seen;
     const fresh = this.#data === null;
@@ -127,105 +138,27 @@ export class Plots {
     this.#time = [0, end];
     if (whole && this.#zoom) this.#zoomTo(null);
     const empty = Array(data.t.length).fill(null);
-    for (const { signal, chart, ghosts } of this.plots) {
+    for (const { signal, chart, ghosts, marks } of this.plots) {
       ghosts.take(state.pins);
       const [played, dashPitch, dashYaw, yaw, pitch] = data.plots[signal];
       this.#ranges[signal] = rangeOf({
-        solid: extent([played, yaw, pitch]), dashed: extent([dashPitch, dashYaw, ghosts.extent]), include: [0, this.#reference(signal) ?? 0],
-        limit: this.#limit(signal),
+        solid: extent([played, yaw, pitch]), dashed: extent([dashPitch, dashYaw, ghosts.extent]), include: [0, referenceOf(state.reply, signal) ?? 0],
+        limit: limitOf(state.reply, signal),
         previous: fresh ? undefined : this.#ranges[signal],
       });
       const columns = /** @type {any} */ ([data.t, ...data.plots[signal].map((v) => v ?? empty)]);
       chart.batch(() => chart.setData(columns));
+      marks.show(this.#marks(signal));
     }
     this.#movePlayhead();
     this.#showValues();
     return true;
   }
 
-  /** @param {Signal} signal @returns {number|undefined} the step that is asked of this axis, degrees */
-  #reference(signal) {
-    const reference = this.store.state.reply?.step.nonlinear.reference;
-    return isVoltage(signal) || !reference ? undefined : reference[/** @type {'theta'|'psi'} */ (signal)] * DEGREE;
-  }
-
-  /** How far the motor goes, in volts, or pitch between its stops, in degrees. @param {Signal} signal @returns {number|undefined} */
-  #limit(signal) {
-    const limits = this.store.state.reply?.limits;
-    if (signal === 'theta') return limits?.theta === undefined ? undefined : limits.theta * DEGREE;
-    return signal === 'psi' ? undefined : limits?.[signal];
-  }
-
-  /** The lines across a plot, with what they say. @param {Signal} signal */
-  #rules(signal) {
-    const [limit, reference] = [this.#limit(signal), this.#reference(signal)];
-    const minus = (/** @type {number} */ v) => (v < 0 ? '\u2212' : '');
-    const rules = [limit, limit && -limit].filter((v) => v !== undefined).map((v) => ({ value: v, label: signal === 'theta' ? `stop ${fixed(v, 1)}°` : `limit ${minus(v)}${Math.abs(v)} V`, danger: true }));
-    return reference ? [...rules, { value: reference, label: `reference ${fixed(reference, 1)}°`, danger: false }] : rules;
-  }
-
-  /** @param {any} u @param {Signal} signal */
-  #drawLimits(u, signal) {
-    const { ctx, bbox } = u;
-    ctx.save();
-    for (const { value: v, label } of this.#rules(signal).filter((rule) => rule.danger)) {
-      if (v > u.scales.y.max || v < u.scales.y.min) continue;
-      const y = Math.round(u.valToPos(v, 'y', true));
-      ctx.fillStyle = this.#colors['limit-fill'];
-      if (v > 0) ctx.fillRect(bbox.left, bbox.top, bbox.width, y - bbox.top);
-      else ctx.fillRect(bbox.left, y, bbox.width, bbox.top + bbox.height - y);
-      this.#rule(u, y, this.#colors.danger, [], label, v > 0 ? 1 : -1);
-    }
-    ctx.restore();
-  }
-
-  /** Between the 5th and the 95th percentile of the cloud's responses. @param {any} u @param {Signal} signal */
-  #drawBand(u, signal) {
-    if (!this.#cloud || isVoltage(signal)) return;
-    const { t, envelopes } = this.#cloud;
-    const [low, , high] = envelopes[/** @type {'theta'|'psi'} */ (signal)];
-    const { ctx, bbox } = u;
-    const at = (/** @type {number[]} */ band, /** @type {number} */ i) => /** @type {const} */ ([u.valToPos(t[i], 'x', true), u.valToPos(band[i] * DEGREE, 'y', true)]);
-    ctx.save();
-    ctx.beginPath();
-    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
-    ctx.clip();
-    ctx.beginPath();
-    for (let i = 0; i < t.length; i++) ctx.lineTo(...at(high, i));
-    for (let i = t.length - 1; i >= 0; i--) ctx.lineTo(...at(low, i));
-    ctx.closePath();
-    ctx.globalAlpha = 0.22;
-    ctx.fillStyle = this.#colors[signal === 'theta' ? 'pitch' : 'yaw'];
-    ctx.fill();
-    ctx.restore();
-  }
-
-  /** @param {any} u @param {Signal} signal */
-  #drawReference(u, signal) {
-    const rule = this.#rules(signal).find(({ danger }) => !danger);
-    if (!rule) return;
-    u.ctx.save();
-    this.#rule(u, Math.round(u.valToPos(rule.value, 'y', true)), this.#colors.ink, [1, 5], rule.label, rule.value > 0 ? 1 : -1);
-    u.ctx.restore();
-  }
-
-  /** A labelled horizontal line. @param {any} u @param {number} y @param {string} color @param {number[]} dash @param {string} label @param {number} side */
-  #rule(u, y, color, dash, label, side) {
-    const { ctx, bbox } = u;
-    const ratio = devicePixelRatio;
-    ctx.strokeStyle = color;
-    ctx.lineWidth = 1.25 * ratio * this.scale;
-    ctx.lineCap = 'round';
-    ctx.setLineDash(dash.map((d) => d * ratio));
-    ctx.beginPath();
-    ctx.moveTo(bbox.left, y);
-    ctx.lineTo(bbox.left + bbox.width, y);
-    ctx.stroke();
-    ctx.font = `${10 * ratio * this.scale}px system-ui, sans-serif`;
-    ctx.textAlign = 'right';
-    ctx.textBaseline = side > 0 ? 'top' : 'bottom';
-    ctx.fillStyle = color;
-    ctx.fillText(label, bbox.left + bbox.width - 4 * ratio, y + side * 3 * ratio);
+  /** @param {Signal} signal */
+  #marks(signal) {
+    const { reply, showMarks } = this.store.state;
+    return showMarks ? marksOf(reply, signal) : [];
   }
 
   /** @param {any} u */
@@ -288,8 +221,8 @@ export class Plots {
     const steps = this.store.state.reply?.axis_steps;
     if (!this.#data || !steps) return;
     const i = indexAt(this.#data.t, this.#hover ?? this.#playhead);
-    setText(this.at, `at ${fixed(this.#data.t[i], 2)} s`);
-    setText(this.played, `, ${PLAYED[this.store.state.motion]} played`);
+    setText(this.at, say`at ${fixed(this.#data.t[i], 2)} s`);
+    setText(this.played, say`, ${word(PLAYED[this.store.state.motion])} played`);
     for (const { signal, values } of this.plots) {
       ['theta', 'psi'].forEach((axis, k) => {
         const v = this.#data?.plots[signal][k === 0 ? 4 : 3]?.[i];

@@ -218,8 +218,8 @@ export class ScenePlayer {
 
   /** @param {Cause} cause */
   #changed(cause) {
+    this.#onTransport(this.#clock.snapshot(), cause); // before it is shown: who listens may correct what is not as told
     this.#run(cause !== "load" || !this.playing); // a drag's responses come faster than frames
-    this.#onTransport(this.#clock.snapshot(), cause);
   }
 
   /** Asks for frames while time runs. @param {boolean} [atOnce] whether the pose is not left to the next one */

@@ -74,7 +74,7 @@ export class SceneLink {
   /** @param {MessageEvent} event */
   #listen = (event) => {
     const ours = event.source === this.#iframe.contentWindow && event.origin === location.origin;
-    if (!ours || event.data?.channel !== CHANNEL) return;
+    if (!ours || event.data?.channel !== CHANNEL || event.data.state === undefined) return;
     const { state, reason } = event.data;
     this.ready = state === "ready";
     this.#drawn = this.ready || (this.#drawn && state === "closed");

@@ -10,6 +10,7 @@ import { degrees, fixed } from './format.js';
 import { ScenePlayer } from './scene.js';
 import { SceneControls } from './scene_controls.js';
 import { flightsOf } from './scene_ghosts.js';
+import { sceneMenu } from './scene_menu.js';
 import { AT_LIMIT } from './scene_pose.js';
 import { hasWebGl, session } from './scene_session.js';
 import { Transport } from './scene_transport.js';
@@ -37,8 +38,8 @@ export class SceneView {
   /** @type {Record<string, import('./scene_cameras.js').RigView>|null} */ #views = null;
   #calm = matchMedia('(prefers-reduced-motion: reduce)');
 
-  /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onTime: (t: number) => void}} handlers */
-  constructor(root, store, { onTime }) {
+  /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onTime: (t: number) => void, onTransport: NonNullable<ConstructorParameters<typeof ScenePlayer>[1]>['onTransport']}} handlers */
+  constructor(root, store, { onTime, onTransport }) {
     this.store = store;
     this.onTime = onTime;
     this.session = session();
@@ -61,8 +62,9 @@ export class SceneView {
     root.append(h('div', { class: 'stage' }, this.webgl ? this.frame : null, this.notice, hud, h('div', { class: 'motion' }, this.motion.node), this.webgl ? this.controls.node : null),
       this.transport.node);
     const target = this.webgl ? this.frame : /** @type {HTMLIFrameElement} */ (/** @type {unknown} */ ({ contentWindow: null }));
-    this.player = new ScenePlayer(target, { onFrame: (s) => this.#show(s), onState: (s) => this.#state(s) });
+    this.player = new ScenePlayer(target, { onFrame: (s) => this.#show(s), onState: (s) => this.#state(s), onTransport });
     this.player.setCamera(this.controls.camera);
+    if (this.webgl) this.transport.node.append(sceneMenu(store, this.session));
     if (this.webgl) this.#watchFrame();
     if (this.webgl) this.#followTheme();
     this.#state(this.#last);

@@ -6,6 +6,7 @@
 import { cloudWords, SPREADS } from './cloud.js';
 import { h, setText, svg } from './dom.js';
 import { placesPoles } from './methods.js';
+import { drawingUnit } from './picture_scale.js';
 import { drawCloud } from './splane_cloud.js';
 import { Gestures } from './splane_gestures.js';
 import { drawGrid } from './splane_grid.js';
@@ -17,6 +18,7 @@ import { drawForbidden, hatchings, RequirementsBar } from './splane_requirements
 
 export class SPlane {
   view = { cx: -5, cy: 0, scale: 20, width: 0, height: 0 };
+  /** CSS pixels to one of the drawing, which grows with the page. */ unit = 1;
   #manual = false;
   /** @type {string|null} */ #preset = null;
   /** @type {number|null} */ #active = null;
@@ -31,7 +33,7 @@ export class SPlane {
     this.forbidden = svg('g');
     this.marks = new Marks();
     // The grid has a drawing of its own, which is not painted again while a pole moves.
-    const backdrop = svg('svg', { class: 'splane-svg backdrop', 'aria-hidden': 'true' },
+    this.backdrop = svg('svg', { class: 'splane-svg backdrop', 'aria-hidden': 'true' },
       svg('defs', {}, svg('pattern', { id: 'hatch', width: 8, height: 8, patternUnits: 'userSpaceOnUse', patternTransform: 'rotate(45)' },
         svg('line', { class: 'hatch-line', x1: 0, y1: 0, x2: 0, y2: 8 })), hatchings()),
       this.grid, this.forbidden);
@@ -49,7 +51,7 @@ export class SPlane {
       h('span', { title: 'poles of the whole loop: PI moves the poles that you placed' }, sample('loop'), (this.loopName = h('span'))),
       h('span', { title: 'poles of the rig without feedback' }, sample('open'), 'open loop'))));
     this.bar = new RequirementsBar(store);
-    root.append(h('div', { class: 'splane-stage' }, backdrop, this.cloud, this.svg, this.readout.node, this.cloudText), tools, this.bar.node);
+    root.append(h('div', { class: 'splane-stage' }, this.backdrop, this.cloud, this.svg, this.readout.node, this.cloudText), tools, this.bar.node);
     this.gestures = new Gestures(this);
     new ResizeObserver(([entry]) => this.#resize(entry.contentRect.width, entry.contentRect.height)).observe(this.svg);
   }
@@ -59,7 +61,7 @@ export class SPlane {
     const held = this.gestures.held;
     if (index === this.#active || (held !== null && index !== held)) return;
     this.#active = index;
-    this.readout.draw(this.store.state, index, this.view);
+    this.readout.draw(this.store.state, index, this.view, this.unit);
   };
 
   /** Takes a view that the user chose; it stays until asked to fit. */
@@ -77,9 +79,11 @@ export class SPlane {
     this.#draw(state);
   };
 
-  /** @param {number} width @param {number} height */
+  /** @param {number} width @param {number} height CSS pixels */
   #resize(width, height) {
-    this.view = { ...this.view, width, height };
+    this.unit = drawingUnit();
+    this.view = { ...this.view, width: width / this.unit, height: height / this.unit };
+    for (const drawn of [this.backdrop, this.svg]) drawn.setAttribute('viewBox', `0 0 ${this.view.width} ${this.view.height}`);
     if (this.#manual) this.look(this.view);
     else this.fit();
   }
@@ -114,9 +118,9 @@ export class SPlane {
     setText(this.loopName, unused ? 'whole loop' : 'with PI');
     this.marks.draw(state, this.view, fresh);
     drawPins(this.svg, this.view, pins);
-    drawCloud(this.cloud, this.view, spread ? cloud : null);
+    drawCloud(this.cloud, this.view, this.unit, spread ? cloud : null);
     setText(this.cloudText, spread ? cloudWords(cloud, design.scenario) : '');
-    this.readout.draw(state, this.#active, this.view);
+    this.readout.draw(state, this.#active, this.view, this.unit);
     this.bar.render(state);
   }
 }

@@ -4,13 +4,13 @@ import { toPixel } from './splane_math.js';
 const DOT = 2;
 /** @type {unknown} */ let drawn = null;
 
-/** @param {HTMLCanvasElement} canvas @param {import('./splane_math.js').View} view @param {import('./types.js').Cloud|null} cloud */
-export function drawCloud(canvas, view, cloud) {
+/** @param {HTMLCanvasElement} canvas @param {import('./splane_math.js').View} view @param {number} unit CSS pixels to one of the view's @param {import('./types.js').Cloud|null} cloud */
+export function drawCloud(canvas, view, unit, cloud) {
   const key = cloud ? JSON.stringify(view) : '';
   if (canvas.dataset.view === key && drawn === cloud) return;
   canvas.dataset.view = key;
   drawn = cloud;
-  const ratio = devicePixelRatio;
+  const ratio = devicePixelRatio * unit;
   const [width, height] = [Math.round(view.width * ratio), Math.round(view.height * ratio)];
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
   const ctx = canvas.getContext('2d');

@@ -2,7 +2,7 @@
  * Mouse, touch, wheel and keys over the s-plane, turned into edits of the poles and views of the plane. One pointer drags a pole or, as a mouse, pans;
  * two fingers zoom and pan; one finger beside the poles scrolls the page.
  * @typedef {import('./splane_math.js').View} View
- * @typedef {{x: number, y: number}} Point  pixels
+ * @typedef {{x: number, y: number}} Point  pixels of the view
  */
 import { drag, nudge, tidy } from './poles.js';
 import { keyStep, pick, pinch, toPixel, toPlane, zoom } from './splane_math.js';
@@ -20,6 +20,7 @@ const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDow
  * @property {import('./splane_marks.js').Marks} marks
  * @property {import('./store.js').Store} store
  * @property {View} view
+ * @property {number} unit  CSS pixels to one of the view's
  * @property {(view: View) => void} look
  * @property {() => void} fit
  * @property {(index: number|null) => void} activate  names the pole that the readout is about
@@ -63,7 +64,8 @@ export class Gestures {
   /** @param {MouseEvent} e @returns {Point} */
   #at(e) {
     const box = this.#box ?? this.plane.svg.getBoundingClientRect();
-    return { x: e.clientX - box.left, y: e.clientY - box.top };
+    const { unit } = this.plane;
+    return { x: (e.clientX - box.left) / unit, y: (e.clientY - box.top) / unit };
   }
 
   /** @param {MouseEvent} e @returns {number|null} the pole that a press here would take */

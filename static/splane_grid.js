@@ -23,7 +23,7 @@ export function drawGrid(layer, view) {
       svg('rect', { class: 'unstable-hatch', x: left, y: 0, width: view.width - left, height: view.height, fill: 'url(#hatch)' }),
     );
     if (view.width - left > 14) {
-      const x = Math.min(left + 13, view.width - 8);
+      const x = Math.max(left, view.width - 21); // far from the axis, where poles may be
       nodes.push(svg('text', { class: 'unstable-label', x, y: 10, transform: `rotate(90 ${x} 10)` }, 'unstable'));
     }
   }
@@ -36,7 +36,7 @@ export function drawGrid(layer, view) {
   for (const r of ticks(labelled, farthest, labelled)) {
     // Below the real axis, where no ray has its label, and away from the ticks of the imaginary one.
     const [x, y] = toPixel(view, { re: -r * WN_DIRECTION[0], im: -r * WN_DIRECTION[1] });
-    if (x > 22 && x0 - x > 30 && y > 30 && y < view.height - 24) nodes.push(svg('text', { class: 'wn-label', x, y: y + 3, 'text-anchor': 'middle' }, `ωₙ ${fixed(r, decimals)}`));
+    if (x > 22 && x0 - x > 30 && y > 30 && y < view.height - 24) nodes.push(svg('text', { class: 'wn-label', x, y: y + 3, 'text-anchor': 'middle' }, 'ω', svg('tspan', { class: 'sub', dy: 3 }, 'n'), svg('tspan', { dy: -3 }, ` ${fixed(r, decimals)}`)));
   }
   for (const zeta of DAMPING) {
     const end = rayEnd(view, zeta);
@@ -53,7 +53,7 @@ export function drawGrid(layer, view) {
   for (const re of ticks(b.left, b.right, step)) {
     const [x] = toPixel(view, { re, im: 0 });
     if (x < 14 || x > view.width - 14) continue;
-    nodes.push(svg('text', { class: 'tick', x, y: baseline, 'text-anchor': 'middle' }, fixed(re, decimals)));
+    nodes.push(svg('text', { class: 'tick', x, y: baseline, 'text-anchor': 'middle' }, Math.abs(re) < step / 2 ? '0' : fixed(re, decimals)));
   }
   const column = Math.max(4, Math.min(view.width - 4, x0 - 5));
   for (const im of ticks(b.bottom, b.top, step)) {

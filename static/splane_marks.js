@@ -29,8 +29,11 @@ function handle(i) {
 function mark(i) {
   const name = NAMES[pairOf(i)];
   const ring = name === 'pitch' ? svg('circle', { class: 'ring', r: 11 }) : svg('rect', { class: 'ring', x: -10, y: -10, width: 20, height: 20, rx: 2 });
-  return svg('g', { class: `pole-mark ${name}`, 'data-testid': `pole-mark-${i}` }, ring, svg('path', { class: 'cross', d: CROSS }), svg('text', { class: 'name', x: 14, y: -10 }, String(i + 1)));
+  return svg('g', { class: `pole-mark ${name}`, 'data-testid': `pole-mark-${i}` }, ring, svg('path', { class: 'cross', d: CROSS }));
 }
+
+/** Its number, over all marks. @param {number} i */
+const numeral = (i) => svg('text', { class: `name ${NAMES[pairOf(i)]}`, x: 14 }, String(i + 1));
 
 /** A sample of the two kinds of marks that are not dragged, for the key. @param {'open'|'loop'} kind */
 export const sample = (kind) => svg('svg', { class: `${kind}-poles`, 'aria-hidden': 'true', viewBox: '-7 -7 14 14' }, svg('path', { d: kind === 'open' ? OPEN_MARK : LOOP_MARK }));
@@ -45,8 +48,9 @@ export class Marks {
     this.links = NAMES.map((name) => svg('line', { class: `link ${name}` }));
     this.handles = [0, 1, 2, 3].map(handle);
     this.marks = [0, 1, 2, 3].map(mark);
+    this.names = [0, 1, 2, 3].map(numeral);
     this.seen = svg('g', { 'aria-hidden': 'true' }, this.order.map((i) => this.marks[i]));
-    this.nodes = [this.open, ...this.links, this.loop, this.seen, ...this.handles];
+    this.nodes = [this.open, ...this.links, this.loop, this.seen, svg('g', { 'aria-hidden': 'true' }, this.names), ...this.handles];
   }
 
   /** Brings a pole's mark to the top. The handles keep their order, which is that of the Tab key. @param {number} index */
@@ -79,11 +83,12 @@ export class Marks {
       const place = `translate(${x} ${y})`;
       setAttr(this.handles[i], 'transform', place);
       setAttr(this.marks[i], 'transform', place);
+      setAttr(this.names[i], 'transform', place);
       setAttr(this.handles[i], 'aria-valuenow', poles[i].re);
       setAttr(this.handles[i], 'aria-valuetext', [poleText(poles, i), missedWords(poles[i], requirements)].filter(Boolean).join(', '));
       // Labels of a pair stand apart even where its poles meet or lie mirrored.
       const below = poles[i].im < 0 || (poles[i].im === 0 && i % 2 === 1);
-      setAttr(/** @type {Element} */ (this.marks[i].lastChild), 'y', below ? 20 : -11);
+      setAttr(this.names[i], 'y', below ? 20 : -11);
     }
     for (const [pair, link] of this.links.entries()) {
       const [[x1, y1], [x2, y2]] = [at[2 * pair], at[2 * pair + 1]];

@@ -34,8 +34,8 @@ export class Readout {
     }).observe(this.node);
   }
 
-  /** @param {import('./types.js').State} state @param {number|null} index of the pole in question @param {import('./splane_math.js').View} view */
-  draw({ design, requirements }, index, view) {
+  /** @param {import('./types.js').State} state @param {number|null} index of the pole in question @param {import('./splane_math.js').View} view @param {number} unit CSS pixels to one of the view's */
+  draw({ design, requirements }, index, view, unit) {
     this.node.hidden = index === null || !design;
     if (index === null || !design) return;
     const lines = readoutLines(design.poles, index, requirements);
@@ -43,10 +43,10 @@ export class Readout {
     const name = `readout ${NAMES[pairOf(index)]}${lines[4].startsWith('✕') ? ' missed' : ''}`;
     if (this.node.className !== name) this.node.className = name;
     const p = design.poles[index];
-    const [x, y] = toPixel(view, p);
+    const [x, y] = toPixel(view, p).map((v) => v * unit);
     const b = bounds(view);
     const low = p.im > (b.top + b.bottom) / 2 + (b.top - b.bottom) / 4;
-    const column = Math.max(4, Math.min(x + 24, view.width - this.#width - 4));
-    this.node.style.transform = `translate(${column}px, ${low ? y + 26 : y - 26}px) translateY(${low ? '0' : '-100%'})`;
+    const column = Math.max(4, Math.min(x + 24 * unit, view.width * unit - this.#width - 4));
+    this.node.style.transform = `translate(${column}px, ${y + (low ? 26 : -26) * unit}px) translateY(${low ? '0' : '-100%'})`;
   }
 }

@@ -18,7 +18,7 @@ const DEPTH = 200;
 
 /** @returns {State} */
 export const initialState = () => ({
-  presets: [], methods: [], design: null, reply: null, answered: null, problem: null, connection: 'connecting', motion: 'both', showLinear: true, dragging: false, spread: 0, cloud: null,
+  presets: [], methods: [], design: null, reply: null, answered: null, problem: null, connection: 'connecting', motion: 'both', showLinear: true, showMarks: true, dragging: false, spread: 0, cloud: null,
   requirements: NONE, canUndo: false, canRedo: false, pins: [], locks: [], notice: null,
 });
 

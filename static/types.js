@@ -138,6 +138,7 @@
  * @property {Connection} connection
  * @property {Motion} motion
  * @property {boolean} showLinear
+ * @property {boolean} showMarks  rise, peak and settling on the curves
  * @property {boolean} dragging
  * @property {boolean} canUndo
  * @property {boolean} canRedo

@@ -2,7 +2,7 @@
  * The page's words in other languages, as gettext does it: the English text is the key, and what a language does not know stays English.
  *
  * Static strings are looked up where they reach the page, in `h`, `setText` and `setAttr` of dom.js; sentences with values in them are written with `say` and
- * `count`. Words of the server (findings, presets, methods) and what is painted on canvases are not asked for. A language is a module in languages/ that
+ * `count`. Words painted on canvases go through the same two. Words of the server (findings, presets, methods) are not asked for. A language is a module in languages/ that
  * exports its catalogue, and a line in CATALOGUES; it is loaded only where it is wanted. Knows no DOM but for `translatePage`.
  * @typedef {Partial<Record<Intl.LDMLPluralRule, string>>} Plurals
  * @typedef {{get: (key: string) => string|Plurals|undefined}} Catalogue  a Map, for one

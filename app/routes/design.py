@@ -4,32 +4,21 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Response
 
-from heli2dof_core import close_loop, evaluate, interaction, place, simulate, suggest_pi
+from heli2dof_core import close_loop, evaluate, place, simulate, suggest_pi
 
 from .. import models, replies
 from ..compute import Compute
 from ..encoding import json_response
-from ..requests import DesignRequest, EvaluateRequest, ResponseRequest, RgaRequest
+from ..requests import DesignRequest, EvaluateRequest, ResponseRequest
 
 
 def build_router(compute: Compute) -> APIRouter:
-    """The routes gains, rga, step, evaluate and suggest under /api/v1."""
+    """The routes gains, step, evaluate and suggest under /api/v1."""
     router = APIRouter(prefix="/api/v1", tags=["design"])
 
     @router.post("/gains", **models.described(models.Gains, "K of u = −Kx + v and the poles that it gives"))
     async def gains(request: DesignRequest) -> Response:
         return json_response(await compute.run(lambda: replies.gains_reply(place(request.to_spec()))))
-
-    @router.post(
-        "/rga", **models.described(models.Rga, "Relative gain array, pairing and Niederlinski index")
-    )
-    async def rga(request: RgaRequest) -> Response:
-        def work() -> replies.Reply:
-            spec = request.to_spec()
-            design = place(spec)
-            return replies.rga_reply(design, interaction(design, spec.outer.pairing), request.frequencies)
-
-        return json_response(await compute.run(work))
 
     @router.post("/step", **models.described(models.Step, "Step response of the whole loop"))
     async def step(request: ResponseRequest) -> Response:

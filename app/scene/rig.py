@@ -8,7 +8,9 @@ designs), each with a yoke and a body. static/scene_pose.js and scene_ghosts.js 
 from __future__ import annotations
 
 import functools
+import logging
 import math
+from typing import Any
 
 import numpy as np
 import rich
@@ -55,11 +57,40 @@ class RigServer(ViserServer):
     def disconnect_share_url(self) -> None:
         """Do nothing: there never is a tunnel."""
 
+    def stop(self) -> None:
+        """Stop, and let go of everything at once; a stopped server is good for nothing.
+
+        Its parts refer to one another. Left to the collector of cycles, which looks at old objects
+        seldom, the scenes of a hundred sessions would lie about. viser also hangs a filter into the
+        logger of its sockets for each server and leaves it there.
+        """
+        if "scene" not in vars(self):
+            return
+        super().stop()
+        logger = logging.getLogger("websockets.server")
+        for extra in [f for f in logger.filters if type(f).__module__.startswith("viser.")][:-1]:
+            logger.removeFilter(extra)
+        _empty(self)
+
     def show(self, rig: RigName) -> None:
         """Replace all nodes by those of the named rig, in one atomic change."""
         with self.atomic():
             self.scene.reset()
             _build(self, geometry(rig))
+
+
+def _empty(root: object) -> None:
+    """Empty an object and all of viser's objects in it, so that none holds another."""
+    waiting: list[Any] = [root]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, dict):
+            waiting += part.values()
+        elif isinstance(part, (list, tuple)):
+            waiting += part
+        elif type(part).__module__.startswith(("viser.", __name__)) and getattr(part, "__dict__", None):
+            waiting += vars(part).values()
+            vars(part).clear()
 
 
 @functools.cache

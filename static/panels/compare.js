@@ -1,7 +1,8 @@
-/** The section below the instrument: the same poles through every method, dealt every way, and the interaction over frequency. */
+/** The section below the instrument: the same poles through every method, dealt every way, interaction and open loops over frequency. */
 import { h } from '../dom.js';
 import { CompareTable } from './compare_table.js';
 import { InteractionCard } from './interaction.js';
+import { OpenLoopsCard } from './open_loops.js';
 import { SplitsCard } from './splits.js';
 
 export class ComparePanel {
@@ -11,8 +12,9 @@ export class ComparePanel {
     const methods = card('The same poles, loops and steps through each method', 'compare', 'wide');
     const splits = card('Splits of these poles', 'splits', 'splits');
     const interaction = card('Interaction over frequency', 'interaction', 'interaction');
-    root.append(h('div', { class: 'compare-body' }, methods, splits, interaction));
-    this.cards = [new CompareTable(methods, store), new SplitsCard(splits, store), new InteractionCard(interaction, store)];
+    const loops = card('Bode plots and margins', 'open-loops', 'wide');
+    root.append(h('div', { class: 'compare-body' }, methods, splits, interaction, loops));
+    this.cards = [new CompareTable(methods, store), new SplitsCard(splits, store), new InteractionCard(interaction, store), new OpenLoopsCard(loops, store)];
   }
 
   /** @param {import('../types.js').State} state */

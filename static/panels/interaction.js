@@ -1,125 +1,38 @@
 /** How much pitch and yaw feel each other at each frequency: relative gains, and off-diagonal over diagonal entries of Ĝ(jω). */
-import uPlot from '../vendor/uplot/uPlot.esm.js';
 import { relativeGain } from '../api.js';
 import { dominanceWords, largest, logSpaced } from '../compare_math.js';
 import { h, setText, symbol } from '../dom.js';
-import { forField, significant } from '../format.js';
+import { significant } from '../format.js';
 import { Lazy } from '../lazy.js';
+import { subtitle } from '../plot_menu.js';
 import { bodyOf } from '../store.js';
+import { FrequencyPlot } from './frequency_plot.js';
 
-const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const FREQUENCIES = logSpaced(0.01, 1000, 121);
-const FONT = '11px system-ui, sans-serif';
-/** Only full powers of ten get a line and a number. */
-const decades = (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => (v && Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? v : null));
-const power = (/** @type {any} */ u, /** @type {number[]} */ splits) => decades(u, splits).map((v) => (v === null ? '' : forField(v)));
 const size = (/** @type {string} */ sub) => h('span', { class: 'sym' }, '|', h('i', {}, 'λ'), h('sub', {}, sub), '|');
 
-/** @typedef {{id: string, title: string, limit: boolean, series: {name: () => (Node|string)[], title: string, of: (r: any) => number[]}[]}} About */
-/** @type {About[]} */
-const CHARTS = [
-  { id: 'gains', title: 'Relative gains', limit: false, series: [
-    { name: () => [size('11')], title: 'relative gain of the diagonal pairing at this frequency', of: (r) => r.rga_magnitude.map((/** @type {number[][]} */ m) => m[0][0]) },
-    { name: () => [size('12')], title: 'relative gain of the crosswise pairing at this frequency', of: (r) => r.rga_magnitude.map((/** @type {number[][]} */ m) => m[0][1]) }] },
-  { id: 'dominance', title: 'Off-diagonal over diagonal', limit: true, series: [
-    { name: () => ['rows'], title: 'larger of both rows of Ĝ(jω): an angle’s answer to the other input, over that to its own', of: (r) => largest(r.dominance?.rows ?? []) },
-    { name: () => ['columns'], title: 'larger of both columns of Ĝ(jω): an input’s effect on the other angle, over that on its own', of: (r) => largest(r.dominance?.columns ?? []) }] },
-];
-
-class FrequencyPlot {
-  /** @type {Record<string, string>} */ #colors = {};
-  /** @type {[number, number]} */ #range = [0.001, 10];
-  /** @type {number[][]} */ #data = [];
-
-  /** @param {About} about @param {(i: number|null) => void} onHover */
-  constructor(about, onHover) {
-    this.about = about;
-    this.onHover = onHover;
-    this.values = about.series.map((s, i) => h('span', { class: 'value', 'data-testid': `interaction-${about.id}-${i}` }));
-    this.body = h('div', { class: 'plot-body' });
-    this.node = h('figure', { class: 'frequency-plot', 'data-testid': `interaction-${about.id}` },
-      h('figcaption', {}, h('span', { class: 'what' }, about.title), about.series.map((s, i) => h('span', { class: 'key', title: s.title }, h('span', { class: `line series-${i}`, 'aria-hidden': 'true' }), h('span', {}, s.name()), this.values[i]))), this.body);
-    this.#readColors();
-    for (const query of ['(prefers-color-scheme: dark)', '(prefers-contrast: more)']) {
-      matchMedia(query).addEventListener('change', () => {
-        this.#readColors();
-        this.chart?.redraw(false);
-      });
-    }
-  }
-
-  #readColors() {
-    const style = getComputedStyle(document.documentElement);
-    for (const name of ['series-0', 'series-1', 'muted', 'grid', 'danger', 'limit-fill']) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
-  }
-
-  #build() {
-    const color = (/** @type {string} */ name) => () => this.#colors[name];
-    const axis = { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1, filter: decades }, ticks: { show: false } };
-    this.chart = new Chart({
-      width: 300, height: 160, legend: { show: false }, pxAlign: 0, padding: [6, 18, 0, 0],
-      series: [{}, { stroke: color('series-0'), width: 2, points: { show: false } }, { stroke: color('series-1'), width: 2, dash: [7, 4], points: { show: false } }],
-      scales: { x: { time: false, distr: 3, range: () => [FREQUENCIES[0], FREQUENCIES[FREQUENCIES.length - 1]] }, y: { distr: 3, range: () => this.#range } },
-      axes: [{ ...axis, gap: 6, size: 24, values: power }, { ...axis, gap: 5, size: 46, values: power }],
-      cursor: { y: false, points: { show: false }, drag: { x: false, y: false }, sync: { key: 'heli2dof-frequency' } },
-      hooks: { drawClear: [() => this.#shade()], draw: [() => this.#drawLimit()], setCursor: [(/** @type {any} */ u) => this.onHover(u.cursor.left < 0 ? null : u.cursor.idx ?? null)] },
-    }, [FREQUENCIES, ...this.about.series.map(() => FREQUENCIES.map(() => null))], this.body);
-    new ResizeObserver(([entry]) => {
-      const { width, height } = entry.contentRect;
-      if (width > 60 && height > 40) this.chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
-    }).observe(this.body);
-  }
-
-  /** Above 1 what is off the diagonal outweighs it. */
-  #shade() {
-    if (!this.about.limit) return;
-    const { ctx, bbox, valToPos } = this.chart;
-    ctx.fillStyle = this.#colors['limit-fill'];
-    ctx.fillRect(bbox.left, bbox.top, bbox.width, Math.max(0, Math.round(valToPos(1, 'y', true)) - bbox.top));
-  }
-
-  #drawLimit() {
-    if (!this.about.limit) return;
-    const { ctx, bbox, valToPos } = this.chart;
-    const y = Math.round(valToPos(1, 'y', true));
-    const ratio = devicePixelRatio;
-    ctx.save();
-    ctx.strokeStyle = ctx.fillStyle = this.#colors.danger;
-    ctx.lineWidth = 1.25 * ratio;
-    ctx.setLineDash([]);
-    ctx.beginPath();
-    ctx.moveTo(bbox.left, y);
-    ctx.lineTo(bbox.left + bbox.width, y);
-    ctx.stroke();
-    ctx.font = `${10 * ratio}px system-ui, sans-serif`;
-    ctx.textBaseline = 'bottom';
-    ctx.textAlign = 'right';
-    ctx.fillText('below 1: diagonally dominant', bbox.left + bbox.width - 4 * ratio, y - 3 * ratio);
-    ctx.restore();
-  }
-
-  /** @param {any} reply */
-  show(reply) {
-    if (!this.chart) this.#build();
-    this.#data = this.about.series.map((s) => s.of(reply));
-    const seen = this.#data.flat().filter((v) => Number.isFinite(v) && v > 0).map((v) => Math.log10(v));
-    this.#range = [10 ** Math.max(-6, Math.floor(Math.min(-1, ...seen))), 10 ** Math.min(6, Math.ceil(Math.max(1, ...seen)))];
-    this.chart.setData([FREQUENCIES, ...this.#data.map((values) => FREQUENCIES.map((_w, i) => (values[i] > 0 && Number.isFinite(values[i]) ? values[i] : null)))]);
-    this.valuesAt(0);
-  }
-
-  /** @param {number} i which frequency */
-  valuesAt(i) {
-    this.#data.forEach((values, k) => setText(this.values[k], significant(values[i], 4)));
-  }
+/** Full decades around what is seen, and around 1. @param {number[][]} data @returns {[number, number]} */
+function range(data) {
+  const seen = data.flat().filter((v) => Number.isFinite(v) && v > 0).map((v) => Math.log10(v));
+  return [10 ** Math.max(-6, Math.floor(Math.min(-1, ...seen))), 10 ** Math.min(6, Math.ceil(Math.max(1, ...seen)))];
 }
+
+/** @type {import('./frequency_plot.js').About[]} */
+const CHARTS = [
+  { id: 'gains', title: 'Relative gains', range, series: [
+    { kind: 'series-0', name: () => [size('11')], plain: '|λ₁₁|', title: 'relative gain of the diagonal pairing at this frequency', of: (r) => r.rga_magnitude.map((/** @type {number[][]} */ m) => m[0][0]) },
+    { kind: 'series-1', name: () => [size('12')], plain: '|λ₁₂|', title: 'relative gain of the crosswise pairing at this frequency', of: (r) => r.rga_magnitude.map((/** @type {number[][]} */ m) => m[0][1]) }] },
+  { id: 'dominance', title: 'Off-diagonal over diagonal', range, rule: { value: 1, label: 'below 1: diagonally dominant', above: true }, series: [
+    { kind: 'series-0', name: () => ['rows'], plain: 'rows', title: 'larger of both rows of Ĝ(jω): an angle’s answer to the other input, over that to its own', of: (r) => largest(r.dominance?.rows ?? []) },
+    { kind: 'series-1', name: () => ['columns'], plain: 'columns', title: 'larger of both columns of Ĝ(jω): an input’s effect on the other angle, over that on its own', of: (r) => largest(r.dominance?.columns ?? []) }] },
+];
 
 export class InteractionCard {
   /** @param {HTMLElement} root @param {import('../store.js').Store} store */
   constructor(root, store) {
     this.at = h('span', { class: 'at-frequency' });
     this.words = h('p', { class: 'claim', 'data-testid': 'dominance-words' });
-    this.plots = CHARTS.map((about) => new FrequencyPlot(about, (i) => this.#hover(i)));
+    this.plots = CHARTS.map((about) => new FrequencyPlot(about, FREQUENCIES, { onHover: (i) => this.#hover(i), subtitle: () => subtitle(store) }));
     this.figures = h('div', {}, h('p', { class: 'caption' }, 'Of the inner loop ', symbol('Ĝ'), '(', symbol('jω'), '), ', symbol('ω'), ' in rad/s. Values at ', this.at), h('div', { class: 'frequency-plots' }, this.plots.map((p) => p.node)));
     const content = h('div', {}, this.figures, this.words);
     root.append(content);

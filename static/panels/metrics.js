@@ -1,6 +1,6 @@
 /** How well it does, in figures: one column for the step of each axis, from the nonlinear rig; the linear model's in parentheses where they differ. */
 import { h, setAttr, setText, symbol } from '../dom.js';
-import { decibel, DEGREE, degrees, fixed, percent, seconds, significant } from '../format.js';
+import { brief, decibel, DEGREE, degrees, fixed, percent, seconds, significant } from '../format.js';
 import { differs } from '../limits_cost.js';
 import { recall, remember } from '../memory.js';
 import { say } from '../words.js';
@@ -119,7 +119,7 @@ export class MetricsPanel {
   }
 
   /** @param {import('../types.js').State} state */
-  render({ reply, showLinear }) {
+  render({ reply, showLinear, requirements }) {
     if (!reply) return;
     this.key.hidden = !showLinear;
     AXES.forEach((axis, j) => {
@@ -130,10 +130,13 @@ export class MetricsPanel {
         const value = row.value(metrics, axis);
         const ideal = row.linear ? row.linear(pair?.linear, axis) : row.value(pair?.linear.metrics, axis);
         const most = row.most?.(metrics);
-        setText(own, most ?? row.text(value));
+        const asked = row.id === 'settling' || row.id === 'overshoot' ? requirements[row.id] : null;
+        const missed = asked !== null && !((value ?? Infinity) <= asked);
+        setText(own, most ?? (missed ? `✕ ${row.text(value)}` : row.text(value)));
+        setAttr(own, 'title', missed ? 'misses the requirement' : '');
         const beside = showLinear && ideal !== undefined && (most !== undefined || differs(value, ideal, row.least));
-        setText(linear, beside ? `(${row.text(ideal).replace(/ [V%s]$/, '')})` : '');
-        cell.classList.toggle('warn', most !== undefined);
+        setText(linear, beside ? `(${brief(row.text(ideal)).replace(/ [V%s]$/, '')})` : '');
+        cell.classList.toggle('warn', most !== undefined || missed);
       });
       const margin = reply.margins?.[axis === 'theta' ? 'pitch' : 'yaw'];
       ROBUSTNESS.forEach((row, i) => {

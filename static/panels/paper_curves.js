@@ -2,11 +2,14 @@
 import uPlot from '../vendor/uplot/uPlot.esm.js';
 import { h, svg } from '../dom.js';
 import { DEGREE, fixed } from '../format.js';
+import { followsPage, pictureScale } from '../picture_scale.js';
 import { linesMenu } from '../plot_menu.js';
+import { drawLabel, drawRule } from '../plot_rules.js';
 import { rich } from '../rich.js';
+import { say } from '../words.js';
 import { CURVES } from './paper_words.js';
 
-/** @typedef {import('../paper_math.js').Curves} Curves */
+/** @typedef {import('../paper_math.js').Curves} Curves @typedef {import('../plot_rules.js').Rule} Rule */
 const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const FONT = '12px system-ui, sans-serif';
 /** The first is drawn broad, since others lie upon it. @type {Record<string, {color: string, width: number, dash: number[]}>} */
@@ -34,7 +37,7 @@ export class PaperCurves {
 
   #readColors() {
     const style = getComputedStyle(document.getElementById('paper') ?? document.documentElement);
-    for (const name of ['pitch', 'yaw', 'ink', 'muted', 'grid', 'halo-strong', 'danger', 'limit-fill']) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
+    for (const name of ['pitch', 'yaw', 'panel', 'ink', 'muted', 'grid', 'halo-strong', 'danger', 'limit-fill']) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
   }
 
   /** @param {Curves} figure */
@@ -53,15 +56,15 @@ export class PaperCurves {
     const color = (/** @type {string} */ name) => () => this.#colors[name];
     const top = 5 * Math.ceil((DEGREE * Math.max(1, ...curves.flatMap((c) => c.angle))) / 5);
     const axis = (/** @type {any} */ more) => ({ stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, ...more });
-    const rules = [{ value: DEGREE, label: 'reference 1 rad', danger: false }, ...(stop === undefined ? [] : [{ value: stop * DEGREE, label: 'stop', danger: true }])];
+    const rules = [{ value: DEGREE, label: say`reference 1 rad = ${fixed(DEGREE, 1)}°`, danger: false }, ...(stop === undefined ? [] : [{ value: stop * DEGREE, label: say`stop ${fixed(stop * DEGREE, 1)}°`, danger: true }])];
     legend.after(linesMenu(`fig-${number}`, `Fig. ${number}`, output === 'theta' ? 'theta' : 'psi', lines, { x: [0, t[t.length - 1]], y: [0, top], rules, subtitle: `Fig. ${number} of the paper, drawn anew` }));
-    const chart = new Chart({
-      width: 300, height: 260, legend: { show: false }, cursor: { show: false }, padding: [8, 12, 0, 0],
+    const chart = followsPage(new Chart({
+      width: 300, height: 260, legend: { show: false }, cursor: { show: false }, padding: [() => 8 * pictureScale().type, () => 12 * pictureScale().type, 0, 0],
       series: [{}, ...curves.map((c) => ({ stroke: color(styleOf(c.name).color), width: styleOf(c.name).width, dash: styleOf(c.name).dash, points: { show: false } }))],
       scales: { x: { time: false }, y: { range: () => [0, top] } },
-      axes: [axis({ size: 26, values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((s, i) => `${Number(s.toFixed(3))}${i === v.length - 1 ? ' s' : ''}`) }), axis({ size: 40, values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((d) => `${d}°`) })],
-      hooks: { drawClear: [(/** @type {any} */ u) => this.#rules(u, stop)] },
-    }, [t, ...curves.map((c) => c.angle.map((v) => v * DEGREE))], body);
+      axes: [axis({ space: () => 50 * pictureScale().type, size: () => 26 * pictureScale().type, values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((s, i) => `${Number(s.toFixed(3))}${i === v.length - 1 ? ' s' : ''}`) }), axis({ space: () => 30 * pictureScale().type, size: () => 40 * pictureScale().type, values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((d) => `${d}°`) })],
+      hooks: { drawAxes: [(/** @type {any} */ u) => this.#under(u, rules)], draw: [(/** @type {any} */ u) => this.#over(u, rules)] },
+    }, [t, ...curves.map((c) => c.angle.map((v) => v * DEGREE))], body));
     this.#charts.push(chart);
     new ResizeObserver(([entry]) => {
       const { width, height } = entry.contentRect;
@@ -70,33 +73,22 @@ export class PaperCurves {
     return figure;
   }
 
-  /** The reference, and the stop with what lies beyond it. @param {any} u @param {number|undefined} stop */
-  #rules(u, stop) {
-    const { ctx, bbox } = u;
-    const ratio = devicePixelRatio;
-    const line = (/** @type {number} */ degrees, /** @type {string} */ color, /** @type {string} */ label) => {
-      const y = Math.round(u.valToPos(degrees, 'y', true));
-      ctx.strokeStyle = ctx.fillStyle = this.#colors[color];
-      ctx.lineWidth = 1.25 * ratio;
-      ctx.setLineDash(color === 'danger' ? [] : [1, 5].map((d) => d * ratio));
-      ctx.beginPath();
-      ctx.moveTo(bbox.left, y);
-      ctx.lineTo(bbox.left + bbox.width, y);
-      ctx.stroke();
-      ctx.font = `${11 * ratio}px system-ui, sans-serif`;
-      ctx.textAlign = 'right';
-      ctx.textBaseline = 'top';
-      ctx.fillText(label, bbox.left + bbox.width - 5 * ratio, y + 5 * ratio);
-      return y;
-    };
-    ctx.save();
-    if (stop !== undefined) {
-      const y = Math.round(u.valToPos(stop * DEGREE, 'y', true));
-      ctx.fillStyle = this.#colors['limit-fill'];
-      ctx.fillRect(bbox.left, bbox.top, bbox.width, y - bbox.top);
-      line(stop * DEGREE, 'danger', `stop ${fixed(stop * DEGREE, 1)}°`);
+  /** What lies beyond the stop, under the curves. @param {any} u @param {Rule[]} rules */
+  #under(u, rules) {
+    for (const { value } of rules.filter((r) => r.danger)) {
+      u.ctx.fillStyle = this.#colors['limit-fill'];
+      u.ctx.fillRect(u.bbox.left, u.bbox.top, u.bbox.width, Math.round(u.valToPos(value, 'y', true)) - u.bbox.top);
     }
-    line(DEGREE, 'ink', `reference 1 rad = ${fixed(DEGREE, 1)}°`);
-    ctx.restore();
+  }
+
+  /** The reference and the stop, and what they are called. @param {any} u @param {Rule[]} rules */
+  #over(u, rules) {
+    u.ctx.save();
+    for (const { value, label, danger } of rules) {
+      const y = Math.round(u.valToPos(value, 'y', true));
+      drawRule(u, y, this.#colors[danger ? 'danger' : 'ink'], danger ? [] : [1, 5]);
+      drawLabel(u, y, label, 1, this.#colors[danger ? 'danger' : 'ink'], this.#colors.panel);
+    }
+    u.ctx.restore();
   }
 }

@@ -23,7 +23,7 @@ export class PinBar {
       this.#pins = pins;
       this.root.hidden = !pins.length;
       this.#chips = pins.map((pin) => h('span', { class: `chip ${colorOf(pin.index)}`, 'data-testid': `pin-chip-${pin.index}` },
-        h('button', { type: 'button', class: 'use', title: pin.refused ?? `Back to ${pin.name}`, onclick: () => this.store.usePin(pin.id) }, badge(pin.index), h('span', {}, pin.name), pin.refused ? ' (not computed)' : ''),
+        h('button', { type: 'button', class: 'use', title: pin.refused ?? `Back to ${pin.name}`, onclick: () => this.store.usePin(pin.id) }, badge(pin.index), h('span', {}, pin.name), pin.refused ? ' (not computed)' : '', pin.reply && !pin.reply.stable ? h('b', { class: 'unstable-word', title: 'unstable' }, h('span', { 'aria-hidden': 'true' }, '✕'), h('span', { class: 'sr' }, 'unstable')) : null),
         h('button', { type: 'button', class: 'remove', title: `Unpin ${pin.name}`, 'aria-label': `Unpin ${pin.name}`, onclick: () => this.store.unpin(pin.id) }, '×')));
       this.list.replaceChildren(...this.#chips);
     }

@@ -39,6 +39,8 @@ class Cell {
   }
 }
 
+const UNSTABLE = '✕ unstable';
+
 export class PinsPanel {
   /** @type {any[]} */ #seen = [];
   /** @type {Pin[]} */ #pins = [];
@@ -51,6 +53,7 @@ export class PinsPanel {
     this.root = root;
     this.store = store;
     this.rows = h('tbody');
+    this.unstable = h('b', { class: 'unstable-word' });
     const group = (/** @type {'theta'|'psi'} */ axis) => h('th', { scope: 'colgroup', colspan: FIGURES.filter((f) => f.axis === axis).length, class: 'group' }, h('span', { class: `shape ${PAIRS[axis]}`, 'aria-hidden': 'true' }), ` ${PAIRS[axis]} step`);
     const cell = (/** @type {import('../pins.js').Figure} */ f) => h('th', { scope: 'col', title: f.title, rowspan: f.axis ? 1 : 2 }, heading(f));
     const [first, last] = [FIGURES.findIndex((f) => f.axis), FIGURES.findLastIndex((f) => f.axis)];
@@ -73,6 +76,7 @@ export class PinsPanel {
     if (now.every((v, i) => v === this.#seen[i])) return;
     this.#seen = now;
     if (pins !== this.#pins) this.#build(pins);
+    setText(this.unstable, reply && !reply.stable ? UNSTABLE : '');
     differenceTable([reply, ...pins.map((p) => p.reply)]).forEach((row, i) => row.forEach((c, j) => this.#cells[i][j].show(c)));
   }
 
@@ -82,7 +86,7 @@ export class PinsPanel {
     const focused = document.activeElement?.getAttribute('data-testid');
     this.#cells = ['present', ...pins.map((p) => String(p.index))].map((id) => FIGURES.map((f) => new Cell(`pin-${id}-${f.id}`)));
     const nodes = (/** @type {number} */ i) => this.#cells[i].map((c) => c.node);
-    this.rows.replaceChildren(h('tr', { class: 'current', 'data-testid': 'pin-row-present' }, h('th', { scope: 'row', class: 'method-name' }, h('span', {}, 'Present design')), nodes(0)), ...pins.map((pin, i) => this.#row(pin, nodes(i + 1))));
+    this.rows.replaceChildren(h('tr', { class: 'current', 'data-testid': 'pin-row-present' }, h('th', { scope: 'row', class: 'method-name' }, h('span', {}, 'Present design'), ' ', this.unstable), nodes(0)), ...pins.map((pin, i) => this.#row(pin, nodes(i + 1))));
     if (focused) /** @type {HTMLElement|null} */ (this.rows.querySelector(`[data-testid="${CSS.escape(focused)}"]`))?.focus({ preventScroll: true });
   }
 
@@ -90,7 +94,7 @@ export class PinsPanel {
   #row(pin, cells) {
     const tool = (/** @type {string} */ id, /** @type {string} */ text, /** @type {string} */ label, /** @type {() => void} */ act) => h('button', { type: 'button', 'data-testid': `pin-${id}-${pin.index}`, 'aria-label': label, title: label, onclick: act }, text);
     const name = h('span', { class: 'pin-name' }, pin.name);
-    const head = h('th', { scope: 'row', class: 'method-name', title: described(pin.design) }, badge(pin.index), ' ', name, h('small', {}, pin.refused ? `Not computed: ${pin.refused}` : described(pin.design)),
+    const head = h('th', { scope: 'row', class: 'method-name', title: described(pin.design) }, badge(pin.index), ' ', name, pin.reply && !pin.reply.stable ? [' ', h('b', { class: 'unstable-word' }, UNSTABLE)] : null, h('small', {}, pin.refused ? `Not computed: ${pin.refused}` : described(pin.design)),
       h('span', { class: 'tools' }, tool('use', 'Use', `Make ${pin.name} the present design`, () => this.store.usePin(pin.id)), tool('rename', 'Rename', `Rename ${pin.name}`, () => this.#rename(pin, name)), tool('delete', 'Unpin', `Unpin ${pin.name}`, () => this.store.unpin(pin.id))));
     return h('tr', { 'data-testid': `pin-row-${pin.index}` }, head, cells);
   }

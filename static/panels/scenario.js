@@ -16,6 +16,7 @@ export class ScenarioPanel {
     this.theta0 = new NumberField({ label: 'operating point in degrees', mark: h('span', { title: 'operating point: the pitch angle at which the rig rests, and at which it is linearized' }, 'from ', symbol('θ', '0')), unit: '°', testid: 'theta0',
       field: 'operating_point.theta', min: -80, max: 80, onInput: (v, stamp) => store.edit((d) => ({ ...d, theta0: v / DEGREE }), { gesture: 'theta0', stamp }), onCommit: () => store.commit() });
     this.linear = h('input', { type: 'checkbox', 'data-testid': 'show-linear', onchange: () => store.set({ showLinear: this.linear.checked }) });
+    this.marks = h('input', { type: 'checkbox', 'data-testid': 'show-marks', onchange: () => store.set({ showMarks: this.marks.checked }) });
     const key = (/** @type {string} */ kind, /** @type {string} */ text, /** @type {string} */ title) => h('span', { class: 'key', title }, h('span', { class: `line ${kind}`, 'aria-hidden': 'true' }), text);
     root.append(
       h('div', { class: 'row steps' }, h('span', { class: 'caption' }, 'Step'), this.theta0.node, h('span', { class: 'caption' }, 'to'), this.theta.node, this.psi.node, this.duration.node),
@@ -23,7 +24,9 @@ export class ScenarioPanel {
         key('pitch solid', 'pitch step', 'nonlinear rig, pitch reference stepped alone'), key('yaw solid', 'yaw step', 'nonlinear rig, yaw reference stepped alone'),
         key('halo', 'played', 'the motion that the scene plays'),
         h('label', { class: 'key', title: 'The linear model knows no limits. Its voltages are deviations; the trim is added here, so that both models share one absolute scale.' },
-          this.linear, h('span', { class: 'line pitch dashed', 'aria-hidden': 'true' }), h('span', { class: 'line yaw dotted', 'aria-hidden': 'true' }), 'linear', h('span', { class: 'aside' }, '(+ trim)'))),
+          this.linear, h('span', { class: 'line pitch dashed', 'aria-hidden': 'true' }), h('span', { class: 'line yaw dotted', 'aria-hidden': 'true' }), 'linear'),
+        h('label', { class: 'key', title: 'Rise, peak and settling on each step’s own curve, and how far it moves the other axis: values under the pointer or by Tab, pressed they take the time there' },
+          this.marks, h('span', { class: 'mark-sample', 'aria-hidden': 'true' }), 'marks')),
     );
   }
 
@@ -37,7 +40,7 @@ export class ScenarioPanel {
   }
 
   /** @param {import('../types.js').State} state */
-  render({ design, showLinear }) {
+  render({ design, showLinear, showMarks }) {
     if (!design) return;
     const { reference, duration } = design.scenario;
     const degrees = (/** @type {number} */ v) => Math.round(v * DEGREE * 1e4) / 1e4;
@@ -46,5 +49,6 @@ export class ScenarioPanel {
     this.psi.set(degrees(reference.psi));
     this.duration.set(duration);
     this.linear.checked = showLinear;
+    this.marks.checked = showMarks;
   }
 }

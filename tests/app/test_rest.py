@@ -107,6 +107,25 @@ def test_structures_differ_in_the_rga(client):
     assert triangular == pytest.approx(1 + 73 / 7127 * 29 / 25, abs=1e-9)
 
 
+def test_loops_over_frequency(client):
+    frequencies = np.logspace(-1, 2, 61).tolist()
+    reply = post(client, "loops", {**PAPER, "frequencies": frequencies})
+    models.OpenLoops.model_validate(reply)
+    margins = post(client, "evaluate", PAPER)["margins"]
+    assert reply["margins"] == margins
+    for axis in ("pitch", "yaw"):
+        gain, phase = np.array(reply[axis]["gain"]), np.array(reply[axis]["phase"])
+        assert gain[0] > 10 and gain[-1] < 1 and -2 * np.pi < phase[0] <= 0
+        assert np.max(np.abs(np.diff(phase))) < 1
+        k = int(np.argmin(np.abs(np.log(gain))))
+        assert np.pi + phase[k] == pytest.approx(margins[axis]["phase_margin"], abs=0.1)
+
+
+def test_loops_need_frequencies_above_zero(client):
+    for frequencies in ([], [0.0], [-1.0]):
+        assert client.post("/api/v1/loops", json={"frequencies": frequencies}).status_code == 422
+
+
 def test_rga_over_frequency(client):
     reply = post(client, "rga", {**PAPER, "frequencies": [0, 1, 100]})
     assert np.shape(reply["rga_magnitude"]) == (3, 2, 2)
@@ -284,3 +303,17 @@ def test_states_are_replied_where_they_are_asked_for(client, scenario):
 
 def test_what_is_called_at_every_drag_knows_no_states(client):
     assert post(client, "evaluate", {"states": True}, status=422)["field"] == "states"
+
+
+def test_recording_is_a_file_and_refuses_what_is_wrong(client):
+    body = {"scenario": {"duration": 0.5, "reference": {"theta": 0.1}}}
+    page = client.post("/api/v1/recording", json=body)
+    assert page.status_code == 200
+    assert page.headers["content-type"].startswith("text/html")
+    assert page.headers["content-disposition"] == 'attachment; filename="heli2dof-motion.html"'
+    assert "poles −12, −10, −9.25, −8.76 rad/s</title>" in page.text
+    file = client.post("/api/v1/recording?format=viser", json=body)
+    assert file.content[8:12] == b"\x28\xb5\x2f\xfd"  # Zstandard, behind the length
+    assert client.post("/api/v1/recording?format=avi", json=body).json()["field"] == "format"
+    wrong = client.post("/api/v1/recording", json={"poles": [-1, -2]})
+    assert (wrong.status_code, wrong.json()["field"]) == (422, "poles")

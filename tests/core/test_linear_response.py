@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 
 from heli2dof_core import OuterLoop, PIGains, PoleSet, Scenario, close_loop, design, plant, preset
-from heli2dof_core.margins import loop_margins
+from heli2dof_core.margins import loop_margins, open_loop_response
 from heli2dof_core.metrics import step_metrics
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.tuning import DAMPING, EASED, suggest_pi
@@ -179,6 +179,39 @@ def check_margins(loop):
         lags = np.radians(phases % 360)
         assert margins.phase_margin == pytest.approx(np.min(np.minimum(lags, 2 * np.pi - lags)), rel=1e-6)
         assert margins.delay_margin == pytest.approx(np.min(lags / gain_crossovers), rel=1e-6)
+
+
+@pytest.mark.parametrize("seed", [3, 4])
+def test_open_loops_over_frequency_are_python_controls(seed):
+    """With one motor's loop opened by hand, the rest closed; stable or not."""
+    frequencies = np.logspace(-2, 3, 41)
+    for loop, _ in random_loops(20, seed=seed):
+        for motor, response in enumerate(open_loop_response(loop, frequencies)):
+            n = len(loop.A)
+            A, B = np.zeros((n, n)), np.zeros((n, 2))
+            A[:4, :4], B[:4] = loop.design.plant.A, loop.design.plant.B
+            if n == 6:
+                A[4, 0] = A[5, 1] = -1.0
+            other = 1 - motor
+            A += B[:, [other]] @ loop.voltage_from_state[[other]]
+            system = control.ss(A, B[:, [motor]], -loop.voltage_from_state[[motor]], 0)
+            expected = control.frequency_response(system, frequencies).complex
+            np.testing.assert_allclose(response, expected, rtol=1e-6)
+
+
+def test_margins_lie_on_the_open_loop(spec, design):
+    """At the phase margin's frequency |L| = 1: between its two neighbours on a fine grid, found by bisection."""
+    loop = close_loop(design, spec.outer)
+    margins = loop_margins(loop)
+    assert margins is not None
+    for motor, own in enumerate(margins):
+        low, high = 1e-2, 1e3
+        for _ in range(60):
+            middle = np.sqrt(low * high)
+            gain = abs(open_loop_response(loop, np.array([middle]))[motor, 0])
+            low, high = (middle, high) if gain > 1 else (low, middle)
+        phase = np.angle(open_loop_response(loop, np.array([low]))[motor, 0])
+        assert own.phase_margin == pytest.approx(np.pi - abs(phase), rel=1e-9)
 
 
 def test_delay_margin_is_where_the_loop_turns_unstable(spec, design):

@@ -48,6 +48,7 @@ def test_no_violation(chromium: Browser, app: App, size: tuple[int, int], scheme
 def test_no_violation_below_the_instrument(page: Page):
     for section, there in (
         ("compare", "[data-testid=splits-table] td"),
+        ("compare .card:last-child", "[data-testid=interaction-loop-phase] canvas"),
         ("formulas", ".symbols math"),
         ("paper", "[data-testid=paper-K] td, [data-testid=paper-tally]"),
     ):

@@ -148,3 +148,17 @@ def test_pins_do_not_slow_a_drag(page: Page, record_property):
     assert page.evaluate("() => window.layer.isConnected")
     redraw = 5 * 2 * 4 + 5 * 2 * 4  # lines and badges of one drawing of all four plots
     assert strokes <= 3 * redraw  # a range that grows draws anew, thirty moves do not
+
+
+def test_an_unstable_pin_says_so(page: Page):
+    pin(page, 1)
+    expect(page.get_by_test_id("pin-chip-0")).not_to_contain_text("unstable")
+    for i in range(4):
+        set_field(page, f"pole-field-{i}", str(-1 - 0.5 * i))
+    until_state(page, "s.stable === false")
+    pin(page, 2)
+    expect(page.get_by_test_id("pin-chip-1")).to_contain_text("unstable")
+    seen_table(page)
+    expect(page.get_by_test_id("pin-row-present")).to_contain_text("✕ unstable")
+    expect(page.get_by_test_id("pin-row-1")).to_contain_text("✕ unstable")
+    expect(page.get_by_test_id("pin-row-0")).not_to_contain_text("unstable")

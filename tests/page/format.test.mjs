@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { complex, decibel, degrees, fixed, forField, parseNumber, percent, poleText, seconds, significant } from "../../static/format.js";
+import { brief, complex, decibel, degrees, fixed, forField, parseNumber, percent, poleText, seconds, significant } from "../../static/format.js";
 import { Stats } from "../../static/stats.js";
 
 test("the minus is a minus, and zero has none", () => {
@@ -16,6 +16,10 @@ test("significant digits, with an exponent only where it helps", () => {
   assert.equal(significant(-0.61941, 5), "\u22120.6194");
   assert.equal(significant(4526.3, 4), "4526");
   assert.equal(significant(2.5e-7, 4), "2.50e\u22127");
+});
+
+test("a figure beside another is brief where it is large", () => {
+  for (const [text, short] of [["87.5", "87.5"], ["102.3 V", "102 V"], ["2155.7 %", "2156 %"], ["\u221247.65°", "\u221247.65°"], ["\u2212285.6°", "\u2212286°"], ["99999.4", "99999"], ["123456.0 V", "1e5 V"], ["–", "–"]]) assert.equal(brief(text), short);
 });
 
 test("fields show plain numbers and accept what people type", () => {

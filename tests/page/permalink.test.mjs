@@ -48,14 +48,14 @@ function generator(seed) {
     return d;
   };
   const state = () => ({
-    ...initialState(), presets: PRESETS, design: design(), motion: pick(["both", "theta", "psi"]), showLinear: chance(0.7), spread: pick([0, 0.05, 0.2]),
+    ...initialState(), presets: PRESETS, design: design(), motion: pick(["both", "theta", "psi"]), showLinear: chance(0.7), showMarks: chance(0.7), spread: pick([0, 0.05, 0.2]),
     requirements: { settling: pick([null, 1.5]), overshoot: pick([null, 10]) }, locks: Object.keys(LOCKS).filter(() => chance(0.3)),
     pins: Array.from({ length: chance(0.5) ? 0 : 3 }, (_, i) => ({ id: i, index: i * 2, name: words(), design: design(), reply: null })),
   });
   return { state, pick, random };
 }
 
-const shownOf = ({ motion, showLinear, spread, requirements, locks }) => ({ motion, showLinear, spread, requirements, locks });
+const shownOf = ({ motion, showLinear, showMarks, spread, requirements, locks }) => ({ motion, showLinear, showMarks, spread, requirements, locks });
 const clean = (value) => JSON.parse(JSON.stringify(value));
 
 test("whatever the state, its link gives it back exactly", () => {
@@ -97,7 +97,7 @@ test("links of version 1 open as they did", () => {
     const preset = PRESETS.find((p) => p.name === (design.preset ?? PRESETS[0].name));
     assert.deepEqual(read.trouble, []);
     assert.deepEqual(read.design, designOf(preset, design));
-    if (shown) assert.deepEqual(read.shown, { requirements: NONE, ...shown });
+    if (shown) assert.deepEqual(read.shown, { requirements: NONE, showMarks: true, ...shown });
     assert.equal(read.place, place);
     if (pins) assert.deepEqual(read.pins.map((p) => ({ index: p.index, name: p.name, poles: p.design.poles.map((z) => z.re) })), pins);
   }

@@ -1,0 +1,41 @@
+"""POST calls: a design in, what it is like over frequency out."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Response
+
+from heli2dof_core import close_loop, interaction, place
+
+from .. import models, replies
+from ..compute import Compute
+from ..encoding import json_response
+from ..requests import LoopsRequest, RgaRequest
+
+
+def build_router(compute: Compute) -> APIRouter:
+    """The routes rga and loops under /api/v1."""
+    router = APIRouter(prefix="/api/v1", tags=["design"])
+
+    @router.post(
+        "/rga", **models.described(models.Rga, "Relative gain array, pairing and Niederlinski index")
+    )
+    async def rga(request: RgaRequest) -> Response:
+        def work() -> replies.Reply:
+            spec = request.to_spec()
+            design = place(spec)
+            return replies.rga_reply(design, interaction(design, spec.outer.pairing), request.frequencies)
+
+        return json_response(await compute.run(work))
+
+    @router.post(
+        "/loops",
+        **models.described(models.OpenLoops, "Frequency responses of the loops opened at each motor"),
+    )
+    async def loops(request: LoopsRequest) -> Response:
+        def work() -> replies.Reply:
+            spec = request.to_spec()
+            return replies.open_loops_reply(close_loop(place(spec), spec.outer), request.frequencies)
+
+        return json_response(await compute.run(work))
+
+    return router
