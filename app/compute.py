@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import logging
 import threading
 from collections.abc import Callable
@@ -85,4 +86,8 @@ class Compute:
         self._kernels.run()
         if self.ready and engine().compiled:
             warm_up(STRUCTURES)
+            # What lives as long as the process is not looked through again: a full collection would
+            # stop every client for an eighth of a second.
+            gc.collect()
+            gc.freeze()
             self._settled = True

@@ -265,7 +265,7 @@ def margins_reply(margins: tuple[Margins, Margins] | None) -> Reply:
     """Margins at each motor; empty where the loop is unstable."""
     if margins is None:
         return {}
-    return {axis: present(asdict(own)) for axis, own in zip(AXES, margins, strict=True)}
+    return {axis: present(vars(own)) for axis, own in zip(AXES, margins, strict=True)}
 
 
 def sensitivity_reply(sensitivity: Sensitivity | None) -> Reply:
@@ -275,13 +275,13 @@ def sensitivity_reply(sensitivity: Sensitivity | None) -> Reply:
     low, high = sensitivity.gain_range
     return {
         "sensitivity": present(
-            {**asdict(sensitivity), "gain_low": low, "gain_high": high, "phase": sensitivity.phase}
+            {**vars(sensitivity), "gain_low": low, "gain_high": high, "phase": sensitivity.phase}
         )
     }
 
 
 def _limits(limits: Limits) -> Reply:
-    return present(asdict(limits))
+    return present(vars(limits))
 
 
 def _voltages(values: Floats) -> Reply:

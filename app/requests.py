@@ -184,7 +184,7 @@ class DesignRequest(Strict):
     loops: LoopsChanges = LoopsChanges()
 
     def to_spec(self) -> Spec:
-        """The core's spec, with the preset's scenario.
+        """The core's spec.
 
         Raises:
             Heli2DofError: a value is out of its range or unknown; its field is the JSON path.
@@ -200,10 +200,13 @@ class DesignRequest(Strict):
                 self.coupling or base.structure.coupling, self.lead or base.structure.lead, self.shift
             ),
             outer=self._outer(base),
-            scenario=base.scenario,
+            scenario=self._scenario(base),
             method=self.method,
             weights=self.weights.to_weights(bryson_weights(base.limits)),
         )
+
+    def _scenario(self, base: Preset) -> Scenario:
+        return base.scenario
 
     def _poles(self, base: Preset) -> PoleSet:
         values = base.poles.values if self.poles is None else self.poles
@@ -347,11 +350,8 @@ class StepRequest(DesignRequest):
 
     scenario: ScenarioChanges = ScenarioChanges()
 
-    def to_spec(self) -> Spec:
-        """The core's spec, with this scenario."""
-        spec = super().to_spec()
-        scenario = self.scenario.to_scenario(spec.scenario, preset(self.preset).encoders)
-        return replace(spec, scenario=scenario)
+    def _scenario(self, base: Preset) -> Scenario:
+        return self.scenario.to_scenario(base.scenario, base.encoders)
 
 
 class ResponseRequest(StepRequest):

@@ -10,10 +10,11 @@ import numpy as np
 
 from .compiled import gain
 from .couplings import Structure, require_structure
+from .eigenvalues import eigenvalues
 from .findings import Finding
 from .placement.assess import eigenvector_condition
 from .placement.lqr_integral import IntegralPlacement
-from .placement.method import Placement, Task, Weights
+from .placement.method import Task, Weights
 from .placement.registry import method as method_named
 from .plant import Plant
 from .poles import PoleSet, match_poles
@@ -34,10 +35,7 @@ class Design:
         structure: structure of the closed loop; None where the method is not full-rank's.
         K: gain, 2×4, V/rad in columns θ, ψ and V·s/rad in columns θ̇, ψ̇ (Eqs. 21, 22).
         integral: 2×2, V/(rad·s): the method's own integral action; None where it has none.
-        A_closed: A − BK, 4×4.
-        closed_loop_poles: eigenvalues of A − BK as computed, in the order of `poles`, rad/s.
-        pole_error: largest distance between the two, rad/s; None where the method chose its own.
-        findings: remarks on the poles and the gain.
+        aims: whether the method aims at `poles`, or chooses its own.
     """
 
     plant: Plant
@@ -45,11 +43,33 @@ class Design:
     method: str
     structure: Structure | None
     K: Floats
-    integral: Floats | None
-    A_closed: Floats
-    closed_loop_poles: Complexes
-    pole_error: float | None
-    findings: tuple[Finding, ...]
+    integral: Floats | None = None
+    aims: bool = True
+
+    @cached_property
+    def A_closed(self) -> Floats:
+        """A − BK, 4×4."""
+        return self.plant.A - self.plant.B @ self.K
+
+    @cached_property
+    def closed_loop_poles(self) -> Complexes:
+        """Eigenvalues of A − BK as computed, in the order of `poles`, rad/s."""
+        found = eigenvalues(self.A_closed)
+        return np.array([found[i] for i in match_poles(self.poles.values, found)])
+
+    @cached_property
+    def pole_error(self) -> float | None:
+        """Largest distance between these and `poles`, rad/s; None where the method chose its own."""
+        if not self.aims:
+            return None
+        return max(
+            abs(p - q) for p, q in zip(self.closed_loop_poles.tolist(), self.poles.values, strict=True)
+        )
+
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """Remarks on the poles and the gain."""
+        return design_remarks(self.plant, self.poles, self.K, self.closed_loop_poles, self.pole_error)
 
     @property
     def norm(self) -> float:
@@ -74,7 +94,7 @@ class Design:
         It equals K's first two columns minus B₂⁻¹ A₂₁ and so exists even where a closed-loop pole
         is 0 and Ĝ(0) does not; it is then singular.
         """
-        return self.K[:, :2] - np.linalg.solve(self.plant.B[2:], self.plant.A[2:, :2])
+        return self.K[:, :2] - self.plant.statics
 
 
 def design(
@@ -100,10 +120,11 @@ def design(
     """
     chosen = method_named(method)
     if method == FULL_RANK:
-        placed = Placement(full_rank_gain(plant, poles, structure))
-        return assess(plant, poles, placed, method, structure)
+        return Design(plant, poles, method, structure, full_rank_gain(plant, poles, structure))
     placed = chosen.place(Task(plant.A, plant.B, poles.array, C, weights))
-    return assess(plant, poles, placed, method, None, misses=not chosen.places_poles)
+    integral = placed.integral if isinstance(placed, IntegralPlacement) else None
+    K = np.ascontiguousarray(placed.K, dtype=np.float64)
+    return Design(plant, poles, method, None, K, integral, chosen.places_poles)
 
 
 def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats:
@@ -113,22 +134,3 @@ def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats
     if structure.shift is None:
         return np.array(gain(structure)(*arguments))
     return np.array(gain(structure.family, shifted=True)(*arguments, structure.shift))
-
-
-def assess(
-    plant: Plant,
-    poles: PoleSet,
-    placed: Placement,
-    method: str,
-    structure: Structure | None,
-    *,
-    misses: bool = False,
-) -> Design:
-    """The design that a given K makes of the rig; `misses`: it does not aim at the poles."""
-    A_closed = plant.A - plant.B @ placed.K
-    found = np.linalg.eigvals(A_closed).astype(complex)
-    found = found[match_poles(poles.array, found)]
-    error = None if misses else float(np.max(np.abs(found - poles.array)))
-    integral = placed.integral if isinstance(placed, IntegralPlacement) else None
-    remarks = design_remarks(plant, poles, placed.K, found, error)
-    return Design(plant, poles, method, structure, placed.K, integral, A_closed, found, error, remarks)

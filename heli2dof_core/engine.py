@@ -15,20 +15,30 @@ from .layout import (
     ALPHA,
     AUGMENTED,
     AXIS_METRICS,
+    BOUND,
     CONSTANTS,
+    COURSE,
+    EXPERIMENT,
     FREQUENCIES,
+    GAIN,
     J_Y,
     LIMIT,
+    LINEAR_WORKSPACE,
     MARGINS,
     MODES,
     MOTOR_METRICS,
+    PI,
     POLYNOMIAL_WORKSPACE,
     POLYNOMIALS,
+    REFERENCE,
     SENSITIVITY,
     SETTINGS,
+    START,
+    STOP,
     TIME,
     WORKSPACE,
 )
+from .signals import fixed
 
 
 @dataclass(frozen=True)
@@ -41,7 +51,10 @@ class Engine:
     """
 
     compiled: bool
-    respond: Any
+    close: Any
+    compose: Any
+    run_linear: Any
+    run_experiments: Any
     integrate: Any
     run_digital: Any
     run_cloud: Any
@@ -60,7 +73,8 @@ class Engine:
 
 
 _HOMES = {
-    "respond": "linear",
+    **dict.fromkeys(("close", "compose"), "loop"),
+    **dict.fromkeys(("run_linear", "run_experiments"), "experiment"),
     "integrate": "dormand_prince",
     "run_digital": "digital",
     "run_cloud": "cloud",
@@ -123,27 +137,42 @@ def _exercise(kernels: Engine) -> None:
     """
     c, m, w, y = np.zeros(CONSTANTS), np.zeros(MODES, dtype=np.int64), np.zeros(WORKSPACE), np.zeros(6)
     c[[ALPHA, J_Y, LIMIT, LIMIT + 1]] = 1.0
-    t, states = np.array([0.0, 1e-3]), np.empty((2, 6))
-    numbers = (1e-3, 1e-3, 10, w)
-    kernels.integrate(y, t, c, m, *numbers, states)
+    t, states, numbers = np.array([0.0, 1e-3]), np.empty((2, 6)), (1e-3, 1e-3, 10)
+    A, B = fixed(-np.eye(4)), fixed(np.eye(4)[:, 2:])
+    pairs, law, whole, driven = np.zeros((4, 2, 2)), np.empty((2, 6)), np.empty((6, 6)), np.empty((6, 2))
+    K, P, F, by_reference = np.ones((2, 4)), *pairs[1:]
+    I = np.zeros((2, 2))  # noqa: E741
+    settings = (PI, pairs[0], False, False)
+    kernels.close(K, fixed(I), A, B, *settings, P, I, F, law, by_reference, whole, driven)
+    x = np.zeros(EXPERIMENT)
+    x[REFERENCE : START + 2], x[BOUND : STOP + 1] = (1.0, 1.0, 0.0, 0.0), 1.0
+    rig, trim = fixed(c[:GAIN]), fixed(c[:2])
+    kernels.compose(rig, trim, 0.0, law, by_reference, I, x, c, m)
+    linear, voltages, v = np.empty((AUGMENTED, 2)), np.empty((2, 2)), np.empty(LINEAR_WORKSPACE)
+    kernels.run_linear(0.0, law, by_reference, whole, driven, x, t, v, linear, voltages)
+    loop = (rig, trim, 0.0, law, by_reference, I, whole, driven)
+    scratch = (w, v, c.copy(), m.copy(), states, trim)
+    courses = (np.empty((1, AUGMENTED, 2)), np.empty((1, 6, 2)), np.empty((1, 2, 2, 2)))
+    metrics = np.empty((1, 2, 2, AXIS_METRICS)), np.empty((1, 2, 2, MOTOR_METRICS)), np.empty((1, 2, COURSE))
+    kernels.run_experiments(*loop, x[None], t, *numbers, *scratch, *courses, *metrics)
+    kernels.integrate(y, t, c, m, *numbers, w, states)
     d = np.zeros(SETTINGS)
     d[TIME] = 1e-3
     scratch = (c.copy(), m.copy(), np.empty(4), np.empty((4, 6)))
-    kernels.run_digital(y, t, c, m, d, np.zeros((3, 2)), np.inf, *numbers, *scratch, states, np.empty((2, 2)))
-    rigs, pairs = c[None, :11].copy(), np.empty((1, 2, 2))
-    kernels.run_cloud(rigs, y, t, c, m, *numbers, y.copy(), c.copy(), m.copy(), states, pairs, np.empty(1))
-    M, start = np.eye(AUGMENTED), np.zeros((AUGMENTED, 2))
-    kernels.respond(M, t[1], M[:2].copy(), np.empty((3 * AUGMENTED, AUGMENTED)), start, np.empty((2, 2)))
-    angles, voltages = np.zeros((2, 2)), np.zeros((2, 2))
-    kernels.trajectories(states, c, np.empty((6, 2)), voltages)
-    kernels.hold(angles, voltages, 1.0)
-    kernels.share_at_limit(voltages[0], 1.0)
-    ends = (0.0, 0.0), (1.0, 1.0)
-    kernels.measure(
-        t, angles, voltages, *ends, np.zeros(2), np.empty((2, AXIS_METRICS)), np.empty((2, MOTOR_METRICS))
+    kernels.run_digital(
+        y, t, c, m, d, np.zeros((3, 2)), np.inf, *numbers, w, *scratch, states, np.empty((2, 2))
     )
-    f, B = np.zeros(POLYNOMIALS), np.eye(4)[:, 2:].copy()
-    kernels.describe(-np.eye(4), B, -np.ones((2, 4)), False, f)
+    rigs, angles = c[None, :GAIN].copy(), np.empty((1, 2, 2))
+    kernels.run_cloud(
+        rigs, y, t, c, m, *numbers, w, y.copy(), c.copy(), m.copy(), states, angles, np.empty(1)
+    )
+    kernels.trajectories(states, c, np.empty((6, 2)), voltages)
+    kernels.hold(linear, voltages, 1.0)
+    kernels.share_at_limit(voltages[0], 1.0)
+    metrics = np.empty((2, AXIS_METRICS)), np.empty((2, MOTOR_METRICS))
+    kernels.measure(t, voltages, voltages, (0.0, 0.0), (1.0, 1.0), np.zeros(2), *metrics)
+    f = np.zeros(POLYNOMIALS)
+    kernels.describe(A, B, law, True, f)
     kernels.margins(f, np.empty(POLYNOMIAL_WORKSPACE), np.empty((2, MARGINS)))
     kernels.peaks(f, np.array([-1 + 0j]), np.empty(FREQUENCIES + 2), np.empty(SENSITIVITY))
     for name in _HOMES:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -12,13 +13,14 @@ from .findings import Finding, merged
 from .interaction import Interaction, interaction
 from .loop import Loop, close_loop
 from .margins import Margins, loop_margins
-from .metrics import StepMetrics, step_metrics
+from .metrics import StepMetrics, measured, step_metrics
 from .parameters import Parameters
 from .placement.method import Weights
 from .plant import plant
 from .poles import PoleSet
 from .presets import Preset
 from .sensitivity import Sensitivity, loop_sensitivity
+from .simulation.courses import Courses, run_experiments
 from .simulation.digital import simulate_digital
 from .simulation.linear import simulate_linear
 from .simulation.nonlinear import simulate_nonlinear
@@ -73,7 +75,7 @@ class Step:
 
 @dataclass(frozen=True)
 class Report:
-    """What `evaluate` knows of a spec.
+    """What `evaluate` has computed of a spec; its words and tables are made where they are read.
 
     Attributes:
         design: K and the placed poles.
@@ -81,9 +83,6 @@ class Report:
         loop: the whole loop and its poles.
         margins: at the pitch and the yaw motor; None if the loop is unstable.
         sensitivity: at both motors at once; None if the loop is unstable.
-        step: the scenario, by model.
-        axis_steps: by output name and model, each axis stepped alone; empty unless asked for.
-        findings: all remarks, the gravest first.
     """
 
     design: Design
@@ -91,9 +90,34 @@ class Report:
     loop: Loop
     margins: tuple[Margins, Margins] | None
     sensitivity: Sensitivity | None
-    step: dict[Model, Step]
-    axis_steps: dict[str, dict[Model, Step]]
-    findings: tuple[Finding, ...]
+    _courses: Courses
+    _alone: tuple[str, ...]
+    _nonlinear: tuple[Step, ...]
+
+    @cached_property
+    def step(self) -> dict[Model, Step]:
+        """The scenario's response, by model."""
+        return self._both(0)
+
+    @cached_property
+    def axis_steps(self) -> dict[str, dict[Model, Step]]:
+        """By output name and model, each axis stepped alone; empty unless asked for."""
+        return {name: self._both(n) for n, name in enumerate(self._alone, 1)}
+
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """All remarks, the gravest first."""
+        own = (self.design.findings, self.loop.findings, self.interaction.findings)
+        steps = [step for steps in (self.step, *self.axis_steps.values()) for step in steps.values()]
+        return merged(*own, *(step.response.findings for step in steps))
+
+    def _both(self, n: int) -> dict[Model, Step]:
+        nonlinear = self._nonlinear[n] if self._nonlinear else self._step(n, "nonlinear")
+        return {"linear": self._step(n, "linear"), "nonlinear": nonlinear}
+
+    def _step(self, n: int, model: Model) -> Step:
+        response = self._courses.response(n, model)
+        return Step(response, measured(response, *self._courses.measures(n, model)))
 
 
 def place(spec: Spec) -> Design:
@@ -125,28 +149,27 @@ def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = No
     Raises:
         Heli2DofError: see `errors`.
     """
-    placed = place(spec)
+    placed, scenario = place(spec), spec.scenario
     loop = close_loop(placed, spec.outer)
-    gains = interaction(placed, spec.outer.pairing)
-    step = _both_models(loop, spec, most_steps)
-    axis_steps = {}
+    scenarios = {"": scenario}
     if each_axis:
-        alone = {"theta": {"psi": None}, "psi": {"theta": None}}
-        axis_steps = {
-            name: _both_models(loop, replace(spec, scenario=replace(spec.scenario, **other)), most_steps)
-            for name, other in alone.items()
-            if getattr(spec.scenario, name) is not None
+        scenarios |= {
+            name: replace(scenario, **{other: None})
+            for name, other in (("theta", "psi"), ("psi", "theta"))
+            if getattr(scenario, name) is not None
         }
-    responses = [s.response for steps in (step, *axis_steps.values()) for s in steps.values()]
-    findings = merged(
-        placed.findings, loop.findings, gains.findings, *(response.findings for response in responses)
+    courses = run_experiments(loop, spec.limits, [*scenarios.values()], most_steps)
+    nonlinear: tuple[Step, ...] = ()
+    if scenario.digital is not None or scenario.disturbance is not None:
+        specs = (replace(spec, scenario=each) for each in scenarios.values())
+        nonlinear = tuple(simulate(loop, each, "nonlinear", most_steps) for each in specs)
+    return Report(
+        placed,
+        interaction(placed, spec.outer.pairing),
+        loop,
+        loop_margins(loop),
+        loop_sensitivity(loop),
+        courses,
+        tuple(scenarios)[1:],
+        nonlinear,
     )
-    margins, sensitivity = loop_margins(loop), loop_sensitivity(loop)
-    return Report(placed, gains, loop, margins, sensitivity, step, axis_steps, findings)
-
-
-def _both_models(loop: Loop, spec: Spec, most_steps: int | None) -> dict[Model, Step]:
-    return {
-        "linear": simulate(loop, spec, "linear"),
-        "nonlinear": simulate(loop, spec, "nonlinear", most_steps),
-    }

@@ -21,20 +21,57 @@ class Interaction:
     """Interaction between the two loops at steady state.
 
     Attributes:
-        rga: 2×2, rows are outputs θ, ψ, columns inputs V_p, V_y; None without steady state.
-        pairing: (output, input) names that RGA and Niederlinski index advise.
-        reason: why, in words.
-        niederlinski: det Ĝ(0)/Π ĝᵢᵢ(0) for diagonal pairing; None where a ĝᵢᵢ(0) is 0.
-        niederlinski_cross: the same for the cross pairing.
-        findings: what the RGA says against the pairing in use.
+        relative_gain: λ₁₁; None without steady state.
+        in_use: the pairing of the loops.
     """
 
-    rga: Floats | None
-    pairing: tuple[tuple[str, str], ...]
-    reason: str
-    niederlinski: float | None
-    niederlinski_cross: float | None
-    findings: tuple[Finding, ...]
+    relative_gain: float | None
+    in_use: Pairing = "diagonal"
+
+    @property
+    def rga(self) -> Floats | None:
+        """2×2, rows are outputs θ, ψ, columns inputs V_p, V_y; None without steady state."""
+        if self.relative_gain is None:
+            return None
+        diagonal, cross = self.relative_gain, 1 - self.relative_gain
+        return np.array([[diagonal, cross], [cross, diagonal]])
+
+    @property
+    def advised(self) -> Pairing:
+        """The pairing with a relative gain above ½, which is the one nearer to 1."""
+        return "cross" if self.relative_gain is not None and self.relative_gain < 0.5 else "diagonal"
+
+    @property
+    def pairing(self) -> tuple[tuple[str, str], ...]:
+        """(output, input) names that RGA and Niederlinski index advise; none without steady state."""
+        if self.relative_gain is None:
+            return ()
+        inputs = INPUTS[::-1] if self.advised == "cross" else INPUTS
+        return tuple((y.name, u.name) for y, u in zip(OUTPUTS, inputs, strict=True))
+
+    @property
+    def niederlinski(self) -> float | None:
+        """Det Ĝ(0)/Π ĝᵢᵢ(0) = 1/λ₁₁ for diagonal pairing; None where a ĝᵢᵢ(0) is 0."""
+        return 1 / self.relative_gain if self.relative_gain else None
+
+    @property
+    def niederlinski_cross(self) -> float | None:
+        """The same for the cross pairing, 1/λ₁₂."""
+        return 1 / (1 - self.relative_gain) if self.relative_gain not in (None, 1.0) else None
+
+    @property
+    def reason(self) -> str:
+        """Why, in words."""
+        if self.relative_gain is None:
+            return "A pole lies at 0: without steady state there is no RGA."
+        return _reason(self.relative_gain)
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What the RGA says against the pairing in use."""
+        if self.relative_gain is None or self.advised == self.in_use:
+            return ()
+        return (_against(self.relative_gain, self.advised, self.reason),)
 
 
 def interaction(design: Design, pairing: Pairing = "diagonal") -> Interaction:
@@ -43,21 +80,11 @@ def interaction(design: Design, pairing: Pairing = "diagonal") -> Interaction:
     Of two by two gains the pairing with a relative gain above ½ is the one nearer to 1, and the only
     one with a positive Niederlinski index unless both have: the index is 1/λ₁₁, and 1/λ₁₂ crosswise.
     """
-    (a, b), (c, d) = design.steady_state_inverse
+    (a, b), (c, d) = design.steady_state_inverse.tolist()
     determinant = a * d - b * c
     if abs(determinant) <= SINGULAR * (abs(a * d) + abs(b * c)):
-        return Interaction(
-            None, (), "A pole lies at 0: without steady state there is no RGA.", None, None, ()
-        )
-    diagonal = float(a * d / determinant)  # Ĝ(0) = adj(Ĝ(0)⁻¹)/det, so λ₁₁ = ĝ₁₁ · (Ĝ⁻¹)₁₁
-    rga = np.array([[diagonal, 1 - diagonal], [1 - diagonal, diagonal]])
-    advised: Pairing = "cross" if diagonal < 0.5 else "diagonal"
-    inputs = INPUTS[::-1] if advised == "cross" else INPUTS
-    pairs = tuple((y.name, u.name) for y, u in zip(OUTPUTS, inputs, strict=True))
-    straight, crosswise = (1 / gain if gain else None for gain in (diagonal, 1 - diagonal))
-    reason = _reason(diagonal)
-    against = () if advised == pairing else (_against(diagonal, advised, reason),)
-    return Interaction(rga, pairs, reason, straight, crosswise, against)
+        return Interaction(None, pairing)
+    return Interaction(a * d / determinant, pairing)  # Ĝ(0) = adj(Ĝ(0)⁻¹)/det, so λ₁₁ = ĝ₁₁ (Ĝ⁻¹)₁₁
 
 
 def closed_loop_response(design: Design, frequencies: Floats) -> Complexes:

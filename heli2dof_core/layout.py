@@ -17,15 +17,29 @@ NO_ANTI_WINDUP, CLAMPING, BACK_CALCULATION = 0, 1, 2
 # and rate = w x₂, in F row by row, then b, w; computation delay in samples
 TIME, STEP, FILTERED, F, BETA, RATE, DELAY, SETTINGS = 0, 1, 3, 4, 8, 10, 11, 12
 
+# x: an experiment's references, start θ, ψ, θ̇, ψ̇, limits, travel, whether the trim is fed forward, kind of
+# anti-windup, gains of back-calculation, and volts that disturb the motors
+REFERENCE, START, BOUND, STOP, FED, ANTI_WINDUP, BACK, VOLTS, EXPERIMENT = 0, 2, 6, 8, 9, 10, 11, 15, 17
+
+STATIC, PI, OWN = 0, 1, 2
+"""What is around the state feedback: Ĝ(0)⁻¹, two PI loops, or the placement method's own integral action."""
+
 WORKSPACE = (24, 8)
 """Shape of the integrator's scratch array: slopes, continuous output, states; from row 16 on the digital rig's."""
 
 AUGMENTED = 7
 """States of a linear response: up to six of the loop, and the constant 1 that carries the references."""
+DIVERGED = 1e3
+"""An angle, rad, beyond which a response counts as diverged and is held at its last value."""
+LINEAR_WORKSPACE = (4 * AUGMENTED + 2, AUGMENTED)
+"""Shape of its scratch array: the augmented matrix, the voltages' rows, and three for the exponential."""
 
 # Columns of an axis' metrics, of a motor's, of its margins, and of what both motors bear
 RISE_TIME, SETTLING_TIME, OVERSHOOT, PEAK, PEAK_TIME, STEADY_STATE_ERROR, IAE, ITAE, AXIS_METRICS = range(9)
 PEAK_VOLTAGE, EFFORT, MOTOR_METRICS = range(3)
+# What else is known of a course: both axes' largest deviations from the start, shares of time at the limits, the
+# first sample that is held, how the integration ended, impacts on the stops
+DEVIATION, SHARE, HELD, OUTCOME, IMPACTS, COURSE = 0, 2, 4, 5, 6, 7
 GAIN_MARGIN, GAIN_REDUCTION_MARGIN, PHASE_MARGIN, DELAY_MARGIN, MARGINS = range(5)
 SENSITIVITY_PEAK, PEAK_FREQUENCY, DISK_MARGIN, DISK_FREQUENCY, SENSITIVITY = range(5)
 

@@ -9,9 +9,10 @@ from functools import cached_property
 import numpy as np
 
 from .design import Design
+from .eigenvalues import eigenvalues
 from .engine import engine
 from .findings import Finding
-from .layout import POLYNOMIALS
+from .layout import OWN, PI, POLYNOMIALS, STATIC
 from .signals import AXES, Complexes, Floats
 from .spec import OuterLoop
 
@@ -29,6 +30,10 @@ class Loop:
         proportional: 2×2, volts of each motor per error of pitch and yaw, V/rad.
         integral: 2×2, per integral of these errors, V/(rad·s); None where nothing integrates.
         feedforward: 2×2, per reference, V/rad.
+        voltage_from_state: ∂u/∂[x, z], 2×6 (2×4 where nothing integrates), V per state.
+        voltage_from_reference: ∂u/∂r, 2×2, V/rad.
+        A: state matrix of the whole loop, 6×6 or 4×4.
+        B: from the references [θ_ref, ψ_ref] to the states' rates.
     """
 
     design: Design
@@ -36,6 +41,10 @@ class Loop:
     proportional: Floats
     integral: Floats | None
     feedforward: Floats
+    voltage_from_state: Floats
+    voltage_from_reference: Floats
+    A: Floats
+    B: Floats
 
     @property
     def has_integrators(self) -> bool:
@@ -53,56 +62,21 @@ class Loop:
         return proportional / np.linalg.norm(self.integral, axis=0)
 
     @cached_property
-    def voltage_from_state(self) -> Floats:
-        """∂u/∂[x, z], 2×6 (2×4 without PI), V per state."""
-        law = np.empty((2, 4 if self.integral is None else 6))
-        law[:, :4] = -self.design.K
-        law[:, :2] -= self.proportional
-        if self.integral is not None:
-            law[:, 4:] = self.integral
-        return law
-
-    @cached_property
-    def voltage_from_reference(self) -> Floats:
-        """∂u/∂r, 2×2, V/rad."""
-        return self.proportional + self.feedforward
-
-    @cached_property
-    def A(self) -> Floats:
-        """State matrix of the whole loop, 6×6 (4×4 without PI)."""
-        plant, law = self.design.plant, self.voltage_from_state
-        order = law.shape[1]
-        A = np.zeros((order, order))
-        A[:4] = plant.B @ law
-        A[:4, :4] += plant.A
-        if order == 6:
-            A[4, 0] = A[5, 1] = -1.0
-        return A
-
-    @cached_property
-    def B(self) -> Floats:
-        """Matrix from the references [θ_ref, ψ_ref] to the states' rates."""
-        top = self.design.plant.B @ self.voltage_from_reference
-        return np.vstack([top, np.eye(2)]) if self.has_integrators else top
-
-    @cached_property
     def polynomials(self) -> Floats:
         """Rig and law as 2×2 matrices of polynomials of s, (2, 2, 16), laid out as `kernels.frequency` says."""
         plant, f = self.design.plant, np.empty(POLYNOMIALS)
-        A, B = np.array(plant.A), np.array(plant.B)  # writable: to Numba a read-only array is another type
-        engine().describe(A, B, self.voltage_from_state, self.has_integrators, f)
+        engine().describe(plant.A, plant.B, self.voltage_from_state, self.has_integrators, f)
         return f
 
     @cached_property
     def poles(self) -> Complexes:
         """Poles of the whole loop, rad/s: six with PI, four without; slowest first."""
-        values = np.linalg.eigvals(self.A).tolist()
-        return np.array(sorted(values, key=lambda p: (-p.real, -p.imag)), dtype=np.complex128)
+        return np.array(sorted(eigenvalues(self.A), key=lambda p: (-p.real, -p.imag)))
 
     @cached_property
     def stable(self) -> bool:
         """Whether every pole of the whole loop lies left of the imaginary axis."""
-        return bool(np.max(self.poles.real) < 0)
+        return bool(self.poles[0].real < 0)
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
@@ -115,29 +89,19 @@ def close_loop(design: Design, outer: OuterLoop = OuterLoop()) -> Loop:
 
     A method's own integral action takes the place of the PI loops.
     """
-    inverse = design.steady_state_inverse
-    nothing = np.zeros((2, 2))
-    if design.integral is not None:
-        return Loop(design, outer, nothing, design.integral, nothing)
-    if outer.outer == "none":
-        return Loop(design, outer, nothing, None, inverse)
-    (a, b), (c, d) = inverse
-    # Ĝ(0) up to the positive or negative factor det Ĝ(0); signs below use the determinant's sign
-    determinant = a * d - b * c
-    sign = 1.0 if determinant == 0 else np.sign(determinant)
-    G_0 = sign * np.array([[d, -b], [-c, a]])
-    paired = np.diag(G_0) if outer.pairing == "diagonal" else np.array([G_0[0, 1], G_0[1, 0]])
-    if outer.decoupler:
-        scale = abs(determinant) or 1.0
-        mixing = inverse * (np.abs(paired) / scale)
-    elif outer.pairing == "diagonal":
-        mixing = np.eye(2)
-    else:
-        signs = np.where(paired < 0, -1.0, 1.0)
-        mixing = np.array([[0.0, signs[1]], [signs[0], 0.0]])
-    kp = np.array([outer.pitch.kp, outer.yaw.kp])
-    ki = kp / np.array([outer.pitch.ti, outer.yaw.ti])
-    return Loop(design, outer, mixing * kp, mixing * ki, nothing)
+    kind = OWN if design.integral is not None else PI if outer.outer == "pi" else STATIC
+    order = 4 if kind == STATIC else 6
+    P, F, by_reference, gains = np.empty((4, 2, 2))
+    integral = np.zeros((2, 2)) if design.integral is None else np.array(design.integral, order="C")
+    law, A, B = np.empty((2, order)), np.empty((order, order)), np.empty((order, 2))
+    for i, pi in enumerate((outer.pitch, outer.yaw)):
+        gains[i] = pi.kp, pi.kp / pi.ti
+    plant, cross = design.plant, outer.pairing == "cross"
+    settings = (kind, gains, cross, outer.decoupler)
+    engine().close(
+        design.K, plant.statics, plant.A, plant.B, *settings, P, integral, F, law, by_reference, A, B
+    )
+    return Loop(design, outer, P, None if kind == STATIC else integral, F, law, by_reference, A, B)
 
 
 def _remarks(loop: Loop) -> Iterator[Finding]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isnan
 
@@ -81,13 +82,16 @@ def step_metrics(response: Response, trim: Floats) -> StepMetrics:
         response: linear or nonlinear.
         trim: the voltages that count as rest, shape (2,), V; zeros where they are deviations already.
     """
-    start, reference = response.start, response.reference
     angles, voltages = np.ascontiguousarray(response.angles), np.ascontiguousarray(response.voltages)
     axes, motors = np.empty((2, AXIS_METRICS)), np.empty((2, MOTOR_METRICS))
-    deviations = engine().measure(
-        response.t, angles, voltages, start, reference, np.array(trim), axes, motors
-    )
-    stepped = [i for i in range(2) if reference[i] != start[i]]
+    ends = response.start, response.reference
+    deviations = engine().measure(response.t, angles, voltages, *ends, np.array(trim), axes, motors)
+    return measured(response, deviations, axes, motors)
+
+
+def measured(response: Response, deviations: Sequence[float], axes: Floats, motors: Floats) -> StepMetrics:
+    """What the kernel `measure` has found, by name."""
+    stepped = [i for i in range(2) if response.reference[i] != response.start[i]]
     return StepMetrics(
         {OUTPUTS[i].name: AxisMetrics.of(axes[i].tolist()) for i in stepped},
         float(deviations[1 - stepped[0]]) if len(stepped) == 1 else None,

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 
 from .checks import require_within
 from .compiled import linear_matrices
 from .couplings import require_controllable
+from .eigenvalues import eigenvalues
 from .parameters import Parameters
-from .signals import Complexes, Floats
+from .signals import Complexes, Floats, fixed
 
 STEEPEST = 1.5
 """Largest operating angle, rad: beyond it yaw's lever arm vanishes."""
@@ -35,9 +37,25 @@ class Plant:
     trim: Floats
 
     @cached_property
+    def constants(self) -> Floats:
+        """The rig's part of `kernels.rig`'s constants, shape (11,)."""
+        return fixed(rig_constants(self.parameters))
+
+    @cached_property
+    def statics(self) -> Floats:
+        """B₂⁻¹ A₂₁, 2×2, V/rad: −1 times the voltages that hold one radian on either axis without feedback."""
+        return fixed(np.linalg.solve(self.B[2:], self.A[2:, :2]))
+
+    @cached_property
     def poles(self) -> Complexes:
         """Poles of the rig without feedback, rad/s, shape (4,)."""
-        return np.linalg.eigvals(self.A).astype(np.complex128)
+        return np.array(eigenvalues(self.A))
+
+
+def rig_constants(p: Any) -> list[Any]:
+    """The rig's part of `kernels.rig`'s constants; `p` has Parameters' fields, as numbers or arrays."""
+    ml2 = p.m * p.l**2
+    return [p.K_pp, p.K_py, p.K_yp, p.K_yy, p.alpha, p.J_y, ml2, p.m * p.g * p.l, p.B_p, p.B_y, p.K_s]
 
 
 @lru_cache(maxsize=256)  # every change of a design asks for the same rig
@@ -51,7 +69,4 @@ def plant(parameters: Parameters, theta_0: float = 0.0) -> Plant:
     require_controllable(parameters)
     angle = require_within(theta_0, "operating_point.theta", "rad", -STEEPEST, STEEPEST)
     A, B, trim = linear_matrices()(*parameters.as_dict().values(), angle)
-    arrays = [np.array(values, dtype=float) for values in (A, B, trim)]
-    for array in arrays:
-        array.flags.writeable = False
-    return Plant(parameters, angle, *arrays)
+    return Plant(parameters, angle, fixed(A), fixed(B), fixed(trim))

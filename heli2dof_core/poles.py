@@ -120,13 +120,14 @@ def match_poles(wanted: Sequence[complex] | Complexes, found: Sequence[complex] 
         For each of `wanted`, the index in `found` of its partner (bottleneck assignment: the
         smallest threshold under which a perfect matching exists, by augmenting paths).
     """
-    a, b = np.asarray(wanted, dtype=complex), np.asarray(found, dtype=complex)
-    if a.shape != b.shape or a.ndim != 1:
-        raise ValueError(f"pole sets of shapes {a.shape} and {b.shape} cannot be matched")
-    distance = np.abs(a[:, None] - b[None, :])
-    nearest = distance.argmin(axis=1).tolist()
+    a, b = [list(poles) for poles in (wanted, found)]
+    if len(a) != len(b):
+        raise ValueError(f"{len(a)} and {len(b)} poles cannot be matched")
+    rows = [[abs(p - q) for q in b] for p in a]
+    nearest = [row.index(min(row)) for row in rows]
     if len(set(nearest)) == len(nearest):  # each has its nearest: no matching can do better
         return nearest
+    distance = np.array(rows)
     levels = np.unique(distance)
     low, high = 0, len(levels) - 1
     while low < high:

@@ -18,8 +18,9 @@ from .evaluate import Spec, place
 from .layout import WORKSPACE
 from .loop import Loop, close_loop
 from .parameters import PARAMETER_INFO, Parameters
+from .plant import rig_constants
 from .signals import Complexes, Floats
-from .simulation.nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop, rig_constants
+from .simulation.nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
 
 Distribution = Literal["uniform", "normal"]
 MOST_SAMPLES = 20_000

@@ -5,12 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Floats = NDArray[np.float64]
 """An array of real numbers."""
 Complexes = NDArray[np.complex128]
 """An array of complex numbers."""
+
+
+def fixed(values: ArrayLike) -> Floats:
+    """An array of these numbers that nobody can change; to the kernels it is a type of its own."""
+    array = np.array(values, dtype=np.float64, order="C")
+    array.flags.writeable = False
+    return array
 
 
 @dataclass(frozen=True)

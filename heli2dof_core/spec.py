@@ -192,12 +192,17 @@ class Scenario:
         """linspace(0, duration, samples), s."""
         return _times(self.duration, self.samples).copy()
 
-    def resolved(self, theta_0: float) -> tuple[Floats, Floats]:
-        """References [θ, ψ] and start [θ, ψ, θ̇, ψ̇] with the operating point (θ₀, 0) filled in, rad."""
-        rest = (theta_0, 0.0)
-        reference = [r if v is None else v for v, r in zip((self.theta, self.psi), rest, strict=True)]
-        angles = [r if v is None else v for v, r in zip(self.initial[:2], rest, strict=True)]
-        return np.array(reference), np.array([*angles, *self.initial[2:]], dtype=float)
+    def resolved(self, theta_0: float) -> tuple[float, ...]:
+        """References θ, ψ and start θ, ψ, θ̇, ψ̇ with the operating point (θ₀, 0) filled in, rad and rad/s."""
+        theta, psi, theta_dot, psi_dot = self.initial
+        return (
+            theta_0 if self.theta is None else self.theta,
+            0.0 if self.psi is None else self.psi,
+            theta_0 if theta is None else theta,
+            0.0 if psi is None else psi,
+            theta_dot,
+            psi_dot,
+        )
 
 
 @lru_cache(maxsize=64)  # hardly ever does it change from one update to the next

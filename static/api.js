@@ -51,6 +51,17 @@ export const getPaper = () => call('api/v1/paper');
 export const walkThrough = (design) => call('api/v1/walkthrough', { method: 'POST', body: design });
 /** @param {string} session @param {string} rig */
 export const putRig = (session, rig) => call(`scene/${encodeURIComponent(session)}/rig`, { method: 'PUT', body: { rig } });
+/** What cameras need to know of each rig. @returns {Promise<Record<string, import('./scene_cameras.js').RigView>>} */
+export const getRigViews = () => call('scene/rigs');
+
+/** The motion of a design as a file. @param {'html'|'viser'} format @param {unknown} design with scenario @returns {Promise<Blob>} */
+export async function recordMotion(format, design) {
+  const response = await fetch(at(`api/v1/recording?format=${format}`), { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(design) });
+  if (!response.ok) throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
+  return response.blob();
+}
+/** The rig in a window of its own. @param {string} session */
+export const windowAddress = (session) => at(`scene/${encodeURIComponent(session)}/`).href;
 
 /** @param {string} path */
 function socketAddress(path) {
@@ -60,6 +71,8 @@ function socketAddress(path) {
 }
 
 export const liveAddress = () => socketAddress('api/v1/live');
+/** @param {string} session */
+export const hubAddress = (session) => socketAddress(`scene/${encodeURIComponent(session)}/hub?page=true`);
 export const cloudAddress = () => socketAddress('api/v1/robustness');
 
 /**

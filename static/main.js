@@ -13,6 +13,7 @@ import { PinKeeper } from './pin_keeper.js';
 import { Pace } from './pace.js';
 import { Plots } from './plots.js';
 import { Projector } from './projector.js';
+import { SceneSharing } from './scene_sharing.js';
 import { SceneView } from './scene_view.js';
 import { SPlane } from './splane.js';
 import { Stats } from './stats.js';
@@ -44,8 +45,9 @@ const stats = new Stats();
 const address = new Address(store);
 const pins = new PinKeeper(store);
 
-const scene = new SceneView(byId('scene'), store, { onTime: (t) => plots.setTime(t) });
-const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t) });
+const scene = new SceneView(byId('scene'), store, { onTime: (t) => { plots.setTime(t); sharing.correct(); }, onTransport: (snapshot, cause) => sharing.run(snapshot, cause) });
+const sharing = new SceneSharing(store, scene);
+const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t), onPeek: (t) => scene.peek(t) });
 const projector = new Projector();
 const moving = [new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store)]; // what the hand moves
 const figures = [

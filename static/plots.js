@@ -41,10 +41,11 @@ export class Plots {
   /** @type {import('./types.js').Requirements|null} */ #asked = null;
   /** @type {{t: import('./types.js').Series, plots: Record<Signal, any[]>}|null} */ #data = null;
 
-  /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onSeek: (t: number) => void}} handlers */
-  constructor(root, store, { onSeek }) {
+  /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onSeek: (t: number) => void, onPeek: (t: number|null) => void}} handlers */
+  constructor(root, store, { onSeek, onPeek }) {
     this.store = store;
     this.onSeek = onSeek;
+    this.onPeek = onPeek;
     this.root = root;
     this.at = h('span');
     this.played = h('span', { class: 'played' });
@@ -164,6 +165,7 @@ export class Plots {
   #hovered(u) {
     const { left } = u.cursor;
     this.#hover = left === undefined || left < 0 ? null : u.posToVal(left, 'x');
+    this.onPeek(this.#hover);
     this.#showValues();
   }
 

@@ -21,8 +21,11 @@
  */
 
 /**
- * What the scene shows: a sample, the propellers' angles in radians and the reference.
- * @typedef {Sample & {pitchRotor?: number, yawRotor?: number,
+ * What the motors give at most, in volts, and where pitch stops, in radians; absent: no limit.
+ * @typedef {{V_p?: number, V_y?: number, theta?: number}} Limits
+ *
+ * What the scene shows: a sample, the propellers' angles in radians, the reference, the limits.
+ * @typedef {Sample & {pitchRotor?: number, yawRotor?: number, limits?: Limits, dark?: boolean,
  *   reference?: {theta: number, psi: number}}} Pose
  */
 
@@ -38,6 +41,22 @@ export const ROTOR_SCALE = 1.7;
 const BLUR_VOLTAGE = 5;
 /** Radians by which the reference must differ from the pose for its ghost to be drawn. */
 const GHOST_DISTANCE = 0.012;
+/** Length of a thrust arrow per volt, in metres: thrust is proportional to voltage in the model. */
+export const THRUST_SCALE = 0.0065;
+/** Of an arrow's head, in metres, as app/scene/graphics.py makes it. */
+const HEAD_LENGTH = 0.026;
+/** Volts below which no arrow is drawn. */
+const LEAST_VOLTAGE = 0.05;
+/** Volts from a limit at which a motor counts as being at it; the integrator stops there exactly. */
+export const AT_LIMIT = 1e-3;
+
+/** @typedef {[number, number, number]} Color red, green and blue, 0…255 */
+
+/** What is drawn in one colour, by theme. @type {Record<"light" | "dark", Record<string, Color>>} */
+const COLORS = {
+  light: { scale: [78, 86, 96], pitch: [185, 74, 44], yaw: [23, 74, 114], stop: [190, 30, 30], thrust: [22, 128, 84], reference: [79, 123, 166] },
+  dark: { scale: [205, 212, 220], pitch: [244, 144, 111], yaw: [116, 184, 236], stop: [255, 84, 76], thrust: [96, 214, 150], reference: [140, 184, 230] },
+};
 
 /**
  * Returns the index of the last time not after `time`, at most the last but one.
@@ -100,7 +119,7 @@ export function rotorAngles(trajectory, scale = ROTOR_SCALE) {
  * @param {string} name @param {"y" | "z"} axis @param {number} angle radians
  * @returns {SceneMessage}
  */
-function turn(name, axis, angle) {
+export function turn(name, axis, angle) {
   const c = Math.cos(angle / 2);
   const s = Math.sin(angle / 2);
   const wxyz = axis === "y" ? [c, 0, s, 0] : [c, 0, 0, s];
@@ -111,8 +130,92 @@ function turn(name, axis, angle) {
  * @param {string} name @param {boolean} visible
  * @returns {SceneMessage}
  */
-function show(name, visible) {
+export function show(name, visible) {
   return { type: "SetSceneNodeVisibilityMessage", name, visible, owner: "" };
+}
+
+/**
+ * @param {string} name @param {Record<string, unknown>} updates properties of a node
+ * @returns {SceneMessage}
+ */
+export function change(name, updates) {
+  return { type: "SceneNodeUpdateMessage", name, updates, owner: "" };
+}
+
+/**
+ * Where a node's message belongs: two with the same slot overwrite each other.
+ * @param {SceneMessage} message
+ */
+export function slotOf({ type, name, updates }) {
+  return `${type} ${name} ${updates ? Object.keys(updates) : ""}`;
+}
+
+/** @param {boolean | undefined} dark */
+const colors = (dark) => COLORS[dark ? "dark" : "light"];
+
+/** The ground's grid, and how dark shadows fall on it. */
+const GROUND = {
+  light: { cell_color: [196, 200, 206], section_color: [176, 181, 188], shadow_opacity: 0.3 },
+  dark: { cell_color: [66, 74, 84], section_color: [88, 97, 109], shadow_opacity: 0.6 },
+};
+
+/**
+ * Returns the messages that give the ground and the drawing about the rig their colours.
+ * @param {boolean} dark @returns {SceneMessage[]}
+ */
+export function themeMessages(dark) {
+  const { scale, pitch, yaw, stop, reference } = colors(dark);
+  return [
+    change("/ground", GROUND[dark ? "dark" : "light"]),
+    ...["/rig/scale", `${YOKE}/pitch_scale`].map((name) => change(name, { color: scale })),
+    change(`${BODY}/pointer`, { color: pitch }),
+    change(`${YOKE}/pointer`, { color: yaw }),
+    ...["stop_up", "stop_down"].map((name) => change(`${YOKE}/${name}`, { color: stop })),
+    ...["", "/body"].map((part) => change(`${GHOST}/yoke${part}/shape`, { color: reference })),
+  ];
+}
+
+/**
+ * Returns the messages that draw a motor's thrust: as long as its voltage is large, red and capped
+ * where the motor gives all it can.
+ * @param {string} node @param {number} volts @param {number} limit volts @param {boolean} [dark]
+ * @returns {SceneMessage[]}
+ */
+function thrustMessages(node, volts, limit, dark) {
+  const size = Math.abs(volts);
+  return ["positive", "negative"].flatMap((sign) => {
+    const arrow = `${node}_${sign}`;
+    const drawn = size > LEAST_VOLTAGE && volts > 0 === (sign === "positive");
+    if (!drawn) return [show(arrow, false)];
+    const full = size >= limit - AT_LIMIT;
+    const { stop, thrust } = colors(dark);
+    const color = full ? stop : thrust;
+    const length = size * THRUST_SCALE;
+    const head = Math.min(1, length / (1.25 * HEAD_LENGTH));
+    const neck = length - head * HEAD_LENGTH;
+    return [
+      show(arrow, true),
+      change(`${arrow}/shaft`, { scale: [1, 1, Math.max(neck, 1e-4)] }),
+      change(`${arrow}/shaft`, { color }),
+      { type: "SetPositionMessage", name: `${arrow}/head`, position: [0, 0, neck], owner: "" },
+      change(`${arrow}/head`, { scale: [head, head, head] }),
+      change(`${arrow}/head`, { color }),
+      show(`${arrow}/cap`, full),
+      { type: "SetPositionMessage", name: `${arrow}/cap`, position: [0, 0, neck], owner: "" },
+    ];
+  });
+}
+
+/**
+ * Returns the messages that put the travel stops where the design has them.
+ * @param {number | undefined} limit radians @returns {SceneMessage[]}
+ */
+function stopMessages(limit) {
+  return [["stop_up", -1], ["stop_down", 1]].flatMap(([name, side]) => {
+    const node = `${YOKE}/${name}`;
+    if (limit === undefined) return [show(node, false)];
+    return [show(node, true), turn(node, "y", Number(side) * limit)];
+  });
 }
 
 /**
@@ -122,15 +225,19 @@ function show(name, visible) {
  * @returns {SceneMessage[]}
  */
 export function poseMessages(pose) {
-  const { theta, psi, V_p, V_y, reference } = pose;
-  const messages = [
-    turn(YOKE, "z", -psi),
-    turn(BODY, "y", -theta),
-    turn(`${BODY}/pitch_rotor`, "z", pose.pitchRotor ?? 0),
-    turn(`${BODY}/yaw_rotor`, "y", pose.yawRotor ?? 0),
-    show(`${BODY}/pitch_blur`, Math.abs(V_p) > BLUR_VOLTAGE),
-    show(`${BODY}/yaw_blur`, Math.abs(V_y) > BLUR_VOLTAGE),
-  ];
+  const { theta, psi, V_p, V_y, reference, limits = {}, dark } = pose;
+  const messages = [turn(YOKE, "z", -psi), turn(BODY, "y", -theta), ...stopMessages(limits.theta)];
+  const rotors = /** @type {const} */ ([
+    ["pitch", "z", pose.pitchRotor, V_p, limits.V_p],
+    ["yaw", "y", pose.yawRotor, V_y, limits.V_y],
+  ]);
+  for (const [name, axis, angle = 0, volts, limit = Infinity] of rotors) {
+    const fast = Math.abs(volts) > BLUR_VOLTAGE;
+    for (const [part, seen] of /** @type {const} */ ([["rotor", !fast], ["blur", fast]])) {
+      messages.push(turn(`${BODY}/${name}_${part}`, axis, angle), show(`${BODY}/${name}_${part}`, seen));
+    }
+    messages.push(...thrustMessages(`${BODY}/${name}_thrust`, volts, limit, dark));
+  }
   const away =
     reference !== undefined &&
     Math.hypot(reference.theta - theta, reference.psi - psi) > GHOST_DISTANCE;

@@ -1,6 +1,7 @@
 // Runs in viser's page before viser's own code. Lets the page around the frame move the nodes of
 // the scene in its own animation frames: viser's messages are handed to the client as if its socket
-// worker had received them, so that the server need not stream poses.
+// worker had received them, so that the server need not stream poses. In a window of its own the scene
+// has no page around it; there scene_window.js does the same from within.
 (() => {
   "use strict";
 
@@ -10,8 +11,11 @@
     "SetPositionMessage",
     "SetSceneNodeVisibilityMessage",
     "SceneNodeUpdateMessage",
+    "SetCameraPositionMessage",
+    "SetCameraLookAtMessage",
   ]);
   const framed = window.parent !== window;
+  document.documentElement.dataset.place = framed ? "frame" : "window";
 
   // Viser's client obeys its address: ?websocket= would connect it to any server, and
   // ?playbackPath= load any recording, either of which may carry scripts into this origin.
@@ -20,11 +24,26 @@
   /** @type {Worker | null} The worker that holds viser's socket. */
   let socketWorker = null;
   let state = { state: "loading", reason: "" };
+  /** @type {any} Viser's own message about its colours. */
+  let theme = null;
 
   /** @param {string} name @param {string} [reason] */
   function report(name, reason = "") {
     state = { state: name, reason };
-    if (framed) window.parent.postMessage({ channel: CHANNEL, ...state }, location.origin);
+    window.parent.postMessage({ channel: CHANNEL, ...state }, location.origin);
+    if (name === "ready") paint();
+  }
+
+  /** Hands messages to the client. @param {any[]} messages */
+  function deliver(messages) {
+    const batch = { type: "message_batch", messages };
+    socketWorker?.onmessage?.(new MessageEvent("message", { data: batch }));
+  }
+
+  /** The panel's colours follow the window's. */
+  function paint() {
+    const dark = document.documentElement.dataset.theme === "dark";
+    if (theme && !framed) deliver([{ ...theme, dark_mode: dark }]);
   }
 
   /** @param {MessageEvent} event What the socket's worker tells the client. */
@@ -35,6 +54,7 @@
     } else if (type === "closed") {
       report("closed", closeReason);
     } else if (type === "message_batch") {
+      theme = messages.findLast((/** @type {any} */ m) => m.type === "ThemeConfigurationMessage") ?? theme;
       // After a replay, and after a change of the rig, the nodes stand in their first pose.
       const rebuilt = messages.some(
         (/** @type {{type: string, name?: string}} */ m) =>
@@ -59,17 +79,16 @@
   };
 
   window.addEventListener("message", (event) => {
-    if (!framed || event.source !== window.parent || event.origin !== location.origin) return;
+    if (event.source !== window.parent || event.origin !== location.origin) return;
     const data = event.data;
     if (data?.channel !== CHANNEL) return;
     if (data.kind === "hello") {
       report(state.state, state.reason);
     } else if (data.kind === "theme") {
       document.documentElement.dataset.theme = data.dark ? "dark" : "light";
-    } else if (data.kind === "pose" && state.state !== "loading" && socketWorker?.onmessage) {
-      const messages = data.messages.filter((/** @type {any} */ m) => MOVES.has(m.type));
-      const batch = { type: "message_batch", messages };
-      socketWorker.onmessage(new MessageEvent("message", { data: batch }));
+      paint();
+    } else if (data.kind === "pose" && state.state !== "loading") {
+      deliver(data.messages.filter((/** @type {any} */ m) => MOVES.has(m.type)));
     }
   });
 
@@ -78,4 +97,11 @@
   Document.prototype.hasFocus = function () {
     return !document.hidden;
   };
+
+  if (!framed) {
+    const script = document.createElement("script");
+    script.type = "module";
+    script.src = "../../static/scene_window.js";
+    document.head.append(script);
+  }
 })();

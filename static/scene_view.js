@@ -3,42 +3,23 @@
  * the plots and the read-outs.
  * @typedef {import('./types.js').State} State
  */
-import { h, setAttr, setText, symbol } from './dom.js';
+import { getRigViews, putRig } from './api.js';
+import { h, setText, symbol } from './dom.js';
 import { Choice } from './fields.js';
 import { degrees, fixed } from './format.js';
-import { putRig } from './api.js';
 import { ScenePlayer } from './scene.js';
+import { SceneControls } from './scene_controls.js';
+import { flightsOf } from './scene_ghosts.js';
+import { sceneMenu } from './scene_menu.js';
+import { AT_LIMIT } from './scene_pose.js';
+import { hasWebGl, session } from './scene_session.js';
+import { Transport } from './scene_transport.js';
 import { motionOf } from './traces.js';
 
-const KEY = 'heli2dof-scene';
 const QUIET_MS = 450; // after the last change, before the motion plays afresh
 const LATE_MS = 100; // between two frames: three such in a row, and drawing the rig is slow here
-const REST_MS = 900; // between two rounds of a loop
-
-/** A name that nobody guesses: whoever knows it sees this tab's rig. */
-function newSession() {
-  const bytes = crypto.getRandomValues(new Uint8Array(18));
-  return btoa(String.fromCharCode(...bytes)).replaceAll('+', '-').replaceAll('/', '_');
-}
-
-/** Kept over a reload; a duplicated tab inherits the storage but not the navigation type, and gets its own. */
-function session() {
-  const [navigation] = /** @type {PerformanceNavigationTiming[]} */ (performance.getEntriesByType('navigation'));
-  const kept = navigation?.type === 'reload' ? sessionStorage.getItem(KEY) : null;
-  const id = kept ?? newSession();
-  sessionStorage.setItem(KEY, id);
-  return id;
-}
-
-function hasWebGl() {
-  try {
-    const context = document.createElement('canvas').getContext('webgl2');
-    context?.getExtension('WEBGL_lose_context')?.loseContext();
-    return context !== null;
-  } catch {
-    return false;
-  }
-}
+/** Each motor, and its limit. @type {('V_p'|'V_y')[]} */
+const MOTORS = ['V_p', 'V_y'];
 
 export class SceneView {
   /** @type {string|null} */ #rig = null;
@@ -47,13 +28,18 @@ export class SceneView {
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
   #pending = false;
   #dragging = false;
+  /** Whether the drag has yet to bring its first response. */ #fresh = false;
   #rests = false;
   #slow = false;
-  #last = { playing: false, time: 0, duration: 0, ready: false, reason: '' };
+  /** The time that is held while the plots' cursor is elsewhere; null: it is not. @type {number|null} */ #held = null;
+  /** Where the plots' cursor is. @type {number|null} */ #peeked = null;
+  /** @type {import('./scene.js').PlayerState} */ #last = { playing: false, time: 0, duration: 0, speed: 1, loop: false, ready: false, reason: '' };
+  /** @type {unknown[]} */ #flown = [];
+  /** @type {Record<string, import('./scene_cameras.js').RigView>|null} */ #views = null;
   #calm = matchMedia('(prefers-reduced-motion: reduce)');
 
-  /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onTime: (t: number) => void}} handlers */
-  constructor(root, store, { onTime }) {
+  /** @param {HTMLElement} root @param {import('./store.js').Store} store @param {{onTime: (t: number) => void, onTransport: NonNullable<ConstructorParameters<typeof ScenePlayer>[1]>['onTransport']}} handlers */
+  constructor(root, store, { onTime, onTransport }) {
     this.store = store;
     this.onTime = onTime;
     this.session = session();
@@ -65,37 +51,65 @@ export class SceneView {
     const hud = h('div', { class: 'hud', 'data-testid': 'hud' }, label('theta', symbol('θ')), label('psi', symbol('ψ')), label('V_p', symbol('V', 'p')), label('V_y', symbol('V', 'y')));
     this.motion = new Choice({ label: 'Motion that the scene plays', testid: 'motion', onChange: (v) => store.set({ motion: /** @type {any} */ (v) }),
       options: [['theta', 'pitch step', 'the scene plays the pitch step alone'], ['psi', 'yaw step', 'the scene plays the yaw step alone'], ['both', 'both', 'the scene plays both steps at once']] });
-    this.play = h('button', { type: 'button', class: 'play', 'data-testid': 'play', onclick: () => this.#toggle() });
-    this.replay = h('button', { type: 'button', 'data-testid': 'replay', title: 'Play from the start', onclick: () => this.player.replay() }, 'Replay');
-    this.time = h('input', { type: 'range', min: 0, max: 5, step: 0.01, value: 0, 'aria-label': 'Time in the motion', 'data-testid': 'time', oninput: () => this.#seek(Number(this.time.value)) });
-    this.clock = h('output', { class: 'clock', 'data-testid': 'clock' });
-    this.loop = h('input', { type: 'checkbox', 'data-testid': 'loop' });
-    this.seen = h('input', { type: 'checkbox', checked: true, 'data-testid': 'show-scene', onchange: () => this.#state(this.#last) });
-    root.append(h('div', { class: 'stage' }, this.webgl ? this.frame : null, this.notice, hud, h('div', { class: 'motion' }, this.motion.node)),
-      h('div', { class: 'transport' }, this.play, this.replay, this.time, this.clock, h('label', { class: 'check', title: 'Play again and again' }, this.loop, 'loop'),
-        this.webgl ? h('label', { class: 'check', title: 'Draw the rig: switch it off where the graphics are slow' }, this.seen, '3D') : null));
+    this.transport = new Transport({
+      onToggle: () => this.#toggle(), onReplay: () => this.player.replay(), onSeek: (t) => this.seek(t),
+      onSpeed: (speed) => this.player.setSpeed(speed), onLoop: (loop) => this.player.setLoop(loop),
+    });
+    this.controls = new SceneControls({
+      onCamera: (camera) => this.player.setCamera(camera), onReset: () => this.player.resetCamera(),
+      onFlights: () => this.#fly(store.state), onSeen: () => this.#state(this.#last),
+    });
+    root.append(h('div', { class: 'stage' }, this.webgl ? this.frame : null, this.notice, hud, h('div', { class: 'motion' }, this.motion.node), this.webgl ? this.controls.node : null),
+      this.transport.node);
     const target = this.webgl ? this.frame : /** @type {HTMLIFrameElement} */ (/** @type {unknown} */ ({ contentWindow: null }));
-    this.player = new ScenePlayer(target, { onFrame: (s) => this.#show(s), onState: (s) => this.#state(s) });
+    this.player = new ScenePlayer(target, { onFrame: (s) => this.#show(s), onState: (s) => this.#state(s), onTransport });
+    this.player.setCamera(this.controls.camera);
+    if (this.webgl) this.transport.node.append(sceneMenu(store, this.session));
+    if (this.webgl) this.#watchFrame();
     if (this.webgl) this.#followTheme();
     this.#state(this.#last);
   }
 
   #followTheme() {
     const dark = matchMedia('(prefers-color-scheme: dark)');
-    const tell = () => this.player.setTheme(dark.matches);
+    const tell = () => {
+      this.player.setTheme(dark.matches);
+      this.#flown = [];
+      this.#fly(this.store.state);
+    };
     dark.addEventListener('change', tell);
     tell();
   }
 
-  /** @param {number} t */
-  #seek(t) {
+  /** The viewer takes the camera by moving it; a picture of another shape shows as much of the rig. */
+  #watchFrame() {
+    this.frame.addEventListener('load', () => {
+      const inside = this.frame.contentWindow;
+      const moved = (/** @type {Event} */ event) => (event.type === 'wheel' || /** @type {PointerEvent} */ (event).buttons > 0) && this.controls.freed();
+      for (const type of ['pointermove', 'wheel']) inside?.addEventListener(type, moved, { capture: true, passive: true });
+    });
+    new ResizeObserver(() => this.player.resized()).observe(this.frame);
+  }
+
+  /** Holds the rig at a time. @param {number} t */
+  seek(t) {
+    this.#held = null;
     this.player.pause();
     this.player.seek(t);
   }
 
-  /** @param {number} t */
-  seek(t) {
-    this.#seek(t);
+  /** Shows the rig at the plots' cursor, where time does not run, and where it was when the cursor has left. @param {number|null} t */
+  peek(t) {
+    if (t === this.#peeked) return; // the plots share one cursor, and each tells of it
+    this.#peeked = t;
+    if (this.player.playing) this.#held = null;
+    else if (t !== null) {
+      this.#held ??= this.player.time;
+      this.player.seek(t);
+    } else if (this.#held !== null) {
+      this.player.seek(this.#held);
+      this.#held = null;
+    }
   }
 
   #toggle() {
@@ -112,12 +126,9 @@ export class SceneView {
     else if (rig && rig !== this.#rig) this.#setRig(rig);
     if (!state.reply) return;
     const motion = motionOf(state.reply, state.motion) ?? state.reply.step;
-    if (motion.nonlinear !== this.#loaded) {
-      const first = this.#loaded === null;
-      this.#loaded = motion.nonlinear;
-      this.player.load(motion.nonlinear, { keepTime: !first });
-      if (first && !this.#calm.matches) this.player.play();
-    }
+    this.player.setLimits(state.reply.limits);
+    if (motion.nonlinear !== this.#loaded) this.#load(motion.nonlinear);
+    this.#fly(state);
     const wanted = `${state.motion}/${JSON.stringify(state.design)}`;
     if (wanted !== this.#design) {
       if (this.#design !== null) this.#pending = true;
@@ -131,12 +142,35 @@ export class SceneView {
     }
   }
 
+  /** A response: the first plays from its start, as does a drag's, which goes on with each that follows. @param {import('./types.js').Step} step */
+  #load(step) {
+    const first = this.#loaded === null;
+    const afresh = first || (this.#fresh && !this.#calm.matches);
+    this.#loaded = step;
+    this.#fresh = false;
+    this.player.load(step, { keepTime: !afresh });
+    if (this.#calm.matches) return;
+    if (first) this.player.play();
+    else if (this.#dragging && !this.player.playing) this.player.replay();
+  }
+
+  /** Who flies beside the rig. @param {State} state */
+  #fly(state) {
+    const { linear, pins } = this.controls;
+    const seen = [state.reply, state.motion, state.pins, linear.checked, pins.checked];
+    if (seen.every((v, i) => v === this.#flown[i])) return;
+    this.#flown = seen;
+    const style = getComputedStyle(document.documentElement);
+    this.player.setFlights(flightsOf(state, { linear: linear.checked, pins: pins.checked }, (name) => style.getPropertyValue(`--${name}`).trim()));
+    this.controls.render(state.pins.length > 0, this.controls.seen.checked);
+  }
+
   /**
    * Without a graphics card, drawing the rig holds up the whole page. Where that is seen to happen, the rig rests during drags: a drag never
    * waits. @param {boolean} dragging
    */
   #follow(dragging) {
-    this.#dragging = dragging;
+    this.#dragging = this.#fresh = dragging;
     this.#rests = dragging && this.#slow;
     this.#state(this.#last);
     let [late, last] = [0, performance.now()];
@@ -163,38 +197,36 @@ export class SceneView {
       // The frame shows what the server says of it.
     }
     if (!this.frame.src) this.frame.src = `scene/${this.session}/`;
+    this.#views ??= await getRigViews().catch(() => null); // without them, the camera is the viewer's
+    if (rig === this.#rig && this.#views?.[rig]) this.player.setView(this.#views[rig]);
   }
 
   /** @param {{t: number, theta: number, psi: number, V_p: number, V_y: number}} s */
   #show(s) {
     setText(this.hud.theta, degrees(s.theta));
     setText(this.hud.psi, degrees(s.psi));
-    for (const name of /** @type {('V_p'|'V_y')[]} */ (['V_p', 'V_y'])) {
+    for (const name of MOTORS) {
       const limit = this.store.state.reply?.limits?.[name];
-      const full = limit !== undefined && Math.abs(s[name]) >= limit - 1e-3;
+      const full = limit !== undefined && Math.abs(s[name]) >= limit - AT_LIMIT;
       setText(this.hud[name], `${fixed(s[name], 1)} V${full ? ' limit' : ''}`);
       this.hud[name].classList.toggle('full', full);
     }
-    if (document.activeElement !== this.time || this.player.playing) this.time.value = String(s.t);
-    setAttr(this.time, 'aria-valuetext', `${fixed(s.t, 2)} seconds`);
-    setText(this.clock, `${fixed(s.t, 2)} s`);
+    this.transport.show(s.t, this.player.playing);
     this.onTime(s.t);
   }
 
-  /** @param {{playing: boolean, time: number, duration: number, ready: boolean, reason: string}} last */
+  /** @param {import('./scene.js').PlayerState} last */
   #state(last) {
     this.#last = last;
-    const { playing, time, duration, ready, reason } = last;
-    setText(this.play, playing ? 'Pause' : 'Play');
-    setAttr(this.play, 'aria-pressed', String(playing));
-    if (duration > 0) setAttr(this.time, 'max', duration);
+    const { ready, reason } = last;
+    this.transport.render(last);
     if (this.webgl) {
-      const seen = this.seen.checked && !this.#rests;
+      const seen = this.controls.seen.checked && !this.#rests;
       this.frame.hidden = !seen;
+      this.controls.render(this.store.state.pins.length > 0, this.controls.seen.checked);
       this.notice.hidden = ready && seen;
       const off = this.#rests ? 'The rig rests while you drag: drawing it is slow here.' : 'The rig is switched off. All else works.';
       setText(this.notice, seen ? reason || 'Building the rig…' : off);
     }
-    if (!playing && duration > 0 && time >= duration && this.loop.checked) this.#timer = setTimeout(() => this.loop.checked && this.player.replay(), REST_MS);
   }
 }

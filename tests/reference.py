@@ -18,7 +18,8 @@ class Reference:
         plant = loop.design.plant
         self.rig, self.K, self.scenario = plant.parameters, loop.design.K, scenario
         self.P, self.I, self.F = loop.proportional, loop.integral, loop.feedforward
-        self.wanted, start = scenario.resolved(plant.theta_0)
+        theta, psi, *start = scenario.resolved(plant.theta_0)
+        self.wanted = np.array([theta, psi])
         self.rest = np.array([plant.theta_0, 0.0])
         self.trim = plant.trim if scenario.trim_feedforward else np.zeros(2)
         self.limits = np.array([limits.V_p, limits.V_y]) if scenario.saturation else np.full(2, np.inf)

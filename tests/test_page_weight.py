@@ -8,7 +8,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 STATIC = ROOT / "static"
-LIMIT = 250_000
+LIMIT = 260_000
 """Bytes, compressed. The 3D scene is a page of its own, in a frame, and not counted."""
 LINES = 300
 LINKED = re.compile(r"""<(?:link|script|img)\b[^>]*?\b(?:href|src)="([^"]+)\"""")
@@ -50,7 +50,7 @@ def test_the_page_is_light(record_property):
 def test_every_module_of_the_page_is_loaded_and_short():
     modules = {file for file in STATIC.rglob("*.js") if "vendor" not in file.parts}
     types_only = {STATIC / "types.js"}
-    scene_only = {STATIC / "scene_shim.js"}
+    scene_only = {STATIC / "scene_shim.js", STATIC / "scene_window.js"}
     assert modules - loaded() - types_only - scene_only == set()
     long = {
         file.name: lines for file in modules if (lines := len(file.read_text("utf-8").splitlines())) > LINES

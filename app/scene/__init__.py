@@ -5,5 +5,6 @@ This package is the only importer of viser, and it imports it when the first ses
 
 from .sessions import SceneSessions, SessionsFullError
 from .viewer import build_router
+from .views import build_views_router
 
-__all__ = ["SceneSessions", "SessionsFullError", "build_router"]
+__all__ = ["SceneSessions", "SessionsFullError", "build_router", "build_views_router"]

@@ -11,7 +11,6 @@ import math
 from heli2dof_core.geometry import RigGeometry, Rotor
 
 from .glb import Material, Part
-from .markings import pitch_ticks, yaw_scale
 from .shapes import (
     Mesh,
     blade,
@@ -21,12 +20,9 @@ from .shapes import (
     hoop,
     lathe,
     merged,
-    ring,
     rod,
     rounded,
-    sector,
     torus,
-    triangle,
 )
 
 PITCH_COLOR = "#c8553d"
@@ -40,10 +36,6 @@ ANODISED = Material("#272a2f", metallic=0.3, roughness=0.55)
 PLASTIC = Material("#1f2226", roughness=0.5)
 RUBBER = Material("#15171a", roughness=0.9)
 BRASS = Material("#a98a52", metallic=0.8, roughness=0.4)
-PAPER = Material("#d5d9dd", roughness=0.85)
-INK = Material("#22262b", roughness=0.9)
-SCALE = Material("#5c646e", roughness=1.0)
-GHOST = Material("#4f7ba6", roughness=0.9, opacity=0.34)
 
 
 def base_parts(rig: RigGeometry) -> list[Part]:
@@ -83,29 +75,15 @@ def mast_parts(rig: RigGeometry) -> list[Part]:
     ]
 
 
-def scale_parts(rig: RigGeometry) -> list[Part]:
-    """Return the yaw scale on the ground; it neither moves nor casts a shadow."""
-    radius = _scale_radius(rig)
-    circle = ring(radius - 0.0014, radius, segments=96)
-    return [(SCALE, merged([circle, yaw_scale(radius)]).moved(z=0.0012))]
-
-
 def yoke_parts(rig: RigGeometry) -> list[Part]:
-    """Return what turns with ψ: fork, bearing, pitch encoder, pitch scale and the yaw pointer."""
+    """Return what turns with ψ: fork, bearing and pitch encoder."""
     yoke, pivot = rig.yoke, rig.pivot_height
-    parts: list[Part] = [(ALUMINIUM, _fork(rig))]
+    parts: list[Part] = [(ALUMINIUM, fork(rig))]
     bearing = cylinder(rig.mast.radius * 1.35, 0.014, bevel=0.002)
     parts.append((STEEL, bearing.moved(z=pivot - yoke.height - 0.013)))
     face = yoke.width / 2
     encoder = cylinder(0.0175, 0.026, bevel=0.002).turned("x", -math.pi / 2)
     parts.append((PLASTIC, encoder.moved(y=face, z=pivot)))
-    limit = math.radians(46.0)
-    dial = sector(0.030, 0.057, -limit, limit).turned("x", math.pi / 2)
-    ticks = pitch_ticks(0.041, 0.055).turned("x", math.pi / 2)
-    parts.append((PAPER, dial.moved(y=-face - 0.0012, z=pivot)))
-    parts.append((INK, ticks.moved(y=-face - 0.0020, z=pivot)))
-    # Flat under the lamp, the axis's own colour would look pale.
-    parts.append((Material("#174a72", roughness=0.9), _pointer(rig).moved(z=0.0020)))
     return parts
 
 
@@ -118,17 +96,15 @@ def body_parts(rig: RigGeometry) -> list[Part]:
     reach = yoke.width / 2 + 0.006
     axle = rod((0, -reach, 0), (0, yoke.width / 2, 0), 0.0052, segments=16)
     knob = cylinder(0.010, 0.005, bevel=0.0012).turned("x", math.pi / 2).moved(y=-reach + 0.003)
-    needle = box(0.056, 0.0016, 0.0034, bevel=0.0004).moved(0.029, -yoke.width / 2 - 0.004)
     parts: list[Part] = [
         (ALUMINIUM, beam),
         (ANODISED, hub),
         (STEEL, axle),
         (BRASS, knob),
-        (Material(PITCH_COLOR, roughness=0.5), needle),
     ]
     for rotor, color in ((rig.pitch_rotor, PITCH_COLOR), (rig.yaw_rotor, YAW_COLOR)):
         for material, mesh in _mount(rotor, color):
-            parts.append((material, _placed(mesh, rotor)))
+            parts.append((material, placed(mesh, rotor)))
     return parts
 
 
@@ -140,27 +116,7 @@ def rotor_parts(rotor: Rotor, color: str) -> list[Part]:
     blades = merged(one.turned("z", 2 * math.pi * k / rotor.blades) for k in range(rotor.blades))
     nose = lathe([(0.0125, -0.004), (0.0125, 0.004), (0.0105, 0.010), (0.006, 0.0145), (0, 0.016)])
     surface = Material(color, roughness=0.42)
-    return [(surface, _facing(blades, rotor)), (PLASTIC, _facing(nose, rotor))]
-
-
-def blur_parts(rotor: Rotor, color: str) -> list[Part]:
-    """Return the disk that the eye sees instead of the blades when they are fast."""
-    disk = ring(rotor.radius * 0.14, rotor.radius * 0.99)
-    surface = Material(color, roughness=0.8, opacity=0.20, double_sided=True)
-    return [(surface, _facing(disk, rotor))]
-
-
-def ghost_yoke_parts(rig: RigGeometry) -> list[Part]:
-    """Return the reference's yoke: a translucent fork and its pointer on the yaw scale."""
-    pointer = _pointer(rig).moved(z=0.0016)
-    return [(GHOST, _fork(rig)), (Material(GHOST.color, roughness=0.9, opacity=0.55), pointer)]
-
-
-def ghost_body_parts(rig: RigGeometry) -> list[Part]:
-    """Return the reference's body: the translucent outline of beam and guards."""
-    beam = box(rig.body.length, rig.body.width, rig.body.height)
-    guards = [_placed(_guard(rotor), rotor) for rotor in (rig.pitch_rotor, rig.yaw_rotor)]
-    return [(GHOST, merged([beam, *guards]))]
+    return [(surface, facing(blades, rotor)), (PLASTIC, facing(nose, rotor))]
 
 
 def hub_position(rotor: Rotor) -> tuple[float, float, float]:
@@ -170,18 +126,7 @@ def hub_position(rotor: Rotor) -> tuple[float, float, float]:
     return (rotor.distance, rotor.offset, 0.0)
 
 
-def _scale_radius(rig: RigGeometry) -> float:
-    """Return the yaw scale's radius in metres: around the base, and whole in the first view."""
-    return min(rig.reach + 0.02, 0.285)
-
-
-def _pointer(rig: RigGeometry) -> Mesh:
-    """Return the arrow head that follows the nose along the inside of the yaw scale."""
-    radius = _scale_radius(rig)
-    return triangle(radius - 0.004, radius - 0.040, 0.026)
-
-
-def _fork(rig: RigGeometry) -> Mesh:
+def fork(rig: RigGeometry) -> Mesh:
     """Return the yoke's U: a floor on the mast and two arms with round heads."""
     yoke, pivot = rig.yoke, rig.pivot_height
     floor = box(yoke.depth, yoke.width, yoke.arm_thickness, bevel=0.0012)
@@ -229,11 +174,11 @@ def _mount(rotor: Rotor, color: str) -> list[Part]:
     ]
 
 
-def _facing(mesh: Mesh, rotor: Rotor) -> Mesh:
+def facing(mesh: Mesh, rotor: Rotor) -> Mesh:
     """Turn a mesh from the rotor's own frame (spin about z) into the body's directions."""
     return mesh if rotor.axis == "z" else mesh.turned("x", math.pi / 2)
 
 
-def _placed(mesh: Mesh, rotor: Rotor) -> Mesh:
+def placed(mesh: Mesh, rotor: Rotor) -> Mesh:
     """Put a mesh from the rotor's own frame where the rotor is in the body's frame."""
-    return _facing(mesh, rotor).moved(*hub_position(rotor))
+    return facing(mesh, rotor).moved(*hub_position(rotor))

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+from collections.abc import Callable
+from typing import Any
 
 import msgspec
 from fastapi import WebSocket, WebSocketDisconnect
@@ -38,19 +40,37 @@ class _ViewerCamera(msgspec.Struct, tag_field="type", tag="ViewerCameraMessage",
     up_direction: _Vector
 
 
-# A union of such classes is the allow-list; GUI elements would add theirs here.
-_decoder = msgspec.msgpack.Decoder(_ViewerCamera)
+class _GuiUpdate(msgspec.Struct, tag_field="type", tag="GuiUpdateMessage", forbid_unknown_fields=True):
+    """Something was set at the panel."""
+
+    uuid: str
+    updates: dict[str, Any]
 
 
-def admissible(frame: bytes) -> bool:
-    """Return whether a visitor's frame is a well-formed message that a viewer must send."""
+Admit = Callable[[str, dict[str, Any]], dict[str, Any] | None]
+"""Returns what may be set of an element with this id, or None."""
+
+# The allow-list.
+_decoder = msgspec.msgpack.Decoder(_ViewerCamera | _GuiUpdate)
+_encoder = msgspec.msgpack.Encoder()
+
+
+def admissible(frame: bytes, admit: Admit = lambda _id, _updates: None) -> bytes | None:
+    """Return what viser may have of a visitor's frame, or None.
+
+    A well-formed message that a viewer must send passes as it is. What is set at the panel is written
+    anew, as far as `admit` lets it.
+    """
     if len(frame) >= LARGEST_MESSAGE:
-        return False
+        return None
     try:
-        _decoder.decode(frame)
+        message = _decoder.decode(frame)
     except msgspec.MsgspecError:
-        return False
-    return True
+        return None
+    if isinstance(message, _ViewerCamera):
+        return frame
+    updates = admit(message.uuid, message.updates)
+    return None if updates is None else _encoder.encode(_GuiUpdate(message.uuid, updates))
 
 
 def viser_subprotocol(offered: list[str]) -> str | None:
@@ -58,12 +78,13 @@ def viser_subprotocol(offered: list[str]) -> str | None:
     return next((name for name in offered if name.startswith("viser-v")), None)
 
 
-async def relay(visitor: WebSocket, port: int) -> None:
+async def relay(visitor: WebSocket, port: int, admit: Admit = lambda _id, _updates: None) -> None:
     """Carry frames both ways until either side closes, then close the other.
 
     Args:
         visitor: an accepted WebSocket.
         port: of the viser server on the loopback.
+        admit: says what may be set at the panel.
     """
     protocol = viser_subprotocol(visitor.scope["subprotocols"])
     try:
@@ -82,7 +103,7 @@ async def relay(visitor: WebSocket, port: int) -> None:
     async with upstream:
         tasks = [
             asyncio.create_task(_down(upstream, visitor)),
-            asyncio.create_task(_up(visitor, upstream)),
+            asyncio.create_task(_up(visitor, upstream, admit)),
         ]
         try:
             done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
@@ -109,7 +130,7 @@ async def _down(upstream: ClientConnection, visitor: WebSocket) -> tuple[int, st
     return code, upstream.close_reason or "the scene was stopped"
 
 
-async def _up(visitor: WebSocket, upstream: ClientConnection) -> tuple[int, str]:
+async def _up(visitor: WebSocket, upstream: ClientConnection, admit: Admit) -> tuple[int, str]:
     """Carry the visitor's admissible frames to viser; return how to close the visitor."""
     while True:
         message = await visitor.receive()
@@ -120,9 +141,10 @@ async def _up(visitor: WebSocket, upstream: ClientConnection) -> tuple[int, str]
             return _UNSUPPORTED_DATA, "binary frames only"
         if len(frame) >= LARGEST_MESSAGE:
             return _TOO_BIG, f"messages of {LARGEST_MESSAGE} bytes or more are refused"
-        if admissible(frame):
+        passed = admissible(frame, admit)
+        if passed is not None:
             try:
-                await upstream.send(frame)
+                await upstream.send(passed)
             except ConnectionClosed:
                 return 1001, "the scene was stopped"
 

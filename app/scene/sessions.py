@@ -5,14 +5,18 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from dataclasses import dataclass, field
 from time import monotonic
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from heli2dof_core.geometry import RigName
 
+from .hub import Room, Shown, Transport, Window
+from .relay import Admit
+
 if TYPE_CHECKING:
+    from .panel import Panel
     from .rig import RigServer
 
 _log = logging.getLogger(__name__)
@@ -20,6 +24,8 @@ _log = logging.getLogger(__name__)
 DEFAULT_RIG: RigName = "helicopter"
 _SPARE_AFTER = 5.0
 """Seconds without a client after which a session may make room for another."""
+_PANEL_PACE = 0.15
+"""Seconds between two changes of what the panel shows: each element costs the server 0.1 ms."""
 
 
 class SessionsFullError(Exception):
@@ -39,6 +45,9 @@ class _Session:
 
     rig: RigName = DEFAULT_RIG
     making: asyncio.Task[RigServer] | None = None
+    room: Room = field(default_factory=Room)
+    panel: Panel | None = None
+    showing: asyncio.TimerHandle | None = None
     clients: int = 0
     idle_since: float = field(default_factory=monotonic)
     lock: asyncio.Lock = field(default_factory=asyncio.Lock)
@@ -47,6 +56,31 @@ class _Session:
         """Return whether nobody has watched this session for so many seconds."""
         idle = self.clients == 0 and not self.lock.locked()
         return idle and monotonic() - self.idle_since >= after
+
+    def admit(self, element: str, updates: dict[str, Any]) -> dict[str, Any] | None:
+        """Return what a visitor may set at the panel; nothing where there is none."""
+        return self.panel.admit(element, updates) if self.panel else None
+
+    def told(self, _news: Shown | Transport | None = None) -> None:
+        """Bring the panel up to date, a little later, so that a drag changes it a few times a second."""
+        if self.panel and self.showing is None:
+            self.showing = asyncio.get_running_loop().call_later(_PANEL_PACE, self._show)
+
+    def _show(self) -> None:
+        self.showing = None
+        shown, transport = self.room.shown, self.room.transport
+        if self.panel and shown:
+            self.panel.show(shown, wishes=shown.after < self.room.edits)
+        if self.panel and transport:
+            self.panel.run(transport)
+
+
+@dataclass(frozen=True, slots=True)
+class Watched:
+    """A session's viser server on the loopback, and what its visitors may set at its panel."""
+
+    port: int
+    admit: Admit
 
 
 class SceneSessions:
@@ -78,8 +112,8 @@ class SceneSessions:
             await self._stop(list(self._sessions))
 
     @contextlib.asynccontextmanager
-    async def watched(self, session_id: str) -> AsyncIterator[int]:
-        """Yield the port of the session's viser server and count the caller as a client.
+    async def watched(self, session_id: str) -> AsyncIterator[Watched]:
+        """Yield the session's viser server and count the caller as a client.
 
         Raises:
             SessionsFullError: if the session is new and there is no room.
@@ -88,7 +122,26 @@ class SceneSessions:
         session.clients += 1
         try:
             server = await self._server(session)
-            yield server.get_port()
+            yield Watched(server.get_port(), session.admit)
+        finally:
+            session.clients -= 1
+            session.idle_since = monotonic()
+
+    @contextlib.asynccontextmanager
+    async def sharing(self, session_id: str, window: Window) -> AsyncIterator[Room]:
+        """Yield the session's room and count the caller as a client.
+
+        A window that is no page brings the panel with it.
+
+        Raises:
+            SessionsFullError: if the session is new and there is no room for it.
+        """
+        session = await self._session(session_id)
+        session.clients += 1
+        try:
+            if not window.page:
+                await self._add_panel(session)
+            yield session.room
         finally:
             session.clients -= 1
             session.idle_since = monotonic()
@@ -137,6 +190,20 @@ class SceneSessions:
             session.making = None  # the next visitor tries again
             raise
 
+    async def _add_panel(self, session: _Session) -> None:
+        """Give the session its panel, unless it has one."""
+        loop = asyncio.get_running_loop()
+
+        def wished(edits: dict[str, Any]) -> None:
+            loop.call_soon_threadsafe(session.room.edit, edits)
+
+        async with session.lock:
+            server = await self._server(session)
+            if session.panel is None:
+                session.panel = await asyncio.to_thread(_make_panel, server, wished)
+                session.room.told = session.told
+                session.told()
+
     async def _make_room(self) -> None:
         """Stop the session that has gone unwatched for longest, if there is one."""
         spare = {key: s for key, s in self._sessions.items() if s.spare(_SPARE_AFTER)}
@@ -151,7 +218,12 @@ class SceneSessions:
                 await self._stop(idle)
 
     async def _stop(self, session_ids: list[str]) -> None:
-        tasks = [self._sessions.pop(key).making for key in session_ids]
+        stopped = [self._sessions.pop(key) for key in session_ids]
+        for session in stopped:
+            session.panel = None
+            if session.showing:
+                session.showing.cancel()
+        tasks = [session.making for session in stopped]
         made = await asyncio.gather(*(task for task in tasks if task), return_exceptions=True)
         stops = [asyncio.to_thread(s.stop) for s in made if not isinstance(s, BaseException)]
         await asyncio.gather(*stops)
@@ -164,3 +236,9 @@ def _make_server(rig: RigName) -> RigServer:
     from .rig import RigServer
 
     return RigServer(rig)
+
+
+def _make_panel(server: RigServer, wished: Callable[[dict[str, Any]], None]) -> Panel:
+    from .panel import Panel
+
+    return Panel(server, wished)

@@ -31,6 +31,7 @@ M, N, D, B = 0, 4, 8, 12
 # the polynomial of ω² whose roots are sought, with rows for the search
 CLOSED, OPENED, CLOSED_EVEN, CLOSED_ODD, EVEN, ODD, SOUGHT, SIZES, CHAIN, BEFORE, ROOTS = range(11)
 GOLDEN = (sqrt(5.0) - 1.0) / 2.0
+PRECISION = 1e-6  # of a peak's frequency, relative; its height is then known to the square of that
 
 
 @kernel
@@ -166,7 +167,7 @@ def highest(f, frequencies, count, at, known, disk):
     best, where = known, frequencies[at]
     left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     at_left, at_right = size(f, exp(left), disk), size(f, exp(right), disk)
-    while high - low > 1e-8:
+    while high - low > PRECISION:
         if at_left > at_right:
             high, right, at_right = right, left, at_left
             left = high - GOLDEN * (high - low)

@@ -17,7 +17,7 @@ TERMS = 16
 def respond(M, dt, outputs, w, states, traces):
     """x_k = exp(M dt)ᵏ x₀ into `states`, (7, samples), from its first column; y_k = `outputs` x_k.
 
-    `outputs` (rows, 7), `traces` (rows, samples). Scratch: `w`, (21, 7).
+    The last state is 1 throughout. `outputs` (rows, 7), `traces` (rows, samples). Scratch: `w`, (21, 7).
     """
     samples = states.shape[1]
     power, other = w[:AUGMENTED], w[AUGMENTED : 2 * AUGMENTED]
@@ -31,31 +31,25 @@ def respond(M, dt, outputs, w, states, traces):
             multiply(power, power, other)
             power, other = other, power
     for i in range(outputs.shape[0]):
-        for k in range(samples):
-            traces[i, k] = 0.0
-        for j in range(AUGMENTED):
-            gain = outputs[i, j]
-            if gain != 0.0:
-                for k in range(samples):
-                    traces[i, k] += gain * states[j, k]
+        combine(outputs[i], states, samples, traces[i], 0)
 
 
 @kernel
 def extend(power, states, done, more):
     """The next `more` samples: `power` times the first ones."""
-    for i in range(AUGMENTED):
-        a, b, c, d = power[i, 0], power[i, 1], power[i, 2], power[i, 3]
-        e, f, g = power[i, 4], power[i, 5], power[i, 6]
-        for k in range(more):
-            states[i, done + k] = (
-                a * states[0, k]
-                + b * states[1, k]
-                + c * states[2, k]
-                + d * states[3, k]
-                + e * states[4, k]
-                + f * states[5, k]
-                + g * states[6, k]
-            )
+    for i in range(AUGMENTED - 1):
+        combine(power[i], states, more, states[i], done)
+    for k in range(done, done + more):
+        states[AUGMENTED - 1, k] = 1.0
+
+
+@kernel
+def combine(row, states, count, out, first):
+    """`row` times the first `count` samples, whose last state is 1, into `out` from `first` on."""
+    a, b, c, d, e, f, one = row[0], row[1], row[2], row[3], row[4], row[5], row[6]
+    for k in range(count):
+        total = a * states[0, k] + b * states[1, k] + c * states[2, k] + d * states[3, k]
+        out[first + k] = total + e * states[4, k] + f * states[5, k] + one
 
 
 @kernel

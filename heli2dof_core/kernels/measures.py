@@ -92,17 +92,21 @@ def deviation(angle, start):
 def axis(t, angle, start, reference, out):
     """How one axis follows its step."""
     step, samples = reference - start, len(t)
+    by = 1.0 / step
+    largest = overshoot = iae = itae = before = 0.0
     lower = upper = nan
-    peak, overshoot, settled = 0, 0.0, 0
-    iae = itae = before = 0.0
+    risen = settled = peak = 0
     for k in range(samples):
-        share, error = (angle[k] - start) / step, abs(reference - angle[k])
-        if isnan(lower) and share >= LOW:
-            lower = crossing(t, angle, k, start + LOW * step)
-        if isnan(upper) and share >= HIGH:
-            upper = crossing(t, angle, k, start + HIGH * step)
-        if abs(angle[k] - start) > abs(angle[peak] - start):
-            peak = k
+        moved = angle[k] - start
+        share, error, far = moved * by, abs(reference - angle[k]), abs(moved)
+        while risen < 2 and share >= (LOW if risen == 0 else HIGH):
+            if risen == 0:
+                lower = crossing(t, angle, k, start + LOW * step)
+            else:
+                upper = crossing(t, angle, k, start + HIGH * step)
+            risen += 1
+        if far > largest:
+            largest, peak = far, k
         overshoot = max(overshoot, share - 1.0)
         if abs(share - 1.0) > SETTLED:
             settled = k + 1

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cache
 
-from ..design import Design, assess, design
+from ..design import Design, design
 from ..loop import close_loop
-from ..placement.method import Placement
 from ..plant import plant
 from ..poles import PoleSet
 from ..presets import Preset, preset
@@ -48,7 +47,7 @@ def _figure(number: int, axis: int) -> Figure:
     references = (step, None) if axis == 0 else (None, step)
     scenario = Scenario(*references, duration=2.0, samples=401)
     computed, manual = preset("paper-as-computed"), preset("quanser-2dof-manual")
-    own = Placement(printed_gain())
+    own = printed_gain()
     designs = (
         ("corrected", "K corrected, values as computed", _designed(computed)),
         ("printed", "K as printed, on that plant", _given(computed, own)),
@@ -69,5 +68,5 @@ def _designed(rig: Preset) -> Design:
     return design(plant(rig.parameters), PoleSet(printed_poles()))
 
 
-def _given(rig: Preset, placed: Placement) -> Design:
-    return assess(plant(rig.parameters), PoleSet(printed_poles()), placed, "as-printed", None)
+def _given(rig: Preset, K: Floats) -> Design:
+    return Design(plant(rig.parameters), PoleSet(printed_poles()), "as-printed", None, K)

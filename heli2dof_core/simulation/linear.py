@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from ..engine import engine
-from ..layout import AUGMENTED
+from ..layout import AUGMENTED, LINEAR_WORKSPACE, START
 from ..loop import Loop
+from ..signals import Floats
 from ..spec import Scenario
-from .response import Response, hold_when_diverged
+from .experiment import experiment
+from .response import Response, divergence
 
 
 def simulate_linear(loop: Loop, scenario: Scenario) -> Response:
@@ -17,25 +19,19 @@ def simulate_linear(loop: Loop, scenario: Scenario) -> Response:
     Ignores saturation, anti-windup, travel stops and feed-forward. The states are augmented by a
     constant 1 that carries the references, so that one exponential holds the whole step.
     """
-    plant = loop.design.plant
-    rest = np.array([plant.theta_0, 0.0])
-    reference, start = scenario.resolved(plant.theta_0)
-    wanted = reference - rest
+    x, t = experiment(loop, None, scenario), scenario.times
+    states, voltages = np.empty((AUGMENTED, len(t))), np.empty((2, len(t)))
+    matrices = (loop.voltage_from_state, loop.voltage_from_reference, loop.A, loop.B)
+    with np.errstate(over="ignore", invalid="ignore"):  # for the interpreted kernels
+        held = engine().run_linear(
+            loop.design.plant.theta_0, *matrices, x, t, np.empty(LINEAR_WORKSPACE), states, voltages
+        )
+    return linear_response(x, t, states[: len(loop.A)], voltages, held)
 
-    n, samples = len(loop.A), scenario.samples
-    augmented, outputs = np.zeros((AUGMENTED, AUGMENTED)), np.zeros((2, AUGMENTED))
-    augmented[:n, :n] = loop.A
-    augmented[:n, -1] = loop.B @ wanted
-    outputs[:, :n] = loop.voltage_from_state
-    outputs[:, -1] = loop.voltage_from_reference @ wanted
 
-    t = scenario.times
-    states, voltages = np.zeros((AUGMENTED, samples)), np.empty((2, samples))
-    states[:2, 0], states[2:4, 0], states[-1, 0] = start[:2] - rest, start[2:], 1.0
-    with np.errstate(over="ignore", invalid="ignore"):
-        engine().respond(augmented, t[1], outputs, np.empty((3 * AUGMENTED, AUGMENTED)), states, voltages)
-        states[:2] += rest[:, None]
-    states = states[:n]
-    findings = hold_when_diverged(t, states, voltages)
-    ends, begin = (float(reference[0]), float(reference[1])), (float(start[0]), float(start[1]))
-    return Response("linear", t, states[:2], voltages, ends, begin, (0.0, 0.0), tuple(findings), states)
+def linear_response(x: Floats, t: Floats, states: Floats, voltages: Floats, held: float) -> Response:
+    """The course of an experiment with its remark; held from sample `held` on."""
+    theta, psi, theta_start, psi_start = x[: START + 2].tolist()
+    start = (theta_start, psi_start)
+    remarks = divergence(t, int(held))
+    return Response("linear", t, states[:2], voltages, (theta, psi), start, (0.0, 0.0), remarks, states)

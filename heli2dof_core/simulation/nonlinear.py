@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from math import degrees
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,32 +12,29 @@ from numpy.typing import NDArray
 from ..engine import engine
 from ..findings import Finding
 from ..layout import (
-    BACK_CALCULATION,
-    CLAMPING,
+    BOUND,
     CONSTANTS,
-    DISTURBANCE,
+    DIVERGED,
     GAIN,
     LIMIT,
-    NO_ANTI_WINDUP,
+    MODES,
     OFFSET,
+    REFERENCE,
+    START,
+    STOP,
     TRACKING,
-    TRAVEL,
     WANTED,
     WORKSPACE,
 )
 from ..loop import Loop
 from ..signals import INPUTS, Floats
-from ..spec import AntiWindup, Limits, Scenario
-from .response import Response, hold_when_diverged
+from ..spec import Limits, Scenario
+from .experiment import NOTHING, experiment
+from .response import Response, divergence
 
 ABSOLUTE_TOLERANCE = 0.1
 """Absolute tolerance of the integration as a share of the relative one (states are of order 1)."""
 
-_WINDUP: dict[AntiWindup, int] = {
-    "none": NO_ANTI_WINDUP,
-    "clamping": CLAMPING,
-    "back-calculation": BACK_CALCULATION,
-}
 _OUTCOMES = {1: "more steps would be needed than are worth it", 2: "its modes switch without end"}
 
 
@@ -46,49 +43,40 @@ class NonlinearLoop:
     """The loop around the nonlinear rig (Eqs. 9–12) as `kernels.rig` takes it.
 
     Attributes:
+        experiment: laid out as `layout` says.
         constants, modes: laid out as `kernels.rig` says.
         start: θ, ψ, θ̇, ψ̇, z_p, z_y at t = 0.
-        reference: θ_ref, ψ_ref, absolute, rad.
-        travel: of pitch, rad; infinite without stops.
         disturbed_from: when the disturbance within `constants` sets in, s; infinite without one.
         order: how many of the states mean anything: 6, or 4 where nothing integrates.
     """
 
+    experiment: Floats
     constants: Floats
     modes: NDArray[np.int64]
     start: Floats
-    reference: Floats
-    travel: float
     disturbed_from: float
     order: int
 
     @classmethod
     def of(cls, loop: Loop, limits: Limits, scenario: Scenario) -> NonlinearLoop:
         """The loop, limits and scenario as numbers; the loop's deviations become absolute."""
-        plant = loop.design.plant
-        reference, start = scenario.resolved(plant.theta_0)
-        rest = np.array([plant.theta_0, 0.0])
-        law = loop.voltage_from_state
-        constants, first = np.zeros(CONSTANTS), np.zeros(6)
-        first[:4] = start
-        constants[:GAIN] = rig_constants(plant.parameters)
-        constants[GAIN:OFFSET].reshape(2, 6)[:, : law.shape[1]] = law
-        constants[OFFSET:LIMIT] = loop.voltage_from_reference @ (reference - rest) - law[:, :2] @ rest
-        if scenario.trim_feedforward:
-            constants[OFFSET:LIMIT] += plant.trim
-        constants[LIMIT:WANTED] = (limits.V_p, limits.V_y) if scenario.saturation else np.inf
-        constants[WANTED:TRACKING] = reference
-        windup = _WINDUP[scenario.anti_windup] if loop.has_integrators and scenario.saturation else 0
-        if windup == BACK_CALCULATION:
-            constants[TRACKING:TRAVEL] = _tracking(loop, scenario.tracking_time).ravel()
-        travel = limits.theta if scenario.travel_stops and limits.theta is not None else np.inf
-        constants[TRAVEL] = travel
-        since = np.inf
-        if scenario.disturbance is not None:
-            constants[DISTURBANCE:] = scenario.disturbance.V_p, scenario.disturbance.V_y
-            since = scenario.disturbance.time
-        modes = np.array([0, 0, 1, 1, 0, *_motors(loop), windup], dtype=np.int64)
-        return cls(constants, modes, first, reference, travel, since, len(loop.A))
+        plant, x = loop.design.plant, experiment(loop, limits, scenario)
+        constants, modes, start = np.empty(CONSTANTS), np.empty(MODES, dtype=np.int64), np.zeros(6)
+        integral = NOTHING if loop.integral is None else loop.integral
+        engine().compose(
+            plant.constants,
+            plant.trim,
+            plant.theta_0,
+            loop.voltage_from_state,
+            loop.voltage_from_reference,
+            integral,
+            x,
+            constants,
+            modes,
+        )
+        start[:4] = x[START:BOUND]
+        since = np.inf if scenario.disturbance is None else scenario.disturbance.time
+        return cls(x, constants, modes, start, since, len(loop.A))
 
     @property
     def gain(self) -> Floats:
@@ -101,36 +89,14 @@ class NonlinearLoop:
         return self.constants[OFFSET:LIMIT]
 
     @property
+    def reference(self) -> Floats:
+        """θ_ref, ψ_ref, absolute, shape (2,), rad."""
+        return self.constants[WANTED:TRACKING]
+
+    @property
     def limits(self) -> Floats:
         """Of the voltages, shape (2,), V; infinite without saturation."""
         return self.constants[LIMIT:WANTED]
-
-
-def rig_constants(p: Any) -> list[Any]:
-    """The rig's part of `kernels.rig`'s constants; `p` has Parameters' fields, as numbers or arrays."""
-    ml2 = p.m * p.l**2
-    return [p.K_pp, p.K_py, p.K_yp, p.K_yy, p.alpha, p.J_y, ml2, p.m * p.g * p.l, p.B_p, p.B_y, p.K_s]
-
-
-def _motors(loop: Loop) -> tuple[int, int]:
-    """Which motor each integrator drives, in the main."""
-    if loop.integral is None:
-        return 0, 1
-    (a, b), (c, d) = loop.integral.tolist()  # V/s of each motor per rad of each error
-    return int(abs(c) > abs(a)), int(abs(d) > abs(b))
-
-
-def _tracking(loop: Loop, tracking_time: float | None) -> Floats:
-    """The gains of back-calculation, 2×2, rad/(V·s).
-
-    The integrals follow so that their voltage makes up for what the limits cut off, with `tracking_time`
-    as time constant, or else T_i (Åström & Hägglund, Advanced PID Control, 2006, section 3.5, who
-    advise between T_d and T_i; a PI controller has no T_d).
-    """
-    if loop.integral is None or not np.all(np.any(loop.integral, axis=0)):
-        return np.zeros((2, 2))
-    times = loop.integral_times if tracking_time is None else np.full(2, tracking_time)
-    return np.asarray(np.linalg.pinv(loop.integral) / times[:, None], dtype=np.float64)
 
 
 def simulate_nonlinear(
@@ -184,33 +150,53 @@ def response_of(
     system: NonlinearLoop, t: Floats, states: Floats, voltages: Floats, *, outcome: int, impacts: int
 ) -> Response:
     """What a kernel has filled, as a response: states (6, n) and voltages (2, n), NaN where none was reached."""
-    findings = hold_when_diverged(t, states, voltages)
-    at_limit = engine().share_at_limit
-    saturated = at_limit(voltages[0], system.limits[0]), at_limit(voltages[1], system.limits[1])
+    kernels = engine()
+    held = kernels.hold(states, voltages, DIVERGED)
+    shares = [kernels.share_at_limit(voltages[i], system.limits[i]) for i in range(2)]
+    numbers = (*shares, held, outcome, impacts)
+    return limited_response(system.experiment, t, states[: system.order], voltages, numbers)
+
+
+def limited_response(
+    x: Floats, t: Floats, states: Floats, voltages: Floats, numbers: Sequence[float]
+) -> Response:
+    """The course of an experiment with its remarks; `numbers` from SHARE on as `layout` says."""
+    pitch, yaw, held, outcome, impacts = numbers
+    theta, psi, theta_start, psi_start = x[: START + 2].tolist()
+    findings = [*divergence(t, int(held))]
     if outcome:
-        words = f"The simulation was given up: {_OUTCOMES[outcome]}."
+        words = f"The simulation was given up: {_OUTCOMES[int(outcome)]}."
         findings.append(Finding("integration_stopped", "warning", words))
-    findings += _remarks(system, saturated, impacts)
-    reference = (float(system.reference[0]), float(system.reference[1]))
-    start = (float(system.start[0]), float(system.start[1]))
-    own = states[: system.order]
-    return Response("nonlinear", t, own[:2], voltages, reference, start, saturated, tuple(findings), own)
+    findings += _remarks(x, (pitch, yaw), impacts)
+    start = (theta_start, psi_start)
+    return Response(
+        "nonlinear",
+        t,
+        states[:2],
+        voltages,
+        (theta, psi),
+        start,
+        (pitch, yaw),
+        tuple(findings),
+        states,
+    )
 
 
-def _remarks(system: NonlinearLoop, saturated: tuple[float, float], impacts: int) -> Iterator[Finding]:
-    for signal, share, limit in zip(INPUTS, saturated, system.limits, strict=True):
+def _remarks(x: Floats, saturated: tuple[float, float], impacts: float) -> Iterator[Finding]:
+    for signal, share, limit in zip(INPUTS, saturated, x[BOUND:STOP].tolist(), strict=True):
         if share:
             yield Finding(
                 f"saturation_{signal.name}",
                 "warning",
                 f"The {signal.meaning} is at its limit of ±{limit:g} V for {100 * share:.0f} % of the time.",
             )
-    stop = f"±{np.degrees(system.travel):.1f}°"
-    if abs(system.start[0]) > system.travel:
+    travel = float(x[STOP])
+    stop = f"±{degrees(travel):.1f}°"
+    if abs(x[START]) > travel:
         yield Finding("starts_on_stop", "warning", "The start lies beyond a stop of the pitch travel.")
     if impacts:
         yield Finding("travel_stop", "warning", f"Pitch hits a stop of its travel at {stop}.")
-    if abs(system.reference[0]) > system.travel:
+    if abs(x[REFERENCE]) > travel:
         yield Finding(
             "reference_beyond_stop",
             "warning",

@@ -5,12 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from ..engine import engine
 from ..findings import Finding
 from ..signals import Floats
-
-DIVERGED = 1e3
-"""An angle (rad) beyond which a response counts as diverged and is held at its last value."""
 
 
 @dataclass(frozen=True)
@@ -42,13 +38,9 @@ class Response:
     states: Floats | None = None
 
 
-def hold_when_diverged(t: Floats, states: Floats, voltages: Floats) -> list[Finding]:
-    """Freezes a response at its last finite sample, in place, so that every number stays finite.
-
-    `states`, whose first two rows are the angles, and `voltages` are of shape (n, samples).
-    """
-    first = engine().hold(states, voltages, DIVERGED)
-    if first == len(t):
-        return []
-    message = f"The response grows without bound; it is shown until t = {t[first - 1]:.3g} s and held there."
-    return [Finding("diverges", "error", message)]
+def divergence(t: Floats, held: int) -> tuple[Finding, ...]:
+    """The remark on a response that is held from sample `held` on; none where that is behind its end."""
+    if held >= len(t):
+        return ()
+    message = f"The response grows without bound; it is shown until t = {t[held - 1]:.3g} s and held there."
+    return (Finding("diverges", "error", message),)

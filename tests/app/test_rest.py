@@ -303,3 +303,17 @@ def test_states_are_replied_where_they_are_asked_for(client, scenario):
 
 def test_what_is_called_at_every_drag_knows_no_states(client):
     assert post(client, "evaluate", {"states": True}, status=422)["field"] == "states"
+
+
+def test_recording_is_a_file_and_refuses_what_is_wrong(client):
+    body = {"scenario": {"duration": 0.5, "reference": {"theta": 0.1}}}
+    page = client.post("/api/v1/recording", json=body)
+    assert page.status_code == 200
+    assert page.headers["content-type"].startswith("text/html")
+    assert page.headers["content-disposition"] == 'attachment; filename="heli2dof-motion.html"'
+    assert "poles −12, −10, −9.25, −8.76 rad/s</title>" in page.text
+    file = client.post("/api/v1/recording?format=viser", json=body)
+    assert file.content[8:12] == b"\x28\xb5\x2f\xfd"  # Zstandard, behind the length
+    assert client.post("/api/v1/recording?format=avi", json=body).json()["field"] == "format"
+    wrong = client.post("/api/v1/recording", json={"poles": [-1, -2]})
+    assert (wrong.status_code, wrong.json()["field"]) == (422, "poles")

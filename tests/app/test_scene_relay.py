@@ -1,12 +1,15 @@
 """The scene over the wire: page, socket, allow-list, isolation, capacity and idle sessions."""
 
 import asyncio
+import gc
 import re
+import socket
 import threading
 import time
 import urllib.error
 import urllib.parse
 import urllib.request
+import weakref
 from collections.abc import Iterator
 from typing import Any
 
@@ -168,7 +171,7 @@ def test_camera_reaches_viser(server: SceneServer):
 
 
 def test_camera_is_admissible():
-    assert admissible(encode(CAMERA))
+    assert admissible(encode(CAMERA)) == encode(CAMERA)
 
 
 @pytest.mark.parametrize(
@@ -186,7 +189,7 @@ def test_camera_is_admissible():
     ],
 )
 def test_nothing_else_is_admissible(frame: bytes):
-    assert not admissible(frame)
+    assert admissible(frame, lambda _id, updates: None) is None
 
 
 @pytest.mark.parametrize(("frame", "code"), [(b"\0" * LARGEST_MESSAGE, 1009), ("text", 1003)])
@@ -361,3 +364,40 @@ def test_slow_visitor_slows_the_source_instead_of_filling_memory():
         assert sent * len(frame) < 32 * 1024 * 1024
 
     asyncio.run(scenario())
+
+
+def test_stopped_rig_lets_go_of_its_scene_at_once():
+    rig = sessions._make_server("aero")
+    sessions._make_panel(rig, lambda _: None)
+    body = weakref.ref(rig.scene.get_handle_by_name("/rig/yoke/body"))
+    with connect(
+        f"ws://127.0.0.1:{rig.get_port()}", subprotocols=[Subprotocol(VISER)], compression=None
+    ) as viewer:
+        assert replay(viewer)
+        told = [weakref.ref(m) for m in rig._websock_server._broadcast_buffer.message_from_id.values()]
+    threads = threading.active_count()
+    gc.collect()
+    gc.disable()
+    try:
+        rig.stop()
+        rig.stop()  # twice does no harm
+        assert body() is None
+        kept = [m() for m in told if m() is not None]
+        assert not any(vars(m) for m in kept)
+        assert threading.active_count() < threads
+    finally:
+        gc.enable()
+
+
+def test_client_that_is_killed_in_mid_frame_leaves_nothing():
+    with serving(idle_seconds=0.3) as server:
+        rude = watch(server, "killed")
+        rude.recv(timeout=20)
+        raw = rude.socket
+        raw.sendall(b"\x82\xfe\x10\x00")  # a frame's head that promises 4096 bytes, of which none come
+        raw.shutdown(socket.SHUT_RDWR)
+        until(lambda: len(server.sessions) == 0, "the session is stopped")
+        until(
+            lambda: not [t for t in threading.enumerate() if "_background_worker" in t.name],
+            "its thread ends",
+        )

@@ -7,7 +7,7 @@ import struct
 import numpy as np
 import pytest
 
-from app.scene import machine, shapes
+from app.scene import graphics, machine, shapes
 from app.scene.glb import Material, glb
 from app.scene.markings import text, yaw_scale
 from heli2dof_core.geometry import RIG_NAMES, geometry
@@ -44,10 +44,11 @@ def test_normals_are_unit_vectors_on_the_side_the_faces_show(rig):
         *machine.mast_parts(shape),
         *machine.yoke_parts(shape),
         *machine.body_parts(shape),
-        *machine.scale_parts(shape),
         *machine.rotor_parts(shape.pitch_rotor, machine.PITCH_COLOR),
     ]
-    for _, mesh in parts:
+    drawn = [graphics.yaw_scale(shape), graphics.pitch_scale(shape), graphics.nose_pointer(shape)]
+    drawn += [graphics.arrow_shaft(), graphics.arrow_head(), graphics.arrow_cap(), graphics.stop(shape, 1)]
+    for mesh in [*(mesh for _, mesh in parts), *drawn]:
         length = np.linalg.norm(mesh.normals, axis=1)
         a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
         across = np.cross(b - a, c - a)

@@ -29,7 +29,7 @@ class Job:
         self.A, self.B, self.trim = model.A, model.B, model.trim
         self.poles = spec.poles.array
         self.pi = [(loop.kp, loop.ti) for loop in (spec.outer.pitch, spec.outer.yaw)]
-        self.reference, _ = spec.scenario.resolved(spec.theta_0)
+        self.reference = np.array(spec.scenario.resolved(spec.theta_0)[:2])
         self.limits = np.array([spec.limits.V_p, spec.limits.V_y])
         self.rtol = spec.scenario.rtol
         self.T = np.linspace(0.0, spec.scenario.duration, SAMPLES)

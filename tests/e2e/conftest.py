@@ -14,7 +14,7 @@ from pathlib import Path
 
 import httpx2
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from tests.scene_server import until
 
@@ -22,6 +22,7 @@ ROOT = Path(__file__).parents[2]
 
 FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-networking"]
 PATIENCE = 90_000
+expect.set_options(timeout=20_000)  # ms; a busy machine draws a frame now and then
 """Milliseconds; software rendering on two cores is slow."""
 
 

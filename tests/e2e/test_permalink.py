@@ -207,7 +207,8 @@ def test_a_restarted_server_loses_nothing_and_gets_the_newest_edit_only(chromium
     with running_app(port) as app:
         settled(page)
         after = state(page)
-        assert [request["poles"] for request in sent] == [now["poles"]]
+        # the newest alone; a second time where the first connection was lost again
+        assert sent and all(request["poles"] == now["poles"] for request in sent)
         assert after["connection"] == "open"
         assert after["K"] != old["K"]
         expect(page.get_by_test_id("stale")).to_be_hidden()

@@ -74,9 +74,10 @@ describe("poseMessages", () => {
     close(rotate(of(pose, "/rig/yoke/body/yaw_rotor")[0].wxyz, [0, 1, 0]), [0, 1, 0]);
   });
   test("blurs a propeller when it is fast, whichever way it turns", () => {
-    assert.equal(of({ V_p: 1 }, "/rig/yoke/body/pitch_blur")[0].visible, false);
-    assert.equal(of({ V_p: 12 }, "/rig/yoke/body/pitch_blur")[0].visible, true);
-    assert.equal(of({ V_y: -12 }, "/rig/yoke/body/yaw_blur")[0].visible, true);
+    const seen = (pose, name) => of(pose, `/rig/yoke/body/${name}`).find((m) => "visible" in m).visible;
+    for (const [pose, motor, fast] of [[{ V_p: 1 }, "pitch", false], [{ V_p: 12 }, "pitch", true], [{ V_y: -12 }, "yaw", true]]) {
+      assert.deepEqual([seen(pose, `${motor}_blur`), seen(pose, `${motor}_rotor`)], [fast, !fast]);
+    }
   });
   test("shows the ghost at the reference while the rig is elsewhere", () => {
     const reference = { theta: 0.2, psi: 0.5 };
@@ -89,7 +90,7 @@ describe("poseMessages", () => {
 });
 
 describe("ScenePlayer", () => {
-  let frames, posted, listeners, states, samples, player, scene;
+  let frames, posted, listeners, states, samples, told, player, scene;
 
   /** Runs the waiting animation frames at a time in milliseconds. */
   const frame = (now) => frames.splice(0).forEach((callback) => callback(now));
@@ -98,8 +99,8 @@ describe("ScenePlayer", () => {
   const poses = () => posted.filter((message) => message.kind === "pose");
 
   beforeEach(() => {
-    [frames, posted, listeners, states, samples] = [[], [], {}, [], []];
-    scene = { postMessage: (message) => posted.push(message) };
+    [frames, posted, listeners, states, samples, told] = [[], [], {}, [], [], []];
+    scene = { dispatchEvent: (event) => posted.push(event.data) };
     const target = {
       addEventListener: (name, listener) => (listeners[name] = listener),
       removeEventListener: (name) => delete listeners[name],
@@ -108,12 +109,13 @@ describe("ScenePlayer", () => {
       window: target,
       document: { ...target, hidden: false },
       location: { origin: "http://lab" },
+      MessageEvent: class { constructor(type, init) { Object.assign(this, { type }, init); } },
       requestAnimationFrame: (callback) => frames.push(callback),
       cancelAnimationFrame: () => frames.splice(0),
     });
     player = new ScenePlayer(
       { contentWindow: scene },
-      { onFrame: (sample) => samples.push(sample), onState: (state) => states.push(state) },
+      { onFrame: (sample) => samples.push(sample), onState: (state) => states.push(state), onTransport: (snapshot, cause) => told.push([cause, snapshot]) },
     );
   });
   afterEach(() => player.destroy());
@@ -219,6 +221,89 @@ describe("ScenePlayer", () => {
     player.setTheme(true);
     say("ready");
     assert.equal(posted.filter((m) => m.kind === "theme" && m.dark).length, 2);
+  });
+  test("plays at another speed, and in a loop with a rest at the end", () => {
+    player.load(ramp);
+    player.setSpeed(4);
+    player.setLoop(true);
+    player.play();
+    frame(0);
+    frame(400);
+    close([player.time], [1.6]);
+    frame(900);
+    assert.deepEqual([player.time, player.playing], [2, true]);
+    frame(1500);
+    close([player.time], [(1.5 - 0.5 - 0.9) * 4]);
+    assert.deepEqual([states.at(-1).speed, states.at(-1).loop], [4, true]);
+  });
+  test("tells others of each change by hand, and not that time runs or that it follows", () => {
+    player.load(ramp);
+    player.play();
+    frame(0);
+    frame(500);
+    player.pause();
+    player.seek(1.5);
+    player.setSpeed(0.5);
+    player.setLoop(true);
+    player.replay();
+    assert.deepEqual(told.map(([cause]) => cause), ["load", "play", "pause", "seek", "speed", "loop", "restart"]);
+    assert.deepEqual(told[3][1], { playing: false, time: 1.5, speed: 1, loop: false });
+    player.follow({ playing: true, time: 1, speed: 2, loop: false }, 0.1);
+    close([player.time], [1.2]);
+    frame(1000);
+    frame(1100);
+    close([player.time], [1.4]);
+    assert.equal(told.length, 7);
+  });
+  test("follows from when it has something to play", () => {
+    player.follow({ playing: false, time: 0.75, speed: 2, loop: true });
+    assert.equal(player.time, 0);
+    player.load(ramp);
+    assert.deepEqual(player.snapshot(), { playing: false, time: 0.75, speed: 2, loop: true });
+    assert.deepEqual(told, []);
+  });
+  test("shows each frame's pose in that frame", () => {
+    player.load(ramp);
+    say("ready");
+    player.play();
+    for (const now of [0, 16, 33, 50, 66, 83]) {
+      const before = poses().length;
+      frame(now);
+      if (now > 0) assert.equal(poses().length, before + 1);
+    }
+  });
+  test("flies others beside the rig at the same time", () => {
+    player.load(ramp);
+    say("ready");
+    player.setFlights([{ slot: "2", label: "C", color: [1, 2, 3], trajectory: { t: [0, 2], theta: [0, 0], psi: [0, 1] } }]);
+    player.seek(1);
+    const sent = poses().flatMap((p) => p.messages);
+    assert.equal(sent.findLast((m) => m.name === "/ghosts/2").visible, true);
+    close(rotate(sent.findLast((m) => m.name === "/ghosts/2/yoke").wxyz, [1, 0, 0]), [Math.cos(0.5), -Math.sin(0.5), 0]);
+    player.setFlights([]);
+    assert.equal(poses().flatMap((p) => p.messages).findLast((m) => m.name === "/ghosts/2").visible, false);
+  });
+  test("a camera that follows turns with the rig; a fixed one is told once, and again to a scene built anew", () => {
+    const view = { pivot_height: 0.36, reach: 0.31, outer: 0.4, view: { position: [1, 0, 0], look_at: [0, 0, 0], fov: 0.6 } };
+    const aims = () => poses().flatMap((p) => p.messages).filter((m) => m.type === "SetCameraPositionMessage");
+    player.load(ramp);
+    player.setView(view);
+    say("ready");
+    assert.equal(aims().length, 0, "the viewer's own camera is left alone");
+    player.setCamera("side");
+    player.seek(0.5);
+    assert.equal(aims().length, 1);
+    player.setCamera("side");
+    say("ready");
+    assert.equal(aims().length, 3);
+    player.setCamera("follow");
+    player.seek(1);
+    player.seek(1);
+    assert.equal(aims().length, 5);
+    player.setCamera("free");
+    player.setView({ ...view });
+    assert.deepEqual(aims().at(-1).position, [1, 0, 0]);
+    assert.equal(aims().length, 6);
   });
   test("lets go when it is destroyed", () => {
     player.load(ramp);

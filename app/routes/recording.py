@@ -1,0 +1,82 @@
+"""POST recording: a design and an experiment in, the rig's motion as a file out."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+from fastapi import APIRouter, HTTPException, Response
+
+from heli2dof_core import Spec, close_loop, place, preset, simulate
+from heli2dof_core.geometry import RigName
+from heli2dof_core.spec import Model
+
+from ..compute import Compute
+from ..models import described
+from ..requests import StepRequest
+from ..scene.poses import Motion
+from ..scene.recording import Format, record
+
+MOST_WAITING = 8
+_TYPES: dict[Format, str] = {"html": "text/html; charset=utf-8", "viser": "application/octet-stream"}
+_NAMES: dict[Format, str] = {"html": "heli2dof-motion.html", "viser": "heli2dof-motion.viser"}
+
+
+def build_router(compute: Compute) -> APIRouter:
+    """The route recording under /api/v1."""
+    router = APIRouter(prefix="/api/v1", tags=["scene"])
+    free = asyncio.Lock()
+    waiting = 0
+
+    @router.post("/recording", **_described())
+    async def recording(request: StepRequest, format: Format = "html") -> Response:  # noqa: A002
+        nonlocal waiting
+        if waiting >= MOST_WAITING:
+            busy = "Too many recordings are being made at this moment; try again in a few seconds."
+            raise HTTPException(503, busy, {"Retry-After": "5"})
+        rig, title = _of_rig(request)
+        spec = request.to_spec()
+        motion = await compute.run(_motion, spec, request.scenario.model)
+        waiting += 1
+        try:
+            async with free:  # one at a time leaves a processor to the designs
+                content = await asyncio.to_thread(record, rig, motion, format, _title(title, spec))
+        finally:
+            waiting -= 1
+        name = {"Content-Disposition": f'attachment; filename="{_NAMES[format]}"'}
+        return Response(content, media_type=_TYPES[format], headers=name)
+
+    return router
+
+
+def _of_rig(request: StepRequest) -> tuple[RigName, str]:
+    chosen = preset(request.preset)
+    return "aero" if chosen.rig == "aero" else "helicopter", chosen.title
+
+
+def _motion(spec: Spec, model: Model) -> Motion:
+    response = simulate(close_loop(place(spec), spec.outer), spec, model).response
+    theta, psi = response.angles
+    V_p, V_y = response.voltages
+    limits = (spec.limits.V_p, spec.limits.V_y, spec.limits.theta)
+    return Motion(response.t, theta, psi, V_p, V_y, response.reference, limits)
+
+
+def _title(rig: str, spec: Spec) -> str:
+    poles = ", ".join(_pole(p) for p in spec.poles.values)
+    return f"{rig}: poles {poles} rad/s"
+
+
+def _pole(p: complex) -> str:
+    imaginary = f"{p.imag:+.4g}j" if p.imag else ""
+    return f"{p.real:.4g}{imaginary}".replace("-", "−")
+
+
+def _described() -> dict[str, Any]:
+    """Route options for the schema: a file instead of JSON."""
+    options = described(None, "The motion as a file: an HTML page that plays offline, or a .viser recording")
+    content = {kind.partition(";")[0]: {"schema": {"type": "string"}} for kind in _TYPES.values()}
+    del options["responses"][200]["model"]
+    options["responses"][200]["content"] = content
+    options["responses"][503] = {"description": "Too many are being made"}
+    return {**options, "response_class": Response}

@@ -1,0 +1,268 @@
+"""What the windows of one session tell one another: what is shown, and how time runs.
+
+The page sends its design's motion once per change, and each window plays it by itself in step: nothing
+here is sent while time merely runs. Of everything only the newest is kept, for each window by itself,
+so that a slow window is late and holds nobody up.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections.abc import Callable
+from time import monotonic
+from typing import Annotated, Any
+
+import msgspec
+from fastapi import WebSocket, WebSocketDisconnect
+
+LARGEST_SHOWN = 96 * 1024
+"""Bytes of a design with its motion; the page's take 12,000."""
+LARGEST_TEXT = 1024
+MOST_WINDOWS = 16
+PACE = 0.05
+"""Seconds after which a window may send its next motion."""
+
+_POLICY, _TOO_BIG = 1008, 1009
+_Finite = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
+_Row = tuple[_Finite, _Finite, _Finite, _Finite]
+
+
+class Pole(msgspec.Struct):
+    """A placed pole, rad/s."""
+
+    re: _Finite
+    im: _Finite
+
+
+class Pi(msgspec.Struct):
+    """One PI controller: V/rad and s."""
+
+    kp: _Finite
+    ti: _Finite
+
+
+class Loops(msgspec.Struct):
+    """Both PI controllers."""
+
+    pitch: Pi
+    yaw: Pi
+
+
+class Design(msgspec.Struct):
+    """What the panel shows of a design; the rest passes through unread."""
+
+    poles: tuple[Pole, Pole, Pole, Pole]
+    loops: Loops
+    outer: str = "pi"
+
+
+class Shown(msgspec.Struct):
+    """The header of a frame that shows a design and its motion.
+
+    Attributes:
+        design: what was chosen.
+        K: the gain that follows.
+        after: number of the panel's last message that the design contains.
+    """
+
+    design: Design
+    K: tuple[_Row, _Row]
+    after: int = 0
+
+
+class Transport(msgspec.Struct, tag="transport", forbid_unknown_fields=True):
+    """How time ran in the motion at a moment of the server's clock.
+
+    Attributes:
+        playing, loop: whether time runs, and starts again at the end.
+        time: in the motion, s; `speed` of them pass in a second.
+        at: when that was, s on the server's clock.
+    """
+
+    playing: bool
+    time: Annotated[float, msgspec.Meta(ge=0, le=1e6)]
+    speed: Annotated[float, msgspec.Meta(gt=0, le=100)]
+    loop: bool
+    at: _Finite
+
+
+class _Clock(msgspec.Struct, tag="clock", forbid_unknown_fields=True):
+    """Asks for the server's time; `sent` comes back as it is."""
+
+    sent: float
+
+
+_text_decoder = msgspec.json.Decoder(Transport | _Clock)
+_shown_decoder = msgspec.json.Decoder(Shown)
+
+
+def read_shown(frame: bytes) -> Shown:
+    """Return the header of a frame: uint32 length, JSON, then arrays that nobody here reads.
+
+    Raises:
+        msgspec.MsgspecError: if it is none.
+    """
+    size = int.from_bytes(frame[:4], "little")
+    if len(frame) < 4 + size:
+        raise msgspec.ValidationError("the frame is shorter than its header says")
+    return _shown_decoder.decode(frame[4 : 4 + size])
+
+
+def say(kind: str, **content: Any) -> str:
+    """Return a message to a window as text."""
+    return msgspec.json.encode({"type": kind, **content}).decode()
+
+
+class Window:
+    """One member of a room: the page, which has the design, or a window that only shows it."""
+
+    def __init__(self, *, page: bool) -> None:
+        self.page = page
+        self._waiting: dict[str, str | bytes] = {}
+        self._edits: dict[str, Any] = {}
+        self._wake = asyncio.Event()
+
+    def tell(self, topic: str, message: str | bytes) -> None:
+        """Leave a message, in place of one on the same topic that was not sent yet."""
+        self._waiting[topic] = message
+        self._wake.set()
+
+    def edit(self, edits: dict[str, Any], count: int) -> None:
+        """Leave what the panel asks for; of what waits, the newest value of each name stays."""
+        self._edits |= edits
+        self.tell("panel", say("panel", edits=self._edits, count=count))
+
+    async def send_to(self, socket: WebSocket) -> None:
+        """Send what waits, for as long as the socket takes it."""
+        while True:
+            await self._wake.wait()
+            self._wake.clear()
+            while self._waiting:
+                topic = next(iter(self._waiting))
+                message = self._waiting.pop(topic)
+                if topic == "panel":
+                    self._edits = {}
+                await (socket.send_text(message) if isinstance(message, str) else socket.send_bytes(message))
+
+
+class Room:
+    """The windows of one session and the newest of what they share; belongs to one event loop.
+
+    Args:
+        told: called with the design's header, and with how time runs, whenever they change.
+    """
+
+    def __init__(self, told: Callable[[Shown | Transport], None] = lambda _: None) -> None:
+        self.told = told
+        self.windows: list[Window] = []
+        self.shown: Shown | None = None
+        self.transport: Transport | None = None
+        self._messages: dict[str, str | bytes] = {}
+        self._edits = 0
+
+    @property
+    def full(self) -> bool:
+        """Whether no window may join."""
+        return len(self.windows) >= MOST_WINDOWS
+
+    @property
+    def edits(self) -> int:
+        """How many messages the panel has sent."""
+        return self._edits
+
+    @property
+    def leader(self) -> Window | None:
+        """The window that the panel's wishes go to: the first page, or else the first of all."""
+        return next((w for w in self.windows if w.page), self.windows[0] if self.windows else None)
+
+    def join(self, window: Window) -> None:
+        """Add a window and tell it what is known."""
+        self.windows.append(window)
+        for topic, message in self._messages.items():
+            window.tell(topic, message)
+        self._count()
+
+    def leave(self, window: Window) -> None:
+        """Forget a window."""
+        self.windows.remove(window)
+        self._count()
+
+    def show(self, frame: bytes, by: Window) -> None:
+        """Take a design with its motion and pass it on.
+
+        Raises:
+            msgspec.MsgspecError: if it is none.
+        """
+        self.shown = read_shown(frame)
+        self._pass("shown", frame, by)
+        self.told(self.shown)
+
+    def run(self, transport: Transport, by: Window) -> None:
+        """Take how time runs and pass it on."""
+        self.transport = transport
+        self._pass("transport", msgspec.json.encode(transport).decode(), by)
+        self.told(transport)
+
+    def edit(self, edits: dict[str, Any]) -> None:
+        """Hand on what someone has set at the panel."""
+        self._edits += 1
+        if self.leader is not None:
+            self.leader.edit(edits, self._edits)
+
+    def _pass(self, topic: str, message: str | bytes, by: Window) -> None:
+        self._messages[topic] = message
+        for window in self.windows:
+            if window is not by:
+                window.tell(topic, message)
+
+    def _count(self) -> None:
+        for window in self.windows:
+            others = len(self.windows) - 1
+            window.tell(
+                "windows",
+                say("windows", others=others, leads=window is self.leader, count=self._edits),
+            )
+
+
+async def attend(socket: WebSocket, room: Room, window: Window) -> None:
+    """Carry messages between an accepted socket and the room until the socket closes."""
+    room.join(window)
+    sending = asyncio.create_task(window.send_to(socket))
+    receiving = asyncio.create_task(_receive(socket, room, window))
+    try:
+        await asyncio.wait({sending, receiving}, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        room.leave(window)
+        for task in (sending, receiving):
+            task.cancel()
+        await asyncio.gather(sending, receiving, return_exceptions=True)
+
+
+async def _receive(socket: WebSocket, room: Room, window: Window) -> None:
+    loop = asyncio.get_running_loop()
+    while True:
+        message = await socket.receive()
+        if message["type"] == "websocket.disconnect":
+            return None
+        frame, text = message.get("bytes"), message.get("text")
+        if len(frame or text or "") > (LARGEST_SHOWN if frame else LARGEST_TEXT):
+            return await _close(socket, _TOO_BIG, "this message is too large")
+        try:
+            if frame:
+                room.show(frame, window)
+                # The next one is asked for a little later: a sender keeps the newest until then.
+                loop.call_later(PACE, window.tell, "taken", say("taken"))
+                continue
+            match _text_decoder.decode(text or ""):
+                case Transport() as transport:
+                    room.run(transport, window)
+                case _Clock(sent=sent):
+                    window.tell("clock", say("clock", sent=sent, now=monotonic()))
+        except msgspec.MsgspecError as error:
+            return await _close(socket, _POLICY, f"not understood: {error}")
+
+
+async def _close(socket: WebSocket, code: int, reason: str) -> None:
+    with contextlib.suppress(RuntimeError, WebSocketDisconnect):
+        await socket.close(code, reason[:120])

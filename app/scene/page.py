@@ -1,0 +1,96 @@
+"""Viser's page with our shim in it.
+
+The page derives its socket from its own address: /scene/{session}/ opens ws:/scene/{session}. All
+addresses in the page are relative, so the app may be mounted under any prefix.
+"""
+
+from __future__ import annotations
+
+import gzip
+import hashlib
+import html
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+
+from fastapi import Request, Response
+
+_MARKER = "<title>Viser</title>"
+
+# The canvas stands on the page's own ground instead of on white.
+_GROUND = """
+html, body { background: #eef0f2 radial-gradient(circle at 50% 38%, #fbfcfc, #e4e7ea) fixed; }
+html[data-theme=dark], html[data-theme=dark] body {
+  background: #2a2f36 radial-gradient(circle at 50% 38%, #474e58, #24282e) fixed; }
+#root :has(canvas) { background: transparent !important; }
+"""
+_NOTES = """
+.window-notes { position: fixed; left: 12px; top: 10px; max-width: calc(100vw - 24px); pointer-events: none;
+  font: 15px/1.4 system-ui, sans-serif; font-variant-numeric: tabular-nums; color: #2b3138; }
+html[data-theme=dark] .window-notes { color: #e6e9ec; }
+.window-notes p { margin: 0; }
+.window-time { white-space: pre; }
+"""
+# In the page's frame, viser's panel (a bottom sheet in narrow windows), its notices and its logo are hidden.
+_BARE = """
+html[data-place=frame] :is([data-floating-window], [data-dock-region], .mantine-Notifications-root,
+  .mantine-ScrollAreaAutosize-root, .mantine-Paper-root) { display: none !important; }
+.mantine-Notifications-root { top: auto !important; bottom: 0; }
+"""
+_INJECTED = (
+    "<title>heli2dof: the rig</title>\n"
+    f"<style>{_GROUND}{_NOTES}{_BARE}</style>\n"
+    '<script src="../../static/scene_shim.js"></script>'
+)
+
+
+@dataclass(frozen=True, slots=True)
+class ViewerPage:
+    """Viser's page with our additions, plain and compressed, and its entity tag."""
+
+    body: bytes
+    compressed: bytes
+    etag: str
+
+    @classmethod
+    def load(cls) -> ViewerPage:
+        """Read the installed viser's page, without importing viser, and add to it.
+
+        Raises:
+            RuntimeError: if the page is missing or has changed so that the shim has no place.
+        """
+        spec = find_spec("viser")
+        if spec is None or spec.origin is None:
+            raise RuntimeError("viser is not installed")
+        path = Path(spec.origin).parent / "client" / "build" / "index.html"
+        page = path.read_text(encoding="utf-8")
+        if page.count(_MARKER) != 1:
+            raise RuntimeError(f"{path} does not hold {_MARKER} once: is this viser 1.1.1?")
+        body = page.replace(_MARKER, _INJECTED).encode()
+        etag = f'"{hashlib.sha256(body).hexdigest()[:32]}"'
+        return cls(body, gzip.compress(body, compresslevel=6, mtime=0), etag)
+
+    def response(self, request: Request) -> Response:
+        """Answer a request for the page, with 304 where the browser has it already."""
+        headers = {
+            "Cache-Control": "private, no-cache",
+            "Content-Security-Policy": "frame-ancestors 'self'",
+            "ETag": self.etag,
+            "Referrer-Policy": "no-referrer",
+            "Vary": "Accept-Encoding",
+            "X-Content-Type-Options": "nosniff",
+        }
+        if self.etag in request.headers.get("if-none-match", ""):
+            return Response(status_code=304, headers=headers)
+        if "gzip" in request.headers.get("accept-encoding", ""):
+            headers["Content-Encoding"] = "gzip"
+            return Response(self.compressed, media_type="text/html", headers=headers)
+        return Response(self.body, media_type="text/html", headers=headers)
+
+
+def taken_away(page: str, title: str) -> str:
+    """Return viser's page with a recording in it, on our ground and under a title (plain text)."""
+    words = html.escape(title)
+    head = f"<title>{words}</title>\n<style>{_GROUND}{_NOTES}</style>"
+    note = f'<div class="window-notes">{words}</div>'
+    return page.replace(_MARKER, head, 1).replace("</body>", f"{note}</body>", 1)

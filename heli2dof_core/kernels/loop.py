@@ -1,0 +1,129 @@
+"""The loop put together: from K and the outer loop's settings to matrices, and to the constants of `kernels.rig`."""
+
+from __future__ import annotations
+
+from ..layout import (
+    ANTI_WINDUP,
+    AUGMENTED,
+    BACK,
+    BOUND,
+    DISTURBANCE,
+    FED,
+    GAIN,
+    LIMIT,
+    MOTOR_OF,
+    OFFSET,
+    PI,
+    REFERENCE,
+    SIDE,
+    START,
+    STATIC,
+    STOP,
+    TRACKING,
+    TRAVEL,
+    VOLTS,
+    WANTED,
+    WINDUP,
+)
+from .jit import kernel
+
+
+@kernel
+def close(K, statics, A, B, kind, gains, cross, decoupler, P, I, F, law, by_reference, whole, driven):  # noqa: E741
+    """The outer loop around u = −Kx + v: `P`, `I`, `F`, the voltages' `law` and `by_reference`, `whole`, `driven`.
+
+    `statics` = B₂⁻¹ A₂₁; `gains` holds kp and kp/ti of pitch and of yaw. `kind` OWN finds I filled and leaves it.
+    `law` is ∂u/∂[x, z], (2, n), `by_reference` ∂u/∂r; `whole` (n, n) and `driven` (n, 2) are A and B of the loop.
+    """
+    for i in range(2):
+        for j in range(2):
+            P[i, j] = F[i, j] = 0.0
+            if kind == STATIC:
+                F[i, j] = K[i, j] - statics[i, j]
+    if kind == PI:
+        mix(K, statics, gains, cross, decoupler, P, I)
+    order = law.shape[1]
+    for i in range(2):
+        for j in range(4):
+            law[i, j] = -K[i, j]
+        for j in range(2):
+            law[i, j] -= P[i, j]
+            by_reference[i, j] = P[i, j] + F[i, j]
+            if order == 6:
+                law[i, 4 + j] = I[i, j]
+    for i in range(order):
+        for j in range(order):
+            whole[i, j] = A[i, j] if i < 4 and j < 4 else 0.0
+            if i < 4:
+                whole[i, j] += B[i, 0] * law[0, j] + B[i, 1] * law[1, j]
+        for j in range(2):
+            driven[i, j] = B[i, 0] * by_reference[0, j] + B[i, 1] * by_reference[1, j] if i < 4 else 0.0
+    if order == 6:
+        for i in range(2):
+            whole[4 + i, i], driven[4 + i, i] = -1.0, 1.0
+
+
+@kernel
+def mix(K, statics, gains, cross, decoupler, P, I):  # noqa: E741
+    """Which motor each PI controller drives, and with which sign: P and I, V/rad and V/(rad·s) per error."""
+    a, b = K[0, 0] - statics[0, 0], K[0, 1] - statics[0, 1]
+    c, d = K[1, 0] - statics[1, 0], K[1, 1] - statics[1, 1]
+    determinant = a * d - b * c
+    # Ĝ(0) = [[d, −b], [−c, a]]/det; only the determinant's sign matters here, and its size where decoupled
+    sign = -1.0 if determinant < 0.0 else 1.0
+    pitch, yaw = (-sign * b, -sign * c) if cross else (sign * d, sign * a)
+    size = abs(determinant) if determinant != 0.0 else 1.0
+    for j in range(2):
+        paired = pitch if j == 0 else yaw
+        for i in range(2):
+            if decoupler:
+                entry = K[i, j] - statics[i, j]
+                weight = entry * abs(paired) / size
+            elif cross:
+                weight = 0.0 if i == j else (-1.0 if paired < 0.0 else 1.0)
+            else:
+                weight = 1.0 if i == j else 0.0
+            P[i, j], I[i, j] = weight * gains[j, 0], weight * gains[j, 1]
+
+
+@kernel
+def compose(rig, trim, theta_0, law, by_reference, I, x, c, m):  # noqa: E741
+    """Constants c and modes m of the loop around the nonlinear rig; its deviations become absolute angles."""
+    order = law.shape[1]
+    for k in range(len(rig)):
+        c[k] = rig[k]
+    for i in range(2):
+        for j in range(6):
+            c[GAIN + 6 * i + j] = law[i, j] if j < order else 0.0
+        c[OFFSET + i] = by_reference[i, 0] * (x[REFERENCE] - theta_0) + by_reference[i, 1] * x[REFERENCE + 1]
+        c[OFFSET + i] += x[FED] * trim[i] - law[i, 0] * theta_0
+        c[LIMIT + i], c[WANTED + i] = x[BOUND + i], x[REFERENCE + i]
+        c[DISTURBANCE + i] = x[VOLTS + i]
+        m[i], m[SIDE + i] = 0, 1
+        # each integrator's motor is the one that it drives in the main
+        m[MOTOR_OF + i] = 1 if abs(I[1, i]) > abs(I[0, i]) else 0
+    if order == 4:
+        m[MOTOR_OF], m[MOTOR_OF + 1] = 0, 1
+    for k in range(4):
+        c[TRACKING + k] = x[BACK + k]
+    c[TRAVEL] = x[STOP]
+    m[SIDE + 2] = 0
+    m[WINDUP] = int(x[ANTI_WINDUP])
+
+
+@kernel
+def augment(theta_0, law, by_reference, whole, driven, x, M, outputs, states):
+    """The linear loop with the constant 1 as seventh state, in deviations from (θ₀, 0): M, voltages' rows, start."""
+    order, reference = len(whole), (x[REFERENCE] - theta_0, x[REFERENCE + 1])
+    for i in range(AUGMENTED):
+        for j in range(AUGMENTED):
+            M[i, j] = whole[i, j] if i < order and j < order else 0.0
+        if i < order:
+            M[i, AUGMENTED - 1] = driven[i, 0] * reference[0] + driven[i, 1] * reference[1]
+        states[i, 0] = x[START + i] if i < 4 else 0.0
+    for i in range(2):
+        for j in range(AUGMENTED):
+            outputs[i, j] = law[i, j] if j < order else 0.0
+        outputs[i, AUGMENTED - 1] = by_reference[i, 0] * reference[0] + by_reference[i, 1] * reference[1]
+    states[0, 0] -= theta_0
+    states[AUGMENTED - 1, 0] = 1.0

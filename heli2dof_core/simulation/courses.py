@@ -1,0 +1,106 @@
+"""Both models' responses to one experiment or several, and their measures, in a single call of a kernel."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..engine import engine
+from ..layout import (
+    AUGMENTED,
+    AXIS_METRICS,
+    CONSTANTS,
+    COURSE,
+    DEVIATION,
+    HELD,
+    LINEAR_WORKSPACE,
+    MODES,
+    MOTOR_METRICS,
+    SHARE,
+    WORKSPACE,
+)
+from ..loop import Loop
+from ..signals import Floats, fixed
+from ..spec import Limits, Model, Scenario
+from .experiment import NOTHING, experiment
+from .linear import linear_response
+from .nonlinear import ABSOLUTE_TOLERANCE, limited_response
+from .response import Response
+
+_MODELS: tuple[Model, ...] = ("linear", "nonlinear")
+_AT_REST = fixed(np.zeros(2))
+
+
+@dataclass(frozen=True)
+class Courses:
+    """What the kernel `run_experiments` has filled for n experiments, laid out as it says."""
+
+    t: Floats
+    order: int
+    experiments: Floats
+    linear: Floats
+    nonlinear: Floats
+    voltages: Floats
+    axes: Floats
+    motors: Floats
+    courses: Floats
+
+    def response(self, n: int, model: Model) -> Response:
+        """The response of one model to the experiment `n`."""
+        x, numbers = self.experiments[n], self.courses[n]
+        if model == "linear":
+            course = (self.t, self.linear[n, : self.order], self.voltages[n, 0])
+            return linear_response(x, *course, numbers[0, HELD])
+        course = (self.t, self.nonlinear[n, : self.order], self.voltages[n, 1])
+        return limited_response(x, *course, numbers[1, SHARE:].tolist())
+
+    def measures(self, n: int, model: Model) -> tuple[list[float], Floats, Floats]:
+        """Deviations, axes' and motors' metrics of one model's response, as `metrics.measured` takes them."""
+        i = _MODELS.index(model)
+        return self.courses[n, i, DEVIATION:SHARE].tolist(), self.axes[n, i], self.motors[n, i]
+
+
+def run_experiments(
+    loop: Loop, limits: Limits, scenarios: Sequence[Scenario], most_steps: int | None = None
+) -> Courses:
+    """Linear and nonlinear responses to scenarios that differ in their references and their start alone.
+
+    The same numbers as `simulate_linear` and `simulate_nonlinear` give; disturbances are left out.
+    """
+    first, plant, kernels = scenarios[0], loop.design.plant, engine()
+    t, n = first.times, len(scenarios)
+    experiments = np.array([experiment(loop, limits, scenario) for scenario in scenarios])
+    filled = (
+        np.empty((n, AUGMENTED, len(t))),
+        np.empty((n, 6, len(t))),
+        np.empty((n, 2, 2, len(t))),
+        np.empty((n, 2, 2, AXIS_METRICS)),
+        np.empty((n, 2, 2, MOTOR_METRICS)),
+        np.empty((n, 2, COURSE)),
+    )
+    with np.errstate(over="ignore", invalid="ignore"):  # for the interpreted kernels
+        kernels.run_experiments(
+            plant.constants,
+            plant.trim,
+            plant.theta_0,
+            loop.voltage_from_state,
+            loop.voltage_from_reference,
+            NOTHING if loop.integral is None else loop.integral,
+            loop.A,
+            loop.B,
+            experiments,
+            t,
+            first.rtol,
+            ABSOLUTE_TOLERANCE * first.rtol,
+            most_steps or kernels.most_steps,
+            np.empty(WORKSPACE),
+            np.empty(LINEAR_WORKSPACE),
+            np.empty(CONSTANTS),
+            np.empty(MODES, dtype=np.int64),
+            np.empty((len(t), 6)),
+            _AT_REST,
+            *filled,
+        )
+    return Courses(t, len(loop.A), experiments, *filled)

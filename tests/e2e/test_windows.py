@@ -1,0 +1,243 @@
+"""Several windows of one session: in step with the page, moved by a panel of their own; and the motion taken away."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Download, Page
+
+from tests.e2e.conftest import PATIENCE, App, opened, running_app, settled, state
+from tests.e2e.test_scene import ANGLES
+
+WATCHED = """selector => {
+  // When time 0 was, by the wall, as each change shows it at a quarter of the speed; seconds.
+  window.starts = [];
+  const node = document.querySelector(selector);
+  new MutationObserver(() => {
+    const t = parseFloat(node.textContent);
+    if (t > 0.1 && t < 2.8) window.starts.push((performance.timeOrigin + performance.now()) / 1000 - 4 * t);
+  }).observe(node, { childList: true, characterData: true, subtree: true });
+}"""
+SEEN_PLAYING = "() => window.starts.length >= 12"
+
+
+@contextmanager
+def window_of(page: Page, app: App, viewport: tuple[int, int] = (900, 700)) -> Iterator[Page]:
+    """The rig in a window of its own, playing what the page shows; fails on any error in it."""
+    session = page.evaluate("() => sessionStorage.getItem('heli2dof-scene')")
+    window = page.context.new_page()
+    window.set_viewport_size({"width": viewport[0], "height": viewport[1]})
+    window.set_default_timeout(PATIENCE)
+    errors: list[str] = []
+    window.on("pageerror", lambda error: errors.append(str(error)))
+    window.goto(f"{app.url}scene/{session}/")
+    drawn(window)
+    yield window
+    window.close()
+    assert errors == []
+
+
+def drawn(window: Page) -> None:
+    window.wait_for_selector("[data-testid=window-words]", state="hidden")
+    window.wait_for_function("() => window.__viserMutable?.nodePoseData['/rig/yoke/body']?.wxyz")
+
+
+def stands_at(window: Page, theta: float, psi: float, within: float = 1e-3) -> None:
+    window.wait_for_function(
+        f"([theta, psi, within]) => {{ const a = ({ANGLES})();"
+        " return Math.hypot(a.theta - theta, a.psi - psi) < within; }",
+        arg=[theta, psi, within],
+    )
+
+
+def seek(page: Page, time: float) -> None:
+    page.get_by_test_id("time").evaluate(
+        "(input, t) => { input.value = t; input.dispatchEvent(new Event('input')); }", time
+    )
+
+
+def poles(page: Page) -> list[float]:
+    return [pole["re"] for pole in state(page)["poles"]]
+
+
+def field(window: Page, label: str) -> Callable[[], float]:
+    """The value that viser's panel shows beside a label."""
+    return lambda: float(panel_input(window, label).input_value())
+
+
+def panel_input(window: Page, label: str):
+    row = window.locator("[data-floating-window], [data-dock-region]").get_by_text(label, exact=True)
+    return row.locator("xpath=ancestor::*[.//input[@type='text' or @inputmode]][1]//input").last
+
+
+def shows(window: Page, label: str, value: float) -> None:
+    """Waits until the panel shows a value."""
+    reading = panel_input(window, label)
+    window.wait_for_function(
+        "([input, value]) => Math.abs(parseFloat(input.value) - value) < 1e-6",
+        arg=[reading.element_handle(), value],
+    )
+
+
+def test_window_stands_where_the_page_stands(page: Page, app: App):
+    with window_of(page, app) as window:
+        seek(page, 0.0)
+        stands_at(window, 0.0, 0.0)
+        seek(page, 3.0)
+        reference = state(page)["scenario"]["reference"]
+        stands_at(window, reference["theta"], reference["psi"], 0.02)
+
+
+def test_window_plays_in_step(page: Page, app: App):
+    with window_of(page, app, (420, 320)) as window:
+        page.get_by_test_id("speed").select_option("0.25")  # a motion of twelve seconds
+        window.evaluate(WATCHED, "[data-testid=window-time]")
+        page.evaluate(WATCHED, "[data-testid=clock]")
+        page.get_by_test_id("replay").click()
+        starts = []
+        for either in (page, window):
+            either.wait_for_function(SEEN_PLAYING)
+            starts.append(min(either.evaluate("() => window.starts")))  # the least late of what was drawn
+        # A window puts up with being 0.12 s behind before it catches up; what is read has two digits.
+        assert abs(starts[0] - starts[1]) < 0.12 + 0.04
+
+
+def test_panel_moves_the_page_and_the_page_the_panel(page: Page, app: App):
+    with window_of(page, app) as window:
+        shows(window, "p₁", poles(page)[0])
+        panel_input(window, "p₁").fill("-6.5")
+        panel_input(window, "p₁").press("Enter")
+        page.wait_for_function(
+            "() => JSON.parse(document.documentElement.dataset.state).poles[0].re === -6.5"
+        )
+        settled(page)
+        gain = f"{state(page)['K'][0][0]:.4g}"
+        window.wait_for_selector(f"td:has-text('{gain}')")
+        page.get_by_test_id("pole-field-3").fill("-7.25")
+        page.get_by_test_id("pole-field-3").press("Enter")
+        shows(window, "p₄", -7.25)
+        page.get_by_test_id("undo").click()
+        page.get_by_test_id("undo").click()
+        shows(window, "p₁", -12)
+
+
+def test_buttons_of_the_panel_play_the_page(page: Page, app: App):
+    with window_of(page, app) as window:
+        seek(page, 1.0)
+        window.get_by_text("Replay", exact=True).click()
+        page.wait_for_selector("[data-testid=play][aria-pressed=true]")
+        window.get_by_text("Pause", exact=True).click()
+        page.wait_for_selector("[data-testid=play][aria-pressed=false]")
+
+
+def test_panel_works_on_where_the_page_has_gone(page: Page, app: App):
+    with window_of(page, app) as window:
+        shows(window, "p₁", -12)
+        page.goto("about:blank")
+        before = window.locator("table td").nth(1).inner_text()
+        panel_input(window, "p₁").fill("-5")
+        panel_input(window, "p₁").press("Enter")
+        window.wait_for_function(
+            "before => document.querySelectorAll('table td')[1].innerText !== before", arg=before
+        )
+
+
+def test_two_sessions_stay_apart(page: Page, app: App, chromium: Browser):
+    context = chromium.new_context()
+    other = context.new_page()
+    other.set_default_timeout(PATIENCE)
+    other.goto(f"{app.url}scene/{'a-session-of-its-own'.ljust(24, '_')}/")
+    drawn(other)
+    with window_of(page, app) as window:
+        shows(other, "p₁", -12)
+        panel_input(window, "p₁").fill("-6.5")
+        panel_input(window, "p₁").press("Enter")
+        page.wait_for_function(
+            "() => JSON.parse(document.documentElement.dataset.state).poles[0].re === -6.5"
+        )
+        seek(page, 0.0)
+        stands_at(window, 0.0, 0.0)
+        panel_input(other, "p₂").fill("-4.5")
+        panel_input(other, "p₂").press("Enter")
+        shows(other, "p₁", -12)
+        assert poles(page)[1] == -10
+    context.close()
+
+
+@pytest.mark.parametrize("kind", ["html", "viser"])
+def test_motion_is_taken_away(page: Page, kind: str, tmp_path: Path):
+    download = saved(page, kind)
+    path = tmp_path / download.suggested_filename
+    download.save_as(path)
+    assert path.suffix == f".{kind}"
+    assert path.stat().st_size > 20_000
+
+
+def test_motion_plays_offline(page: Page, tmp_path: Path, chromium: Browser):
+    reference = state(page)["scenario"]["reference"]
+    path = tmp_path / "motion.html"
+    saved(page, "html").save_as(path)
+    context = chromium.new_context(viewport={"width": 500, "height": 400}, offline=True)
+    reader = context.new_page()
+    reader.set_default_timeout(PATIENCE)
+    asked: list[str] = []
+    errors: list[str] = []
+    reader.on("request", lambda request: asked.append(request.url))
+    reader.on("pageerror", lambda error: errors.append(str(error)))
+    reader.goto(path.as_uri())
+    assert "poles −12, −10, −9.25, −8.76" in reader.title()
+    # From rest to the reference, as the page's own plot ends.
+    stands_at(reader, 0.0, 0.0, 0.02)
+    stands_at(reader, reference["theta"], reference["psi"], 0.02)
+    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
+    assert errors == []
+    context.close()
+
+
+def saved(page: Page, kind: str) -> Download:
+    page.get_by_test_id("scene-menu").click()
+    with page.expect_download() as waiting:
+        page.get_by_test_id(f"save-motion-{kind}").click()
+    page.keyboard.press("Escape")
+    return waiting.value
+
+
+def test_menu_gives_the_link_of_the_window(page: Page):
+    page.get_by_test_id("scene-menu").click()
+    session = page.evaluate("() => sessionStorage.getItem('heli2dof-scene')")
+    assert page.get_by_test_id("window-link").input_value().endswith(f"/scene/{session}/")
+    with page.context.expect_page() as opened:
+        page.get_by_test_id("open-window").click()
+    assert opened.value.url.endswith(f"/scene/{session}/")
+
+
+def test_window_is_rebuilt_after_the_server_was_started_anew(chromium: Browser):
+    context = chromium.new_context()
+    page = context.new_page()
+    page.route("**/scene/*/", lambda route: route.fulfill(content_type="text/html", body="<title>-</title>"))
+    with running_app() as first:
+        opened(page, first.url)
+        page.get_by_test_id("preset").select_option("quanser-aero-2")
+        settled(page)
+        session = page.evaluate("() => sessionStorage.getItem('heli2dof-scene')")
+        window = context.new_page()
+        window.set_default_timeout(PATIENCE)
+        window.goto(f"{first.url}scene/{session}/")
+        drawn(window)
+        window.evaluate("() => { window.kept = true; }")
+    lifted = "() => window.__viserMutable.nodePoseData['/rig/yoke/body']?.position?.[2]"
+    with running_app(first.port):
+        page.wait_for_function(
+            "() => JSON.parse(document.documentElement.dataset.state).connection === 'open'"
+        )
+        page.get_by_test_id("pole-field-0").fill("-5.5")
+        page.get_by_test_id("pole-field-0").press("Enter")
+        shows(window, "p₁", -5.5)
+        window.wait_for_function(f"() => Math.abs(({lifted})() - 0.295) < 1e-9")  # the Aero's, again
+        seek(page, 0.0)
+        stands_at(window, 0.0, 0.0)
+        assert window.evaluate("() => window.kept")  # by itself, without a reload
+        context.close()
