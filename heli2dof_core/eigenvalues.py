@@ -39,6 +39,6 @@ def eigenvectors(A: Floats) -> Floats | Complexes:
 
 def _solved(A: Floats, *, vectors: bool) -> tuple[list[float], list[float], Floats]:
     real, imaginary, _, right, info = _geev(A, compute_vl=False, compute_vr=vectors)
-    if info or not isfinite(A.sum()):  # geev itself gives some answer to NaN
+    if info or not isfinite(np.vdot(A, A)):  # geev itself gives some answer to NaN
         raise np.linalg.LinAlgError(f"the eigenvalues of a matrix of {len(A)} rows were not found")
     return real.tolist(), imaginary.tolist(), right

@@ -91,11 +91,10 @@ def close_loop(design: Design, outer: OuterLoop = OuterLoop()) -> Loop:
     """
     kind = OWN if design.integral is not None else PI if outer.outer == "pi" else STATIC
     order = 4 if kind == STATIC else 6
-    P, F, by_reference, gains = np.empty((4, 2, 2))
+    P, F, by_reference = np.empty((3, 2, 2))
+    gains = np.array([[pi.kp, pi.kp / pi.ti] for pi in (outer.pitch, outer.yaw)])
     integral = np.zeros((2, 2)) if design.integral is None else np.array(design.integral, order="C")
     law, A, B = np.empty((2, order)), np.empty((order, order)), np.empty((order, 2))
-    for i, pi in enumerate((outer.pitch, outer.yaw)):
-        gains[i] = pi.kp, pi.kp / pi.ti
     plant, cross = design.plant, outer.pairing == "cross"
     settings = (kind, gains, cross, outer.decoupler)
     engine().close(

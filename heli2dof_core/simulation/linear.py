@@ -22,10 +22,9 @@ def simulate_linear(loop: Loop, scenario: Scenario) -> Response:
     x, t = experiment(loop, None, scenario), scenario.times
     states, voltages = np.empty((AUGMENTED, len(t))), np.empty((2, len(t)))
     matrices = (loop.voltage_from_state, loop.voltage_from_reference, loop.A, loop.B)
-    with np.errstate(over="ignore", invalid="ignore"):  # for the interpreted kernels
-        held = engine().run_linear(
-            loop.design.plant.theta_0, *matrices, x, t, np.empty(LINEAR_WORKSPACE), states, voltages
-        )
+    held = engine().run_linear(
+        loop.design.plant.theta_0, *matrices, x, t, np.empty(LINEAR_WORKSPACE), states, voltages
+    )
     return linear_response(x, t, states[: len(loop.A)], voltages, held)
 
 

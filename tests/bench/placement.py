@@ -52,17 +52,17 @@ def contestants(rig) -> dict[str, Callable[[], object]]:
 
 
 def measured(calls: dict[str, Callable[[], object]]) -> dict[str, float]:
-    """Median seconds per call of each, over rounds; quick ones are repeated within a round."""
+    """Median seconds of a call of each, over rounds; quick ones are called more often within a round."""
     times: dict[str, list[float]] = {name: [] for name in calls}
     for _ in range(ROUNDS):
         for name, call in calls.items():
             begin = perf_counter()
             call()
             repeats = max(1, int(3e-2 / (perf_counter() - begin)))
-            begin = perf_counter()
             for _ in range(repeats):
+                begin = perf_counter()
                 call()
-            times[name].append((perf_counter() - begin) / repeats)
+                times[name].append(perf_counter() - begin)
     return {name: median(values) for name, values in times.items()}
 
 
