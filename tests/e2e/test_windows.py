@@ -126,6 +126,7 @@ def test_panel_moves_the_page_and_the_page_the_panel(page: Page, app: App):
 
 def test_buttons_of_the_panel_play_the_page(page: Page, app: App):
     with window_of(page, app) as window:
+        page.get_by_test_id("loop").check()  # it does not end before it is looked at
         seek(page, 1.0)
         window.get_by_text("Replay", exact=True).click()
         page.wait_for_selector("[data-testid=play][aria-pressed=true]")
@@ -233,9 +234,9 @@ def test_window_is_rebuilt_after_the_server_was_started_anew(chromium: Browser):
         page.wait_for_function(
             "() => JSON.parse(document.documentElement.dataset.state).connection === 'open'"
         )
-        page.get_by_test_id("pole-field-0").fill("-5.5")
-        page.get_by_test_id("pole-field-0").press("Enter")
-        shows(window, "p₁", -5.5)
+        page.get_by_test_id("pole-field-2").fill("-5.5")
+        page.get_by_test_id("pole-field-2").press("Enter")
+        shows(window, "p₃", -5.5)
         window.wait_for_function(f"() => Math.abs(({lifted})() - 0.295) < 1e-9")  # the Aero's, again
         seek(page, 0.0)
         stands_at(window, 0.0, 0.0)
