@@ -11,7 +11,9 @@ import sys
 
 import uvicorn
 
-from .main import create_app, package_version
+from heli2dof_core.version import package_version
+
+from .main import create_app
 from .settings import Settings
 
 _LARGEST_MESSAGE = 1 << 20

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import AsyncIterator
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from fastapi import FastAPI, Response
 from fastapi.openapi.docs import get_swagger_ui_html
 from fastapi.responses import FileResponse
 from fastapi.staticfiles import StaticFiles
+
+from heli2dof_core.version import package_version
 
 from . import live, problems, robustness, scene
 from .compute import Compute
@@ -88,11 +89,3 @@ class RevalidatedFiles(StaticFiles):
         response = super().file_response(*args, **kwargs)
         response.headers["Cache-Control"] = "no-cache"
         return response
-
-
-def package_version() -> str:
-    """The installed version, or 0 in a checkout that is not installed."""
-    try:
-        return version("heli2dof")
-    except PackageNotFoundError:
-        return "0"
