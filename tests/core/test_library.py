@@ -74,7 +74,9 @@ def test_python_control_sees_the_same_systems():
     plant, inner = report.design.plant.to_control(), report.design.to_control()
     assert (plant.input_labels, plant.output_labels) == (["V_p", "V_y"], ["theta", "psi"])
     assert plant.state_labels == ["theta", "psi", "theta_dot", "psi_dot"]
-    np.testing.assert_allclose(sorted(inner.poles().real), sorted(p.real for p in spec.poles.values), atol=1e-9)
+    np.testing.assert_allclose(
+        sorted(inner.poles().real), sorted(p.real for p in spec.poles.values), atol=1e-9
+    )
     fed_back = control.ss(plant.A, plant.B, np.eye(4), 0).feedback(control.ss([], [], [], report.design.K))
     np.testing.assert_allclose(fed_back.A, inner.A, atol=1e-12)
 
@@ -118,7 +120,8 @@ def test_the_import_is_light_and_the_rest_comes_when_asked_for():
     code = (
         "import sys, heli2dof_core as heli; "
         "print([m for m in ('sympy', 'control', 'scipy', 'numba', 'matplotlib') if m in sys.modules]); "
-        "import heli2dof_core.symbolic.rga; heli.symbolic.rga, heli.paper; print('sympy' in sys.modules, hasattr(heli, 'nonsense'))"
+        "import heli2dof_core.symbolic.rga; heli.symbolic.rga, heli.paper; "
+        "print('sympy' in sys.modules, hasattr(heli, 'nonsense'))"
     )
     shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert shown.split("\n") == ["[]", "True False", ""]
