@@ -13,7 +13,7 @@ from fastapi.staticfiles import StaticFiles
 
 from heli2dof_core.version import package_version
 
-from . import live, problems, robustness, scene
+from . import examples, live, problems, robustness, scene
 from .compute import Compute
 from .routes import catalogue, comparison, derivation, design, frequency, recording
 from .settings import Settings
@@ -58,6 +58,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(scene.build_router(sessions))
     app.mount("/static", RevalidatedFiles(directory=settings.static), name="static")
     problems.install(app)
+    examples.install(app)
 
     @app.get("/", include_in_schema=False)
     async def page() -> FileResponse:

@@ -24,8 +24,8 @@ class RobustnessRequest(StepRequest):
         default=None, description="relative, per parameter; by default 0.1 for all but g"
     )
     distribution: Distribution = "uniform"
-    samples: int = Field(default=200, ge=1, le=20_000)
-    seed: int = Field(default=0, ge=0, le=2**32 - 1)
+    samples: int = Field(default=200, ge=1, le=20_000, description="how many rigs")
+    seed: int = Field(default=0, ge=0, le=2**32 - 1, description="of the random rigs")
 
     def to_uncertainty(self) -> Uncertainty:
         """The core's uncertainty."""
@@ -36,21 +36,21 @@ class RobustnessRequest(StepRequest):
 class Envelope(Model):
     """One output's percentiles over t, rad: a row per percentile."""
 
-    theta: list[list[float]]
-    psi: list[list[float]]
+    theta: list[list[float]] = Field(description="pitch, rad; a row per percentile")
+    psi: list[list[float]] = Field(description="yaw, rad; a row per percentile")
 
 
 class RobustnessReply(Model):
     """After `done` of `samples` rigs; poles of the whole loop of the first of them, rad/s."""
 
-    done: int
-    samples: int
+    done: int = Field(description="rigs so far")
+    samples: int = Field(description="rigs in all")
     loop_poles: list[list[Complex]]
-    t: list[float]
-    percentiles: list[float]
+    t: list[float] = Field(description="s")
+    percentiles: list[float] = Field(description="%, of `envelopes`")
     envelopes: Envelope
-    share_stable: float
-    share_within_limits: float
+    share_stable: float = Field(description="0 to 1")
+    share_within_limits: float = Field(description="0 to 1")
 
 
 def cloud_reply(result: Cloud) -> Reply:

@@ -53,7 +53,7 @@ class Row(Shown):
 
     def summary(self) -> str:
         """The method and what came of it."""
-        return f"{self.name}; {self.unavailable if self.report is None else self.report.summary()}"
+        return f"{self.name}; {'not available' if self.report is None else self.report.summary()}"
 
 
 @dataclass(frozen=True, repr=False)

@@ -34,15 +34,16 @@ def symbolic(
 
         structure = Structure(coupling or "triangular", lead or "pitch")  # pyright: ignore[reportArgumentType]
         report = symbolic_report(structure, shifted=shifted)
-        if as_json:
-            return print_json(symbolic_reply(report))
         formulas = {**report.formulas, **report.definitions}
-        for name in names or ("K",):
+        for name in names:
             if name not in formulas:
                 known = ", ".join(formulas)
                 raise InvalidInputError(
                     f"there is no formula {name!r}", field="names", hint=f"Known are {known}."
                 )
+        if as_json:
+            return print_json(symbolic_reply(report))
+        for name in names or ("K",):
             text = getattr(formulas[name], notation)
             click.echo(f"{name} = {text}" if notation == "sympy" else text)
     return None

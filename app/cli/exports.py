@@ -30,7 +30,7 @@ def export(
     with refusals(as_json):
         content = chosen.content(StepRequest.model_validate(body(base, values)).to_spec())
     if output == Path("-"):
-        click.get_binary_stream("stdout").write(content)
+        click.echo(content, nl=False)
         return
     path = output or Path(chosen.filename)
     try:
