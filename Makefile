@@ -11,7 +11,7 @@ PACKAGING := pyproject.toml constraints.txt package.json package-lock.json hatch
 SOURCES := $(shell find app heli2dof_core static -type f -not -path '*/vendor/*' -not -name '*.pyc' 2>/dev/null)
 CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
 
-.PHONY: help serve test check types unit page-test e2e screenshot bench image clean
+.PHONY: help serve test check types unit page-test e2e screenshot bench docs image clean
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
@@ -44,6 +44,10 @@ screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew
 bench: $(VENV)/.tools ## time all against python-control and SciPy, as ratios; writes docs/performance.md
 	$(BIN)/python -W ignore -m tests.bench.placement
 	$(BIN)/python -W ignore -m tests.bench.update docs/performance.md
+
+docs: $(VENV)/.tools ## the library's reference, into build/docs
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt '.[docs]'
+	$(BIN)/pdoc --docformat google --math --output-directory build/docs heli2dof_core
 
 image: ## build the container with $(IMAGE_BUILDER)
 	$(IMAGE_BUILDER) -t $(IMAGE) .

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pydantic import Field
+
 from .models import Complex, Finding, LoopMargins, Metrics, Model, Sensitivity
 
 
@@ -21,24 +23,24 @@ class Method(Model):
 class Group(Model):
     """A block of the closed loop: its inputs and its poles, by position from 0."""
 
-    inputs: list[int]
-    poles: list[int]
+    inputs: list[int] = Field(description="positions from 0")
+    poles: list[int] = Field(description="positions from 0")
 
 
 class Placement(Model):
     """K of u = −Kx + v for any system; T, Q, indices and groups with full-rank placement."""
 
-    K: list[list[float]]
-    integral: list[list[float]] | None = None
-    T: list[list[float]] | None = None
-    Q: list[list[float]] | None = None
-    controllability_indices: list[int] | None = None
+    K: list[list[float]] = Field(description="p×n, rows are inputs")
+    integral: list[list[float]] | None = Field(None, description="p×q, the method's own integral action")
+    T: list[list[float]] | None = Field(None, description="n×n, x̄ = Tx")
+    Q: list[list[float]] | None = Field(None, description="p×p")
+    controllability_indices: list[int] | None = Field(None, description="one per input")
     groups: list[Group] | None = None
     closed_loop_poles: list[Complex]
-    pole_error: float | None = None
-    norm: float
-    spectral_norm: float
-    eigenvector_condition: float | None = None
+    pole_error: float | None = Field(None, description="largest distance of a pole from the one asked for")
+    norm: float = Field(description="Frobenius norm of K")
+    spectral_norm: float = Field(description="largest singular value of K")
+    eigenvector_condition: float | None = Field(None, description="κ₂ of the closed loop's eigenvectors")
     findings: list[Finding]
 
 
@@ -65,19 +67,25 @@ class ComparisonRow(Model):
     coupling: str | None = None
     lead: str | None = None
     unavailable: Unavailable | None = None
-    K: list[list[float]] | None = None
-    integral: list[list[float]] | None = None
+    K: list[list[float]] | None = Field(
+        None, description="V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y"
+    )
+    integral: list[list[float]] | None = Field(
+        None, description="the method's own integral action, V/(rad·s)"
+    )
     poles: list[Complex] | None = None
     closed_loop_poles: list[Complex] | None = None
-    pole_error: float | None = None
-    norm: float | None = None
-    spectral_norm: float | None = None
-    eigenvector_condition: float | None = None
-    rga: list[list[float]] | None = None
+    pole_error: float | None = Field(
+        None, description="largest distance of a pole from the one asked for, rad/s"
+    )
+    norm: float | None = Field(None, description="Frobenius norm of K")
+    spectral_norm: float | None = Field(None, description="largest singular value of K")
+    eigenvector_condition: float | None = Field(None, description="κ₂ of the closed loop's eigenvectors")
+    rga: list[list[float]] | None = Field(None, description="RGA at s = 0; rows θ, ψ, columns V_p, V_y")
     pairing: list[list[str]] | None = None
     reason: str | None = None
-    niederlinski: float | None = None
-    niederlinski_cross: float | None = None
+    niederlinski: float | None = Field(None, description="index of the diagonal pairing")
+    niederlinski_cross: float | None = Field(None, description="index of the cross pairing")
     metrics: Metrics | None = None
     axis_metrics: AxisMetricsAlone | None = None
     margins: LoopMargins | None = None
@@ -97,9 +105,9 @@ class Comparison(Model):
 class Split(Model):
     """One way to deal the poles: positions of pitch's pair and of yaw's, and what it gives."""
 
-    split: list[list[int]]
+    split: list[list[int]] = Field(description="positions from 0 of pitch's pair and of yaw's")
     poles: list[Complex]
-    K: list[list[float]]
-    norm: float
-    pole_error: float
-    rga: list[list[float]] | None = None
+    K: list[list[float]] = Field(description="V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y")
+    norm: float = Field(description="Frobenius norm of K")
+    pole_error: float = Field(description="largest distance of a pole from the one asked for, rad/s")
+    rga: list[list[float]] | None = Field(None, description="RGA at s = 0; rows θ, ψ, columns V_p, V_y")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import AsyncIterator
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from fastapi import FastAPI, Response
@@ -12,7 +11,9 @@ from fastapi.openapi.docs import get_swagger_ui_html
 from fastapi.responses import FileResponse
 from fastapi.staticfiles import StaticFiles
 
-from . import live, problems, robustness, scene
+from heli2dof_core.version import package_version
+
+from . import examples, live, problems, robustness, scene
 from .compute import Compute
 from .routes import catalogue, comparison, derivation, design, frequency, recording
 from .settings import Settings
@@ -57,6 +58,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(scene.build_router(sessions))
     app.mount("/static", RevalidatedFiles(directory=settings.static), name="static")
     problems.install(app)
+    examples.install(app)
 
     @app.get("/", include_in_schema=False)
     async def page() -> FileResponse:
@@ -88,11 +90,3 @@ class RevalidatedFiles(StaticFiles):
         response = super().file_response(*args, **kwargs)
         response.headers["Cache-Control"] = "no-cache"
         return response
-
-
-def package_version() -> str:
-    """The installed version, or 0 in a checkout that is not installed."""
-    try:
-        return version("heli2dof")
-    except PackageNotFoundError:
-        return "0"

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, Field
 
 from .problems import Problem
 
@@ -22,8 +22,8 @@ class Model(BaseModel):
 class Complex(Model):
     """A complex number."""
 
-    re: float
-    im: float
+    re: float = Field(description="real part")
+    im: float = Field(description="imaginary part")
 
 
 class Finding(Model):
@@ -37,15 +37,15 @@ class Finding(Model):
 class Voltages(Model):
     """Motor voltages, V."""
 
-    V_p: float
-    V_y: float
+    V_p: float = Field(description="pitch motor, V")
+    V_y: float = Field(description="yaw motor, V")
 
 
 class Angles(Model):
     """Angles, rad; left out where there is none."""
 
-    theta: float | None = None
-    psi: float | None = None
+    theta: float | None = Field(None, description="pitch, rad")
+    psi: float | None = Field(None, description="yaw, rad")
 
 
 class Gains(Model):
@@ -56,60 +56,64 @@ class Gains(Model):
     """
 
     method: str
-    K: list[list[float]]
-    integral: list[list[float]] | None = None
-    A: list[list[float]]
-    B: list[list[float]]
+    K: list[list[float]] = Field(description="V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y")
+    integral: list[list[float]] | None = Field(
+        None, description="the method's own integral action, V/(rad·s)"
+    )
+    A: list[list[float]] = Field(description="4×4, x = [θ, ψ, θ̇, ψ̇], SI")
+    B: list[list[float]] = Field(description="4×2, inputs V_p, V_y, SI")
     poles: list[Complex]
     closed_loop_poles: list[Complex]
-    pole_error: float | None = None
-    norm: float
-    spectral_norm: float
-    eigenvector_condition: float | None = None
-    controllability_indices: list[int]
+    pole_error: float | None = Field(
+        None, description="largest distance of a pole from the one asked for, rad/s"
+    )
+    norm: float = Field(description="Frobenius norm of K")
+    spectral_norm: float = Field(description="largest singular value of K")
+    eigenvector_condition: float | None = Field(None, description="κ₂ of the closed loop's eigenvectors")
+    controllability_indices: list[int] = Field(description="one per input")
     findings: list[Finding]
 
 
 class Dominance(Model):
     """Off-diagonal over diagonal size of Ĝ(jω), by rows and by columns; below 1: dominant."""
 
-    rows: list[list[float]]
-    columns: list[list[float]]
+    rows: list[list[float]] = Field(description="per frequency, row θ and row ψ")
+    columns: list[list[float]] = Field(description="per frequency, column V_p and column V_y")
 
 
 class Rga(Model):
     """RGA at s = 0, rows θ, ψ, columns V_p, V_y; left out without steady state."""
 
-    rga: list[list[float]] | None = None
+    rga: list[list[float]] | None = Field(None, description="RGA at s = 0; rows θ, ψ, columns V_p, V_y")
     pairing: list[list[str]] | None = None
     reason: str | None = None
-    niederlinski: float | None = None
-    niederlinski_cross: float | None = None
+    niederlinski: float | None = Field(None, description="index of the diagonal pairing")
+    niederlinski_cross: float | None = Field(None, description="index of the cross pairing")
     dominance: Dominance | None = None
-    frequencies: list[float] | None = None
-    rga_magnitude: list[list[list[float]]] | None = None
+    frequencies: list[float] | None = Field(None, description="rad/s")
+    rga_magnitude: list[list[list[float]]] | None = Field(None, description="|RGA(jω)|, 2×2 per frequency")
     findings: list[Finding]
 
 
 class AxisMetrics(Model):
     """Step metrics of one axis; s, %, rad, rad·s, rad·s²."""
 
-    rise_time: float | None = None
-    settling_time: float | None = None
-    overshoot: float
-    peak: float
-    peak_time: float
-    steady_state_error: float
-    iae: float
-    itae: float
+    rise_time: float | None = Field(None, description="10 % to 90 % of the step, s")
+    settling_time: float | None = Field(None, description="into 2 % of the step, s")
+    overshoot: float = Field(description="% of the step")
+    peak: float = Field(description="angle farthest from the start, rad")
+    peak_time: float = Field(description="s")
+    steady_state_error: float = Field(description="at the end, rad")
+    iae: float = Field(description="∫ |e| dt, rad·s")
+    itae: float = Field(description="∫ t |e| dt, rad·s²")
 
 
 class MotorMetrics(Model):
     """Largest |voltage|, V, share of time at the limit, and effort ∫ (V − V_trim)² dt, V²·s."""
 
-    peak: float
-    saturated: float
-    effort: float
+    peak: float = Field(description="largest |voltage|, V")
+    saturated: float = Field(description="share of time at the limit, 0 to 1")
+    effort: float = Field(description="∫ (V − V_trim)² dt, V²·s")
 
 
 class Metrics(Model):
@@ -117,7 +121,9 @@ class Metrics(Model):
 
     theta: AxisMetrics | None = None
     psi: AxisMetrics | None = None
-    coupling_peak: float | None = None
+    coupling_peak: float | None = Field(
+        None, description="largest deviation of the axis that is not stepped, rad"
+    )
     V_p: MotorMetrics
     V_y: MotorMetrics
 
@@ -125,10 +131,10 @@ class Metrics(Model):
 class States(Model):
     """What the outputs do not show, rad/s and rad·s; the integrals are left out where nothing integrates."""
 
-    theta_dot: list[float]
-    psi_dot: list[float]
-    z_p: list[float] | None = None
-    z_y: list[float] | None = None
+    theta_dot: list[float] = Field(description="rad/s")
+    psi_dot: list[float] = Field(description="rad/s")
+    z_p: list[float] | None = Field(None, description="integral of the pitch error, rad·s")
+    z_y: list[float] | None = Field(None, description="integral of the yaw error, rad·s")
 
 
 class Step(Model):
@@ -137,11 +143,11 @@ class Step(Model):
     `states` are there where they are asked for.
     """
 
-    t: list[float]
-    theta: list[float]
-    psi: list[float]
-    V_p: list[float]
-    V_y: list[float]
+    t: list[float] = Field(description="s")
+    theta: list[float] = Field(description="pitch, absolute, rad")
+    psi: list[float] = Field(description="yaw, absolute, rad")
+    V_p: list[float] = Field(description="pitch motor, V")
+    V_y: list[float] = Field(description="yaw motor, V")
     states: States | None = None
     reference: Angles
     trim: Voltages
@@ -161,10 +167,10 @@ class BothModels(Model):
 class Margins(Model):
     """Margins at one motor's input: factors, rad, s; left out where unlimited."""
 
-    gain_margin: float | None = None
-    gain_reduction_margin: float | None = None
-    phase_margin: float | None = None
-    delay_margin: float | None = None
+    gain_margin: float | None = Field(None, description="factor above 1")
+    gain_reduction_margin: float | None = Field(None, description="factor below 1")
+    phase_margin: float | None = Field(None, description="rad")
+    delay_margin: float | None = Field(None, description="s")
 
 
 class LoopMargins(Model):
@@ -177,14 +183,14 @@ class LoopMargins(Model):
 class FrequencyResponse(Model):
     """L(jω) of the loop opened at one motor's input, the rest closed; the phase without jumps, rad."""
 
-    gain: list[float]
-    phase: list[float]
+    gain: list[float] = Field(description="|L(jω)|")
+    phase: list[float] = Field(description="without jumps, rad")
 
 
 class OpenLoops(Model):
     """The loops opened at each motor, over frequency, rad/s; −1 is critical."""
 
-    frequencies: list[float]
+    frequencies: list[float] = Field(description="rad/s")
     pitch: FrequencyResponse
     yaw: FrequencyResponse
     margins: LoopMargins
@@ -194,13 +200,13 @@ class OpenLoops(Model):
 class Sensitivity(Model):
     """Sensitivity peak and disk margin at both motors at once, rad/s; what the disk margin guarantees."""
 
-    peak: float
-    peak_frequency: float
-    disk_margin: float
-    disk_frequency: float
-    gain_low: float
-    gain_high: float | None = None
-    phase: float
+    peak: float = Field(description="M_S, largest singular value of S(jω)")
+    peak_frequency: float = Field(description="rad/s")
+    disk_margin: float = Field(description="α, skew 0")
+    disk_frequency: float = Field(description="rad/s")
+    gain_low: float = Field(description="lowest factor on both gains that is borne")
+    gain_high: float | None = Field(None, description="highest factor; left out where unlimited")
+    phase: float = Field(description="change at both motors that is borne, ±rad")
 
 
 class AxisSteps(Model):
@@ -213,15 +219,15 @@ class AxisSteps(Model):
 class Limits(Model):
     """Voltage limits, V, and pitch travel, rad, where it is not free."""
 
-    V_p: float
-    V_y: float
-    theta: float | None = None
+    V_p: float = Field(description="of |V_p|, V")
+    V_y: float = Field(description="of |V_y|, V")
+    theta: float | None = Field(None, description="pitch travel ±theta, rad")
 
 
 class Evaluation(Model):
     """Gains, RGA, responses and margins at once."""
 
-    seq: int | None = None
+    seq: int | None = Field(None, description="the live request's number")
     gains: Gains
     open_loop_poles: list[Complex]
     rga: Rga
@@ -239,8 +245,8 @@ class Evaluation(Model):
 class PI(Model):
     """kp in V/rad, ti in s."""
 
-    kp: float
-    ti: float
+    kp: float = Field(description="V/rad")
+    ti: float = Field(description="s")
 
 
 class Loops(Model):
@@ -264,8 +270,8 @@ class ParameterInfo(Model):
 
     meaning: str
     unit: str
-    minimum: float
-    maximum: float
+    minimum: float = Field(description="lowest value allowed, in `unit`")
+    maximum: float = Field(description="highest value allowed, in `unit`")
 
 
 class ComponentInfo(Model):
@@ -280,8 +286,8 @@ class Scenario(Model):
     """A preset's own experiment."""
 
     reference: Angles
-    duration: float
-    samples: int
+    duration: float = Field(description="s")
+    samples: int = Field(description="t = linspace(0, duration, samples)")
 
 
 class Preset(Model):
@@ -291,14 +297,14 @@ class Preset(Model):
     title: str
     source: str
     rig: str
-    parameters: dict[str, float]
+    parameters: dict[str, float] = Field(description="SI units, see `parameter_info`")
     parameter_info: dict[str, ParameterInfo]
-    components: dict[str, float]
+    components: dict[str, float] = Field(description="in the units of `component_info`")
     component_info: dict[str, ComponentInfo]
     limits: Limits
     limit_info: dict[str, ParameterInfo]
-    encoders: dict[str, int]
-    operating_point: dict[str, float]
+    encoders: dict[str, int] = Field(description="counts per revolution")
+    operating_point: dict[str, float] = Field(description="theta, rad")
     poles: list[Complex]
     coupling: str
     lead: str
@@ -338,7 +344,7 @@ class Symbolic(Model):
     A_bar: Formula
     B_bar: Formula
     K_bar: Formula
-    K: Formula
+    K: Formula = Field(description="V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y")
     closed_loop: Formula
     canonical_closed_loop: Formula
     G: Formula
@@ -347,7 +353,7 @@ class Symbolic(Model):
     RGA_s: Formula
     entries: dict[str, dict[str, Formula]]
     definitions: dict[str, Formula]
-    controllability_indices: list[int]
+    controllability_indices: list[int] = Field(description="one per input")
     symbols: list[Symbol]
 
 

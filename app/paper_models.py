@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pydantic import Field
+
 from .models import Complex, Model
 
 
@@ -50,11 +52,11 @@ class PrintedNumber(Model):
     unit: str
     printed_unit: str | None = None
     formula: str
-    recomputed: float | None = None
-    corrected: float | None = None
-    on_rig: float | None = None
-    digits: int | None = None
-    digits_printed: int
+    recomputed: float | None = Field(None, description="by the printed formula, in `unit`")
+    corrected: float | None = Field(None, description="by the right formula, in `unit`")
+    on_rig: float | None = Field(None, description="on the default rig, in `unit`")
+    digits: int | None = Field(None, description="significant digits that agree")
+    digits_printed: int = Field(description="significant digits printed")
     verdict: str
     note: str
 
@@ -102,15 +104,15 @@ class Curve(Model):
 
     name: str
     title: str
-    angle: list[float]
+    angle: list[float] = Field(description="rad")
 
 
 class Figure(Model):
     """A redrawn figure; t in s."""
 
-    number: int
+    number: int = Field(description="of the paper")
     output: str
-    t: list[float]
+    t: list[float] = Field(description="s")
     curves: list[Curve]
 
 
@@ -137,23 +139,25 @@ class Walkthrough(Model):
     G_0 and rga are left out where a pole is 0.
     """
 
-    constants: dict[str, float]
-    A: Matrix
-    B: Matrix
-    trim: dict[str, float]
-    controllability_matrix: Matrix
-    controllability_indices: list[int]
-    coefficients: dict[str, float] | None = None
-    T: Matrix | None = None
-    Q: Matrix | None = None
-    A_bar: Matrix | None = None
-    B_bar: Matrix | None = None
-    K_bar: Matrix | None = None
-    K: Matrix
-    integral: Matrix | None = None
-    closed_loop: Matrix
-    closed_loop_bar: Matrix | None = None
+    constants: dict[str, float] = Field(description="α, β₀, γ, a; SI")
+    A: Matrix = Field(description="4×4, SI")
+    B: Matrix = Field(description="4×2, SI")
+    trim: dict[str, float] = Field(description="V")
+    controllability_matrix: Matrix = Field(description="[B, AB, …], 4×8")
+    controllability_indices: list[int] = Field(description="one per input")
+    coefficients: dict[str, float] | None = Field(None, description="d₁₀, d₂₀ in 1/s², d₁₁, d₂₁ in 1/s")
+    T: Matrix | None = Field(None, description="4×4, x̄ = Tx")
+    Q: Matrix | None = Field(None, description="2×2")
+    A_bar: Matrix | None = Field(None, description="T A T⁻¹")
+    B_bar: Matrix | None = Field(None, description="T B")
+    K_bar: Matrix | None = Field(None, description="Q K T⁻¹")
+    K: Matrix = Field(description="V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y")
+    integral: Matrix | None = Field(None, description="the method's own integral action, V/(rad·s)")
+    closed_loop: Matrix = Field(description="A − BK")
+    closed_loop_bar: Matrix | None = Field(None, description="T (A − BK) T⁻¹")
     closed_loop_poles: list[Complex]
-    pole_error: float | None = None
-    G_0: Matrix | None = None
-    rga: Matrix | None = None
+    pole_error: float | None = Field(
+        None, description="largest distance of a pole from the one asked for, rad/s"
+    )
+    G_0: Matrix | None = Field(None, description="Ĝ(0), rad/V")
+    rga: Matrix | None = Field(None, description="RGA at s = 0; rows θ, ψ, columns V_p, V_y")

@@ -27,24 +27,30 @@ Position = Annotated[int, Field(ge=0, lt=MOST_STATES)]
 class PoleGroup(Strict):
     """A block of the closed loop: whose chains form it, and which poles it gets; positions from 0."""
 
-    inputs: list[Position] = Field(max_length=MOST_STATES)
-    poles: list[Position] = Field(max_length=MOST_STATES)
+    inputs: list[Position] = Field(max_length=MOST_STATES, description="positions from 0")
+    poles: list[Position] = Field(max_length=MOST_STATES, description="positions from 0")
 
 
 class SystemWeights(Strict):
     """Diagonals of Q, R and of the integrals' weight; ones where left out."""
 
-    states: list[Weight] | None = Field(default=None, max_length=MOST_STATES)
-    inputs: list[PositiveWeight] | None = Field(default=None, max_length=MOST_STATES)
-    integrals: list[PositiveWeight] | None = Field(default=None, max_length=MOST_STATES)
+    states: list[Weight] | None = Field(default=None, max_length=MOST_STATES, description="of Q, n")
+    inputs: list[PositiveWeight] | None = Field(default=None, max_length=MOST_STATES, description="of R, p")
+    integrals: list[PositiveWeight] | None = Field(
+        default=None, max_length=MOST_STATES, description="of the integrated errors, one per row of C"
+    )
 
 
 class PlaceRequest(Strict):
     """Any system ẋ = Ax + Bu and its desired poles, row by row, in any units."""
 
-    A: Matrix
-    B: Matrix
-    poles: list[Pole] = Field(min_length=1, max_length=MOST_STATES)
+    A: Matrix = Field(description="n×n, row by row")
+    B: Matrix = Field(description="n×p, row by row")
+    poles: list[Pole] = Field(
+        min_length=1,
+        max_length=MOST_STATES,
+        description="n, in the unit of A; complex ones with their conjugates",
+    )
     method: str = Field(default=FULL_RANK, json_schema_extra={"enum": [*METHODS]})
     groups: list[PoleGroup] | None = Field(
         default=None, max_length=MOST_STATES, description="full-rank: by default in the order of the poles"

@@ -31,7 +31,7 @@ class Problem(BaseModel):
 
     type: str = Field(description="identifies the kind of problem")
     title: str
-    status: int
+    status: int = Field(description="HTTP status")
     detail: str = Field(description="what is wrong, in words")
     code: str = Field(description="stable name for programs")
     field: str = Field("", description="JSON path of the offending input")

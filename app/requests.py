@@ -269,8 +269,8 @@ class Initial(Strict):
 class EncoderCounts(Strict):
     """Counts per revolution; 0 measures exactly."""
 
-    theta: int = Field(default=4096, ge=0)
-    psi: int = Field(default=8192, ge=0)
+    theta: int = Field(default=4096, ge=0, description="of pitch")
+    psi: int = Field(default=8192, ge=0, description="of yaw")
 
 
 class DigitalController(Strict):
@@ -281,14 +281,14 @@ class DigitalController(Strict):
     encoders: EncoderCounts | None = Field(default=None, description="the preset's where left out")
     rates: Rates = Field(default="filtered", description="filtered: from the angles, 20 Hz, damping 0.85")
     noise: float = Field(default=0.0, description="standard deviation on the measured angles, rad")
-    seed: int = Field(default=0, ge=0, le=2**32 - 1)
+    seed: int = Field(default=0, ge=0, le=2**32 - 1, description="of the noise")
 
 
 class InputDisturbance(Strict):
     """Volts that act on the motors besides the controller's, from `time` on."""
 
-    V_p: float = 0.0
-    V_y: float = 0.0
+    V_p: float = Field(0.0, description="pitch motor, V")
+    V_y: float = Field(0.0, description="yaw motor, V")
     time: float = Field(default=0.0, description="s")
 
 

@@ -4,76 +4,23 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator
 
 import orjson
 from fastapi import APIRouter, Response, WebSocket, WebSocketDisconnect
-from pydantic import Field, ValidationError
+from pydantic import ValidationError
 
 from heli2dof_core import Heli2DofError
-from heli2dof_core.robustness import Cloud, Distribution, Uncertainty, cloud, cloud_in_parts
+from heli2dof_core.robustness import Cloud, cloud, cloud_in_parts
 
 from .compute import Compute
 from .encoding import json_bytes, json_response
-from .models import Complex, Model, described
+from .models import described
 from .problems import problem, problem_of
-from .replies import Reply, poles_reply
-from .requests import StepRequest
+from .replies import Reply
+from .robustness_requests import RobustnessReply, RobustnessRequest, cloud_reply
 
 _log = logging.getLogger(__name__)
-MOST_POLES = 2000
-"""Rigs whose poles are sent; more make no other picture."""
-
-
-class RobustnessRequest(StepRequest):
-    """A design, an experiment, and how far the rigs may differ from the nominal one."""
-
-    uncertainty: dict[str, float] | None = Field(
-        default=None, description="relative, per parameter; by default 0.1 for all but g"
-    )
-    distribution: Distribution = "uniform"
-    samples: int = Field(default=200, ge=1, le=20_000)
-    seed: int = Field(default=0, ge=0, le=2**32 - 1)
-
-    def to_uncertainty(self) -> Uncertainty:
-        """The core's uncertainty."""
-        given: Mapping[str, Any] = {} if self.uncertainty is None else {"spread": self.uncertainty}
-        return Uncertainty(**given, distribution=self.distribution, samples=self.samples, seed=self.seed)
-
-
-class Envelope(Model):
-    """One output's percentiles over t, rad: a row per percentile."""
-
-    theta: list[list[float]]
-    psi: list[list[float]]
-
-
-class RobustnessReply(Model):
-    """After `done` of `samples` rigs; poles of the whole loop of the first of them, rad/s."""
-
-    done: int
-    samples: int
-    loop_poles: list[list[Complex]]
-    t: list[float]
-    percentiles: list[float]
-    envelopes: Envelope
-    share_stable: float
-    share_within_limits: float
-
-
-def cloud_reply(result: Cloud) -> Reply:
-    """A cloud, or what is known of it so far."""
-    return {
-        "done": result.done,
-        "samples": result.samples,
-        "loop_poles": [poles_reply(poles) for poles in result.loop_poles[:MOST_POLES]],
-        "t": result.t,
-        "percentiles": list(result.percentiles),
-        "envelopes": result.envelopes,
-        "share_stable": result.share_stable,
-        "share_within_limits": result.share_within_limits,
-    }
 
 
 def build_router(compute: Compute) -> APIRouter:

@@ -1,15 +1,22 @@
 """Pole placement for a two-degree-of-freedom laboratory helicopter: the mathematics.
 
-    import heli2dof_core as heli
+>>> import heli2dof_core as heli
+>>> spec = heli.Spec.from_preset("quanser-2dof-manual", poles=[-12, -10, -3 + 4j, -3 - 4j])
+>>> report = heli.evaluate(spec)
+>>> report.design
+<Design: full-rank, triangular; poles −12, −10, −3 ± 4j rad/s; ‖K‖ = 60.57>
+>>> report.step["nonlinear"].response.theta.shape
+(501,)
 
-    spec = heli.Spec.from_preset(heli.preset())
-    report = heli.evaluate(spec)
-    report.design.K, report.loop.poles, report.interaction.rga
+`formulas()` gives the derivation as SymPy objects, `to_control()` of a plant, a design or a loop a
+`control.StateSpace`. Results are frozen; a notebook shows them as small tables.
 
-Knows no web, no 3D and no plot. SymPy is imported on the first derivation only.
+Knows no web, no 3D and no plot. SymPy and python-control are imported when they are first needed.
 """
 
-from .comparison import compare, compare_splits
+from typing import TYPE_CHECKING, Any
+
+from .comparison import Comparison, compare, compare_splits
 from .components import Components
 from .couplings import Structure
 from .design import Design, design
@@ -22,10 +29,12 @@ from .errors import (
     UncontrollableError,
     UnpairedPolesError,
 )
-from .evaluate import Report, Spec, evaluate, place, simulate
+from .evaluate import Report, Spec, Step, evaluate, place, simulate
 from .findings import Finding
+from .formulas import formulas
 from .interaction import Interaction, interaction, rga_over_frequency
 from .loop import Loop, close_loop
+from .metrics import StepMetrics
 from .parameters import Parameters
 from .placement.assess import Assessment, place_poles
 from .placement.full_rank import full_rank
@@ -37,16 +46,23 @@ from .presets import PRESETS, Preset, preset
 from .relative_gains import best_pairing, diagonal_dominance, niederlinski_index, relative_gain_array
 from .robustness import Cloud, Uncertainty, cloud
 from .simulation.response import Response
-from .spec import Limits, OuterLoop, PIGains, Scenario
-from .tuning import suggest_pi
+from .spec import Digital, Disturbance, Limits, OuterLoop, PIGains, Scenario
+from .tuning import Suggestion, suggest_pi
+
+if TYPE_CHECKING:
+    from . import paper as paper
+    from . import symbolic as symbolic
 
 __all__ = [
     "METHODS",
     "PRESETS",
     "Assessment",
     "Cloud",
+    "Comparison",
     "Components",
     "Design",
+    "Digital",
+    "Disturbance",
     "Finding",
     "Heli2DofError",
     "Interaction",
@@ -64,8 +80,11 @@ __all__ = [
     "Response",
     "Scenario",
     "Spec",
+    "Step",
+    "StepMetrics",
     "Structure",
     "StructureUnavailableError",
+    "Suggestion",
     "Uncertainty",
     "UncontrollableError",
     "UnpairedPolesError",
@@ -78,6 +97,7 @@ __all__ = [
     "design",
     "diagonal_dominance",
     "evaluate",
+    "formulas",
     "full_rank",
     "interaction",
     "match_poles",
@@ -93,3 +113,12 @@ __all__ = [
     "suggest_pi",
     "warm_up",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """`symbolic` and `paper`, imported when they are asked for: SymPy comes with them."""
+    if name in ("paper", "symbolic"):
+        from importlib import import_module
+
+        return import_module(f".{name}", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -15,6 +15,7 @@ from .interaction import Interaction, interaction
 from .placement.groups import splits
 from .placement.registry import METHODS
 from .poles import PoleSet
+from .tables import NOTHING, Shown, Table, number
 
 STRUCTURES = (
     Structure("triangular", "pitch"),
@@ -26,8 +27,8 @@ STRUCTURES = (
 DYADIC = ("ackermann", "bass-gura")
 
 
-@dataclass(frozen=True)
-class Row:
+@dataclass(frozen=True, repr=False)
+class Row(Shown):
     """One method's result.
 
     Attributes:
@@ -42,22 +43,65 @@ class Row:
     report: Report | None
     unavailable: Heli2DofError | None
 
+    @property
+    def name(self) -> str:
+        """The method, with its structure where it has one."""
+        if self.structure is None:
+            return self.method
+        lead = f", {self.structure.lead} leads" if self.structure.coupling == "triangular" else ""
+        return f"{self.method} {self.structure.coupling}{lead}"
 
-@dataclass(frozen=True)
-class Comparison:
+    def summary(self) -> str:
+        """The method and what came of it."""
+        return f"{self.name}; {'not available' if self.report is None else self.report.summary()}"
+
+
+@dataclass(frozen=True, repr=False)
+class Comparison(Shown):
     """Rows in the order of the registry, and what they say of the paper's claim of lower gains."""
 
     rows: tuple[Row, ...]
     claim: str
 
+    def summary(self) -> str:
+        """How many methods have a result."""
+        return f"{sum(row.report is not None for row in self.rows)} of {len(self.rows)} available"
 
-@dataclass(frozen=True)
-class Split:
+    def tables(self) -> tuple[Table, ...]:
+        """A row per method; and why some have no result."""
+        refused = [(row.name, f"{row.unavailable}") for row in self.rows if row.unavailable is not None]
+        heads = ("", "‖K‖", "κ(V)", "λ₁₁", "θ settles (s)", "ψ settles (s)", "loop")
+        return (
+            Table.of("methods", heads, (_cells(row.name, row.report) for row in self.rows if row.report)),
+            *((Table.of("not available", ("", "why"), refused),) if refused else ()),
+        )
+
+
+def _cells(name: str, report: Report) -> tuple[str, ...]:
+    axes = report.step["nonlinear"].metrics.axes
+    settling = (number(axes[axis].settling_time) if axis in axes else NOTHING for axis in ("theta", "psi"))
+    return (
+        name,
+        number(report.design.norm),
+        number(report.design.eigenvector_condition),
+        number(report.interaction.relative_gain),
+        *settling,
+        "stable" if report.loop.stable else "unstable",
+    )
+
+
+@dataclass(frozen=True, repr=False)
+class Split(Shown):
     """One way to deal the four poles into pitch's and yaw's pair: positions from 0, and the design."""
 
     pairs: tuple[tuple[int, ...], ...]
     design: Design
     interaction: Interaction
+
+    def summary(self) -> str:
+        """The pairs and the gain."""
+        pairs = " | ".join(", ".join(str(i + 1) for i in pair) for pair in self.pairs)
+        return f"poles {pairs}; {self.design.summary()}"
 
 
 def compare(spec: Spec, methods: Sequence[str] | None = None) -> Comparison:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import hypot, sqrt
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from .compiled import gain
 from .couplings import Structure, require_structure
 from .eigenvalues import eigenvalues
 from .findings import Finding
+from .interop import state_space
 from .placement.assess import eigenvector_condition
 from .placement.lqr_integral import IntegralPlacement
 from .placement.method import Task, Weights
@@ -19,13 +21,17 @@ from .placement.registry import method as method_named
 from .plant import Plant
 from .poles import PoleSet, match_poles
 from .remarks import design_remarks
-from .signals import C, Complexes, Floats
+from .signals import INPUTS, OUTPUTS, STATES, C, Complexes, Floats
+from .tables import Shown, Table, latex_matrix, number, poles
+
+if TYPE_CHECKING:
+    import control
 
 FULL_RANK = "full-rank"
 
 
-@dataclass(frozen=True)
-class Design:
+@dataclass(frozen=True, repr=False)
+class Design(Shown):
     """State feedback u = −Kx + v for one rig, by one method.
 
     Attributes:
@@ -95,6 +101,36 @@ class Design:
         is 0 and Ĝ(0) does not; it is then singular.
         """
         return self.K[:, :2] - self.plant.statics
+
+    def to_control(self) -> control.StateSpace:
+        """The inner loop alone, Ĝ(s) (Eq. 17): v_p, v_y of u = −Kx + v to θ, ψ, V to rad, deviations.
+
+        >>> import heli2dof_core as heli
+        >>> inner = heli.place(heli.Spec.from_preset(poles=[-4, -5, -6, -7])).to_control()
+        >>> sorted(round(p.real, 6) for p in inner.poles().tolist())
+        [-7.0, -6.0, -5.0, -4.0]
+        """
+        matrices = (self.A_closed, self.plant.B, C, np.zeros((2, 2)))
+        return state_space("inner_loop", matrices, STATES, ("v_p", "v_y"), OUTPUTS)
+
+    def summary(self) -> str:
+        """Method, poles and size of K."""
+        own = "" if self.structure is None else f", {self.structure.coupling}"
+        return f"{self.method}{own}; poles {poles(self.closed_loop_poles.tolist())} rad/s; ‖K‖ = {number(self.norm)}"
+
+    def tables(self) -> tuple[Table, ...]:
+        """K, and the poles as placed beside those asked for."""
+        units = ("V/rad", "V/rad", "V·s/rad", "V·s/rad")
+        heads = [f"{s.symbol} ({unit})" for s, unit in zip(STATES, units, strict=True)]
+        wanted = self.poles.values if self.aims else (None,) * 4
+        rows = zip("1234", map(number, wanted), map(number, self.closed_loop_poles.tolist()), strict=True)
+        return (
+            Table.matrix("K, u = −Kx + v", self.K, [s.symbol for s in INPUTS], heads),
+            Table.of("poles, rad/s", ("pole", "wanted", "placed"), rows),
+        )
+
+    def _repr_latex_(self) -> str:
+        return latex_matrix("K", self.K)
 
 
 def design(

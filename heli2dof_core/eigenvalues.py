@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from functools import cache
 from math import isfinite
 from typing import Any
 
 import numpy as np
-from scipy.linalg import get_lapack_funcs
 
 from .signals import Complexes, Floats
 
-_geev: Any = get_lapack_funcs("geev")
+
+@cache
+def _geev() -> Any:
+    """LAPACK's geev; with SciPy comes half of what importing the core would take."""
+    from scipy.linalg import get_lapack_funcs
+
+    return get_lapack_funcs("geev")
 
 
 def eigenvalues(A: Floats) -> list[complex]:
@@ -38,7 +44,7 @@ def eigenvectors(A: Floats) -> Floats | Complexes:
 
 
 def _solved(A: Floats, *, vectors: bool) -> tuple[list[float], list[float], Floats]:
-    real, imaginary, _, right, info = _geev(A, compute_vl=False, compute_vr=vectors)
+    real, imaginary, _, right, info = _geev()(A, compute_vl=False, compute_vr=vectors)
     if info or not isfinite(np.vdot(A, A)):  # geev itself gives some answer to NaN
         raise np.linalg.LinAlgError(f"the eigenvalues of a matrix of {len(A)} rows were not found")
     return real.tolist(), imaginary.tolist(), right

@@ -2,35 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
-from .couplings import Structure
+from .couplings import Coupling, Lead, Structure
 from .design import FULL_RANK, Design, design
 from .findings import Finding, merged
 from .interaction import Interaction, interaction
 from .loop import Loop, close_loop
-from .margins import Margins, loop_margins
+from .margins import Margins, loop_margins, margin_table
 from .metrics import StepMetrics, measured, step_metrics
 from .parameters import Parameters
 from .placement.method import Weights
 from .plant import plant
 from .poles import PoleSet
-from .presets import Preset
+from .presets import DEFAULT, Preset
+from .presets import preset as preset_named
 from .sensitivity import Sensitivity, loop_sensitivity
 from .simulation.courses import Courses, run_experiments
 from .simulation.digital import simulate_digital
 from .simulation.linear import simulate_linear
 from .simulation.nonlinear import simulate_nonlinear
 from .simulation.response import Response
-from .spec import Limits, Model, OuterLoop, Scenario
+from .spec import Limits, Model, Outer, OuterLoop, Pairing, PIGains, Scenario
+from .tables import Shown, Table, number, poles
 from .weights import bryson_weights
 
 
-@dataclass(frozen=True)
-class Spec:
+@dataclass(frozen=True, repr=False)
+class Spec(Shown):
     """All that a user chooses.
 
     Attributes:
@@ -52,29 +56,108 @@ class Spec:
     weights: Weights | None = None
 
     @classmethod
-    def from_preset(cls, preset: Preset) -> Spec:
-        """The preset's own design and scenario."""
-        return cls(
-            preset.parameters,
-            preset.limits,
-            preset.theta_0,
-            preset.poles,
-            preset.structure,
-            preset.outer,
-            preset.scenario,
+    def from_preset(cls, preset: Preset | str = DEFAULT, **changes: Any) -> Spec:
+        """The preset's own design and scenario, with `changes` as `changed` takes them.
+
+        >>> Spec.from_preset("quanser-2dof-manual", poles=[-4, -5, -3 + 4j, -3 - 4j]).poles
+        PoleSet([-4, -5, -3+4j, -3-4j])
+
+        Raises:
+            InvalidInputError: there is no preset of that name; or as `changed`.
+        """
+        own = preset_named(preset) if isinstance(preset, str) else preset
+        rig = (own.parameters, own.limits, own.theta_0)
+        return cls(*rig, own.poles, own.structure, own.outer, own.scenario).changed(**changes)
+
+    def changed(
+        self,
+        *,
+        poles: PoleSet | Iterable[complex] | None = None,
+        method: str | None = None,
+        coupling: Coupling | None = None,
+        lead: Lead | None = None,
+        parameters: Mapping[str, float] | None = None,
+        theta_0: float | None = None,
+        outer: Outer | None = None,
+        pitch: PIGains | tuple[float, float] | None = None,
+        yaw: PIGains | tuple[float, float] | None = None,
+        pairing: Pairing | None = None,
+        decoupler: bool | None = None,
+        reference: tuple[float | None, float | None] | None = None,
+        duration: float | None = None,
+    ) -> Spec:
+        """The same with some things changed; what is left out stays.
+
+        >>> spec = Spec.from_preset()
+        >>> spec.changed(pitch=(10, 0.5), reference=(0.2, None)).outer.pitch
+        PIGains(kp=10, ti=0.5)
+
+        Args:
+            poles: pitch's pair, then yaw's, rad/s.
+            method: name in `METHODS`.
+            coupling: of the closed loop; a shift of its own is dropped with it.
+            lead: the axis that leads where it is triangular; likewise.
+            parameters: by name, SI units, as in `Parameters`.
+            theta_0: operating point, rad.
+            outer: ``pi`` or ``none``.
+            pitch: PI gains, or (kp in V/rad, ti in s).
+            yaw: the same of the yaw error.
+            pairing: as in `OuterLoop`.
+            decoupler: as in `OuterLoop`.
+            reference: of θ and ψ, rad, absolute; None leaves that axis at rest.
+            duration: s.
+
+        Raises:
+            Heli2DofError: a value is out of its range; its field says which.
+        """
+
+        def given(**values: Any) -> dict[str, Any]:
+            return {name: value for name, value in values.items() if value is not None}
+
+        def gains(pi: PIGains | tuple[float, float] | None) -> PIGains | None:
+            return pi if pi is None or isinstance(pi, PIGains) else PIGains(*pi)
+
+        structure = given(coupling=coupling, lead=lead)
+        loops = given(outer=outer, pitch=gains(pitch), yaw=gains(yaw), pairing=pairing, decoupler=decoupler)
+        scenario = given(duration=duration)
+        if reference is not None:
+            scenario |= dict(zip(("theta", "psi"), reference, strict=True))
+        return replace(
+            self,
+            **given(
+                poles=poles if poles is None or isinstance(poles, PoleSet) else PoleSet(poles),
+                method=method,
+                structure=replace(self.structure, **structure, shift=None) if structure else None,
+                parameters=parameters and self.parameters.replaced(dict(parameters)),
+                theta_0=theta_0,
+                outer=replace(self.outer, **loops) if loops else None,
+                scenario=replace(self.scenario, **scenario) if scenario else None,
+            ),
         )
 
+    def summary(self) -> str:
+        """Method, poles and outer loop."""
+        return f"{self.method}, {self.structure.coupling}; poles {poles(self.poles.values)} rad/s; {self.outer.outer}"
 
-@dataclass(frozen=True)
-class Step:
+
+@dataclass(frozen=True, repr=False)
+class Step(Shown):
     """One response and its metrics."""
 
     response: Response
     metrics: StepMetrics
 
+    def summary(self) -> str:
+        """The model and its metrics."""
+        return f"{self.response.model}; {self.metrics.summary()}"
 
-@dataclass(frozen=True)
-class Report:
+    def tables(self) -> tuple[Table, ...]:
+        """Those of the metrics."""
+        return self.metrics.tables()
+
+
+@dataclass(frozen=True, repr=False)
+class Report(Shown):
     """What `evaluate` has computed of a spec; its words and tables are made where they are read.
 
     Attributes:
@@ -110,6 +193,24 @@ class Report:
         own = (self.design.findings, self.loop.findings, self.interaction.findings)
         steps = [step for steps in (self.step, *self.axis_steps.values()) for step in steps.values()]
         return merged(*own, *(step.response.findings for step in steps))
+
+    def summary(self) -> str:
+        """Stability, size of K and the rig's step."""
+        stability = "stable" if self.loop.stable else "unstable"
+        rig = self.step["nonlinear"].metrics.summary()
+        return f"{stability}; ‖K‖ = {number(self.design.norm)}; {len(self.findings)} findings; {rig}"
+
+    def tables(self) -> tuple[Table, ...]:
+        """K and its poles, RGA, the whole loop, margins, the rig's step and what is to be said of it all."""
+        findings = ((finding.severity, finding.message) for finding in self.findings)
+        return (
+            *self.design.tables(),
+            *self.interaction.tables(),
+            *self.loop.tables(),
+            *(() if self.margins is None else (margin_table(self.margins),)),
+            *self.step["nonlinear"].tables(),
+            *((Table.of("findings", ("", "what"), findings),) if self.findings else ()),
+        )
 
     def _both(self, n: int) -> dict[Model, Step]:
         nonlinear = self._nonlinear[n] if self._nonlinear else self._step(n, "nonlinear")

@@ -11,13 +11,14 @@ from .findings import Finding, Severity
 from .relative_gains import diagonal_dominance, relative_gain_array
 from .signals import INPUTS, OUTPUTS, C, Complexes, Floats
 from .spec import Pairing
+from .tables import Shown, Table, latex_matrix, number
 
 SINGULAR = 1e-12
 """Ĝ(0)⁻¹ counts as singular when its determinant is below this share of its entries' products."""
 
 
-@dataclass(frozen=True)
-class Interaction:
+@dataclass(frozen=True, repr=False)
+class Interaction(Shown):
     """Interaction between the two loops at steady state.
 
     Attributes:
@@ -72,6 +73,24 @@ class Interaction:
         if self.relative_gain is None or self.advised == self.in_use:
             return ()
         return (_against(self.relative_gain, self.advised, self.reason),)
+
+    def summary(self) -> str:
+        """What λ₁₁ means for the pairing."""
+        return self.reason
+
+    def tables(self) -> tuple[Table, ...]:
+        """RGA and Niederlinski indices; none without steady state."""
+        if self.rga is None:
+            return ()
+        indices = (("diagonal", number(self.niederlinski)), ("cross", number(self.niederlinski_cross)))
+        outputs, inputs = ([s.symbol for s in signals] for signals in (OUTPUTS, INPUTS))
+        return (
+            Table.matrix("RGA at s = 0", self.rga, outputs, inputs),
+            Table.of("Niederlinski index", ("pairing", "index"), indices),
+        )
+
+    def _repr_latex_(self) -> str | None:
+        return None if self.rga is None else latex_matrix(r"\Lambda", self.rga)
 
 
 def interaction(design: Design, pairing: Pairing = "diagonal") -> Interaction:

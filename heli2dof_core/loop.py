@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,13 +13,18 @@ from .design import Design
 from .eigenvalues import eigenvalues
 from .engine import engine
 from .findings import Finding
+from .interop import state_space
 from .layout import OWN, PI, POLYNOMIALS, STATIC
-from .signals import AXES, Complexes, Floats
+from .signals import AXES, INPUTS, INTEGRALS, OUTPUTS, STATES, Complexes, Floats
 from .spec import OuterLoop
+from .tables import Shown, Table, number, poles
+
+if TYPE_CHECKING:
+    import control
 
 
-@dataclass(frozen=True)
-class Loop:
+@dataclass(frozen=True, repr=False)
+class Loop(Shown):
     """Design and outer loop together, linear, in deviations from the trim.
 
     States are x = [θ, ψ, θ̇, ψ̇] and, with PI, z = ∫ error of pitch and yaw in rad·s. The voltage is
@@ -77,6 +83,36 @@ class Loop:
     def stable(self) -> bool:
         """Whether every pole of the whole loop lies left of the imaginary axis."""
         return bool(self.poles[0].real < 0)
+
+    def to_control(self, *, voltages: bool = False) -> control.StateSpace:
+        """The whole loop: θ_ref, ψ_ref to θ, ψ, rad to rad, in deviations from the operating point.
+
+        Args:
+            voltages: V_p, V_y (V, deviations from the trim) are outputs too.
+        """
+        order = len(self.A)
+        C, D = np.eye(2, order), np.zeros((2, 2))
+        outputs = OUTPUTS
+        if voltages:
+            C, D = np.vstack((C, self.voltage_from_state)), np.vstack((D, self.voltage_from_reference))
+            outputs = (*OUTPUTS, *INPUTS)
+        references = [f"{signal.name}_ref" for signal in OUTPUTS]
+        return state_space(
+            "whole_loop", (self.A, self.B, C, D), (*STATES, *INTEGRALS)[:order], references, outputs
+        )
+
+    def summary(self) -> str:
+        """Stability and poles."""
+        stability = "stable" if self.stable else "unstable"
+        kind = "own integral action" if self.design.integral is not None else self.outer.outer
+        return f"{stability}, {kind}; poles {poles(self.poles.tolist())} rad/s"
+
+    def tables(self) -> tuple[Table, ...]:
+        """The poles of the whole loop, slowest first, with their natural frequency and damping."""
+        rows = (
+            (number(p), number(abs(p)), number(-p.real / abs(p) if p else None)) for p in self.poles.tolist()
+        )
+        return (Table.of("whole loop", ("pole (rad/s)", "ωₙ (rad/s)", "ζ"), rows),)
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:

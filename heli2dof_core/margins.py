@@ -10,7 +10,8 @@ import numpy as np
 from .engine import engine
 from .layout import MARGINS, POLYNOMIAL_WORKSPACE
 from .loop import Loop
-from .signals import Complexes, Floats
+from .signals import AXES, Complexes, Floats
+from .tables import Table, number
 
 
 @dataclass(frozen=True)
@@ -42,6 +43,18 @@ def loop_margins(loop: Loop) -> tuple[Margins, Margins] | None:
     engine().margins(loop.polynomials, np.empty(POLYNOMIAL_WORKSPACE), table)
     pitch, yaw = ([None if isnan(v) else v for v in row] for row in table.tolist())
     return Margins(*pitch), Margins(*yaw)
+
+
+def margin_table(margins: tuple[Margins, Margins]) -> Table:
+    """Both motors' margins; a dash where there is no limit."""
+    rows = (
+        ("gain margin", "gain_margin"),
+        ("gain reduction margin", "gain_reduction_margin"),
+        ("phase margin (rad)", "phase_margin"),
+        ("delay margin (s)", "delay_margin"),
+    )
+    cells = ((label, *(number(getattr(own, name)) for own in margins)) for label, name in rows)
+    return Table.of("margins at the motors", ("", *AXES), cells)
 
 
 def open_loop_response(loop: Loop, frequencies: Floats) -> Complexes:

@@ -12,6 +12,7 @@ from .engine import engine
 from .layout import AXIS_METRICS, MOTOR_METRICS
 from .signals import INPUTS, OUTPUTS, Floats
 from .simulation.response import Response
+from .tables import Shown, Table, number
 
 
 @dataclass(frozen=True)
@@ -60,8 +61,8 @@ class MotorMetrics:
     effort: float
 
 
-@dataclass(frozen=True)
-class StepMetrics:
+@dataclass(frozen=True, repr=False)
+class StepMetrics(Shown):
     """All metrics of one response.
 
     Attributes:
@@ -73,6 +74,53 @@ class StepMetrics:
     axes: dict[str, AxisMetrics]
     coupling_peak: float | None
     motors: dict[str, MotorMetrics]
+
+    def summary(self) -> str:
+        """Settling and overshoot per axis, and the largest voltages."""
+        axes = (
+            f"{name}: settling {number(m.settling_time)} s, overshoot {number(m.overshoot, 3)} %"
+            for name, m in self.axes.items()
+        )
+        motors = (f"|{name}| ≤ {number(m.peak, 3)} V" for name, m in self.motors.items())
+        return "; ".join((*axes, ", ".join(motors)))
+
+    def tables(self) -> tuple[Table, ...]:
+        """A row per figure of merit, a column per axis; and the motors'."""
+        axes = [
+            (f"{label} ({unit})", *(number(getattr(m, name)) for m in self.axes.values()))
+            for name, label, unit in _AXIS_ROWS
+        ]
+        if self.coupling_peak is not None:
+            axes.append(("peak of the other axis (rad)", number(self.coupling_peak)))
+        motors = (
+            (
+                f"{label} ({unit})" if unit else label,
+                *(number(getattr(m, name)) for m in self.motors.values()),
+            )
+            for name, label, unit in _MOTOR_ROWS
+        )
+        return (
+            *([Table.of("step", ("", *(_SYMBOLS[name] for name in self.axes)), axes)] if self.axes else []),
+            Table.of("motors", ("", *self.motors), motors),
+        )
+
+
+_SYMBOLS = {signal.name: signal.symbol for signal in OUTPUTS}
+_AXIS_ROWS = (
+    ("rise_time", "rise time", "s"),
+    ("settling_time", "settling time", "s"),
+    ("overshoot", "overshoot", "%"),
+    ("peak", "peak", "rad"),
+    ("peak_time", "peak time", "s"),
+    ("steady_state_error", "steady-state error", "rad"),
+    ("iae", "IAE", "rad·s"),
+    ("itae", "ITAE", "rad·s²"),
+)
+_MOTOR_ROWS = (
+    ("peak", "largest |voltage|", "V"),
+    ("saturated", "share of time at the limit", ""),
+    ("effort", "effort", "V²·s"),
+)
 
 
 def step_metrics(response: Response, trim: Floats) -> StepMetrics:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,15 +12,20 @@ from .checks import require_within
 from .compiled import linear_matrices
 from .couplings import require_controllable
 from .eigenvalues import eigenvalues
+from .interop import state_space
 from .parameters import Parameters
-from .signals import Complexes, Floats, fixed
+from .signals import INPUTS, OUTPUTS, STATES, C, Complexes, Floats, fixed
+from .tables import Shown, Table, number, poles
+
+if TYPE_CHECKING:
+    import control
 
 STEEPEST = 1.5
 """Largest operating angle, rad: beyond it yaw's lever arm vanishes."""
 
 
-@dataclass(frozen=True)
-class Plant:
+@dataclass(frozen=True, repr=False)
+class Plant(Shown):
     """Linear model about rest at pitch angle `theta_0` (Eqs. 13, 14), in deviations from the trim.
 
     Attributes:
@@ -50,6 +55,31 @@ class Plant:
     def poles(self) -> Complexes:
         """Poles of the rig without feedback, rad/s, shape (4,)."""
         return np.array(eigenvalues(self.A))
+
+    def to_control(self) -> control.StateSpace:
+        """The rig without feedback: V_p, V_y to θ, ψ, V to rad, in deviations from the trim.
+
+        >>> import heli2dof_core as heli
+        >>> heli.plant(heli.preset().parameters).to_control().input_labels
+        ['V_p', 'V_y']
+        """
+        matrices = (self.A, self.B, C, np.zeros((2, 2)))
+        return state_space("plant", matrices, STATES, INPUTS, OUTPUTS)
+
+    def summary(self) -> str:
+        """Operating point and poles."""
+        return f"at θ₀ = {number(self.theta_0)} rad; poles {poles(self.poles.tolist())} rad/s"
+
+    def tables(self) -> tuple[Table, ...]:
+        """A, B and the trim voltages."""
+        states, inputs = [s.symbol for s in STATES], [s.symbol for s in INPUTS]
+        rates = [f"d{s}/dt" for s in states]
+        trim = ((name, f"{number(v)} V") for name, v in zip(inputs, self.trim.tolist(), strict=True))
+        return (
+            Table.matrix("A", self.A, rates, states),
+            Table.matrix("B", self.B, rates, inputs),
+            Table.of("trim", ("motor", "voltage"), trim),
+        )
 
 
 def rig_constants(p: Any) -> list[Any]:

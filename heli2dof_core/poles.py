@@ -17,7 +17,7 @@ ZERO = 1e-9
 """Real or imaginary parts below this count as 0, rad/s."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class PoleSet:
     """Four desired poles in rad/s: (p₁, p₂) is pitch's pair and (p₃, p₄) yaw's.
 
@@ -70,6 +70,9 @@ class PoleSet:
                 hint="Name each of 0, 1, 2, 3 once: [[0, 2], [1, 3]] gives poles 1 and 3 to pitch.",
             )
         return cls(values[i] for i in order)
+
+    def __repr__(self) -> str:
+        return f"PoleSet([{', '.join(f'{p.real:g}{p.imag:+g}j' if p.imag else f'{p.real:g}' for p in self.values)}])"
 
     @property
     def coefficients(self) -> tuple[float, float, float, float]:

@@ -9,13 +9,14 @@ from types import MappingProxyType
 from .checks import require_known
 from .components import Components
 from .couplings import Structure
-from .parameters import Parameters
+from .parameters import PARAMETER_INFO, Parameters
 from .poles import PoleSet
 from .spec import Limits, OuterLoop, PIGains, Scenario
+from .tables import Shown, Table, number
 
 
-@dataclass(frozen=True)
-class Preset:
+@dataclass(frozen=True, repr=False)
+class Preset(Shown):
     """One rig, ready to be used; its scenario keeps its motors within their limits.
 
     Attributes:
@@ -39,6 +40,16 @@ class Preset:
     theta_0: float = 0.0
     components: Components | None = None
     encoders: tuple[int, int] = (4096, 8192)
+
+    def summary(self) -> str:
+        """Name and title."""
+        return f"{self.name}; {self.title}"
+
+    def tables(self) -> tuple[Table, ...]:
+        """Its parameters."""
+        values = self.parameters.as_dict()
+        rows = ((n, number(values[n], 6), i["unit"], i["meaning"]) for n, i in PARAMETER_INFO.items())
+        return (Table.of(self.source, ("parameter", "value", "unit", "meaning"), rows),)
 
 
 _TRAVEL = radians(40.5)

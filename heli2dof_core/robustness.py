@@ -21,6 +21,7 @@ from .parameters import PARAMETER_INFO, Parameters
 from .plant import rig_constants
 from .signals import Complexes, Floats
 from .simulation.nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
+from .tables import Shown, Table, number
 
 Distribution = Literal["uniform", "normal"]
 MOST_SAMPLES = 20_000
@@ -63,8 +64,8 @@ class Uncertainty:
             require_within(share, f"uncertainty.{name}", "", 0.0, 0.95)
 
 
-@dataclass(frozen=True)
-class Cloud:
+@dataclass(frozen=True, repr=False)
+class Cloud(Shown):
     """What is known after `done` of the rigs.
 
     Attributes:
@@ -85,6 +86,28 @@ class Cloud:
     envelopes: dict[str, Floats]
     share_stable: float
     share_within_limits: float
+
+    def summary(self) -> str:
+        """How many rigs, and the shares."""
+        return (
+            f"{self.done} of {self.samples} rigs; {100 * self.share_stable:.4g} % stable, "
+            f"{100 * self.share_within_limits:.4g} % within the limits"
+        )
+
+    def tables(self) -> tuple[Table, ...]:
+        """Shares, the rightmost pole's real part, and where the responses end."""
+        decay = np.percentile(np.max(self.loop_poles.real, axis=1), self.percentiles)
+        ends = (
+            (f"{name} at the end (rad)", *map(number, bands[:, -1].tolist()))
+            for name, bands in self.envelopes.items()
+        )
+        shares = (
+            ("stable", f"{100 * self.share_stable:.4g} %"),
+            ("within the limits", f"{100 * self.share_within_limits:.4g} %"),
+        )
+        heads = ("", *(f"{p:g} %" for p in self.percentiles))
+        rows = (("Re of the slowest pole (rad/s)", *map(number, decay.tolist())), *ends)
+        return Table.of("rigs", ("", "share"), shares), Table.of("percentiles", heads, rows)
 
 
 def cloud(spec: Spec, uncertainty: Uncertainty = Uncertainty()) -> Cloud:

@@ -12,6 +12,7 @@ from .errors import InvalidInputError
 from .loop import Loop, close_loop
 from .signals import Complexes
 from .spec import OuterLoop, PIGains
+from .tables import Shown, Table, number
 
 DAMPING = 0.7
 """Least damping ratio of every pole of the whole loop, where the placed poles have as much."""
@@ -28,13 +29,24 @@ RULE = (
 )
 
 
-@dataclass(frozen=True)
-class Suggestion:
+@dataclass(frozen=True, repr=False)
+class Suggestion(Shown):
     """PI values for a design, the loop that they give, and the rule in words."""
 
     outer: OuterLoop
     loop: Loop
     rule: str = RULE
+
+    def summary(self) -> str:
+        """The values."""
+        return "; ".join(
+            f"{axis} kp {number(pi.kp)} V/rad, ti {number(pi.ti)} s"
+            for axis, pi in (("pitch", self.outer.pitch), ("yaw", self.outer.yaw))
+        )
+
+    def tables(self) -> tuple[Table, ...]:
+        """The poles of the whole loop with them."""
+        return self.loop.tables()
 
 
 def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:

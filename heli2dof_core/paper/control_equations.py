@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from ..couplings import Structure
 from ..symbolic.full_rank import full_rank, indices, plant
+from ..symbolic.grouping import grouped
 from ..symbolic.luenberger import controllability_matrix
-from ..symbolic.render import grouped
 from ..symbolic.rga import relative_gain_array, steady_state, transfer_matrix
 from . import as_printed
 from .equation import Equation, latex, named

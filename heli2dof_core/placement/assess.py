@@ -12,6 +12,8 @@ from ..eigenvalues import eigenvectors
 from ..findings import Finding
 from ..poles import match_poles
 from ..signals import Complexes, Floats
+from ..tables import Shown, Table, number
+from ..tables import poles as pole_words
 from .full_rank import FullRankPlacement
 from .groups import conjugate_units
 from .method import Placement, Task, Weights, require_system
@@ -21,8 +23,8 @@ NEARLY_DEPENDENT = 1e-5
 """Weakest column of the scan below which a system is said to be nearly uncontrollable."""
 
 
-@dataclass(frozen=True)
-class Assessment:
+@dataclass(frozen=True, repr=False)
+class Assessment(Shown):
     """A placement and what it does.
 
     Attributes:
@@ -41,6 +43,19 @@ class Assessment:
     spectral_norm: float
     eigenvector_condition: float | None
     findings: tuple[Finding, ...]
+
+    def summary(self) -> str:
+        """Size of K, poles and their error."""
+        rows, columns = self.placement.K.shape
+        found = pole_words(self.closed_loop_poles.tolist())
+        error = number(self.pole_error, 2)
+        return f"K {rows}×{columns}, ‖K‖ = {number(self.norm)}; poles {found}; pole error {error}"
+
+    def tables(self) -> tuple[Table, ...]:
+        """K; rows are inputs, columns states."""
+        K = self.placement.K
+        names = [[f"{letter}{i + 1}" for i in range(n)] for letter, n in zip("ux", K.shape, strict=True)]
+        return (Table.matrix("K, u = −Kx", K, *names),)
 
 
 def place_poles(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import toeplitz
 
 from ..signals import Floats
 from .dyadic import krylov, place_dyadic
@@ -30,6 +29,8 @@ class BassGura:
 
 def bass_gura(A: Floats, b: Floats, wanted: Floats) -> Floats:
     """k, shape (n,), so that det(sI − A + bk) has the coefficients `wanted`, highest first."""
+    from scipy.linalg import toeplitz
+
     own = np.asarray(np.poly(A).real, dtype=np.float64)
     W = toeplitz(np.eye(len(A))[0], own[:-1])  # upper triangular: 1, a₁, a₂ … along the rows
     basis = np.asarray(krylov(A, b) @ W, dtype=np.float64)

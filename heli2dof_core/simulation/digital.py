@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.linalg import expm
 
 from ..engine import engine
 from ..findings import Finding
@@ -69,6 +68,8 @@ def _settings(digital: Digital) -> Floats:
     steps = [2 * np.pi / counts if counts else 0.0 for counts in digital.encoders]
     w, zeta = FILTER_FREQUENCY, FILTER_DAMPING
     continuous = np.array([[0.0, 1.0, 0.0], [-(w**2), -2 * zeta * w, 1.0], [0.0, 0.0, 0.0]])
+    from scipy.linalg import expm
+
     step = np.asarray(expm(continuous * digital.sample_time))
     filtered = float(digital.rates == "filtered")
     F, b = step[:2, :2].ravel(), step[:2, 2]

@@ -7,10 +7,11 @@ from typing import Literal
 
 from ..findings import Finding
 from ..signals import Floats
+from ..tables import Shown, number
 
 
-@dataclass(frozen=True)
-class Response:
+@dataclass(frozen=True, repr=False)
+class Response(Shown):
     """Trajectories over t, all of shape (samples,).
 
     Attributes:
@@ -36,6 +37,38 @@ class Response:
     saturated: tuple[float, float]
     findings: tuple[Finding, ...] = ()
     states: Floats | None = None
+
+    @property
+    def theta(self) -> Floats:
+        """Pitch angle, absolute, rad."""
+        return self.angles[0]
+
+    @property
+    def psi(self) -> Floats:
+        """Yaw angle, absolute, rad."""
+        return self.angles[1]
+
+    @property
+    def V_p(self) -> Floats:
+        """Voltage of the pitch motor, V; see `voltages`."""
+        return self.voltages[0]
+
+    @property
+    def V_y(self) -> Floats:
+        """Voltage of the yaw motor, V; see `voltages`."""
+        return self.voltages[1]
+
+    def columns(self) -> dict[str, Floats]:
+        """t, theta, psi, V_p and V_y by name, as a data frame takes them."""
+        return {"t": self.t, "theta": self.theta, "psi": self.psi, "V_p": self.V_p, "V_y": self.V_y}
+
+    def summary(self) -> str:
+        """Model, step, length and findings."""
+        theta, psi = (
+            f"{number(start)} → {number(end)}" for start, end in zip(self.start, self.reference, strict=True)
+        )
+        codes = "".join(f"; {finding.code}" for finding in self.findings)
+        return f"{self.model}; θ {theta}, ψ {psi} rad; {len(self.t)} samples of {number(float(self.t[-1]))} s{codes}"
 
 
 def divergence(t: Floats, held: int) -> tuple[Finding, ...]:

@@ -1,4 +1,4 @@
-"""The README's examples work as they stand there."""
+"""The examples of the README and of docs/api.md work as they stand there."""
 
 from __future__ import annotations
 
@@ -7,28 +7,74 @@ import re
 import shlex
 from pathlib import Path
 
-README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+import pytest
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+API = (ROOT / "docs" / "api.md").read_text(encoding="utf-8")
+SERVER = "http://127.0.0.1:8000"
 
 
-def blocks(language: str) -> list[str]:
-    return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
+def blocks(text: str, language: str) -> list[str]:
+    return re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)
 
 
-def test_curl_lines_get_an_answer(client):
-    commands = [c for b in blocks("sh") for c in re.findall(r"^curl (?:.*\\\n)*.*$", b, re.MULTILINE)]
-    assert len(commands) == 5
-    for command in commands:
-        words = shlex.split(command.replace("\\\n", " "))
-        url = next(word for word in words if word.startswith("http://127.0.0.1:8000/"))
-        header = words[words.index("-H") + 1].split(": ")
-        body = words[words.index("-d") + 1]
-        reply = client.post(url.removeprefix("http://127.0.0.1:8000"), content=body, headers=dict([header]))
-        assert reply.status_code == 200, command
-        assert json.loads(reply.text)
+def curls(text: str) -> list[str]:
+    """Every command that begins with curl, wherever it stands, its lines joined."""
+    found = [
+        c for block in blocks(text, "sh") for c in re.findall(r"^curl (?:.*\\\n)*.*$", block, re.MULTILINE)
+    ]
+    assert len(found) == len(re.findall(r"^\s*curl ", text, re.MULTILINE))
+    return [c.replace("\\\n", " ") for c in found]
 
 
-def test_python_example_runs(capsys):
-    (example,) = blocks("python")
+def ask(client, command: str):
+    words = shlex.split(command, comments=True)
+    path = next(word for word in words if word.startswith(f"{SERVER}/")).removeprefix(SERVER)
+    if "-d" not in words:
+        return client.get(path)
+    headers = dict([words[words.index("-H") + 1].split(": ")])
+    return client.post(path, content=words[words.index("-d") + 1], headers=headers)
+
+
+@pytest.mark.parametrize("command", [*curls(README), *curls(API)])
+def test_curl_lines_get_an_answer(client, command):
+    reply = ask(client, command)
+    assert reply.status_code == 200, command
+    assert reply.content if "-o " in command else json.loads(reply.text)
+
+
+def test_every_call_is_worked(client):
+    """Each path of the OpenAPI document stands in docs/api.md as a call."""
+    known = {path for path in client.get("/openapi.json").json()["paths"] if not path.startswith("/scene")}
+    worked = {re.search(rf"{SERVER}([^ '?#]+)", command)[1] for command in curls(API)}
+    assert {path for path in known if "{" not in path} <= worked
+
+
+def test_python_example_runs(capsys, monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    (example,) = blocks(README, "python")
     exec(compile(example, "README.md", "exec"), {})
     shown = capsys.readouterr().out
     assert "51.17" in shown and "1.0069" in shown
+    import matplotlib.pyplot as plt
+
+    assert len(plt.gca().lines) == 2
+    plt.close("all")
+
+
+def test_command_lines_run(tmp_path, monkeypatch):
+    from click.testing import CliRunner
+
+    from app.cli.group import heli2dof
+
+    monkeypatch.chdir(tmp_path)
+    lines = [
+        line for block in blocks(README, "sh") for line in block.split("\n") if line.startswith("heli2dof ")
+    ]
+    called = [shlex.split(line, comments=True)[1:] for line in lines]
+    assert len({words[0] for words in called}) >= 6
+    for words in called:
+        if words[0] not in ("serve", "completion"):
+            result = CliRunner().invoke(heli2dof, words, prog_name="heli2dof")
+            assert result.exit_code == 0, (words, result.output)

@@ -1,18 +1,19 @@
-"""The command line: `heli2dof serve`."""
+"""`heli2dof serve`: the app on a port."""
 
 from __future__ import annotations
 
-import argparse
 import errno
 import logging
-import os
 import socket
 import sys
 
+import click
 import uvicorn
 
-from .main import create_app, package_version
-from .settings import Settings
+from heli2dof_core.version import package_version
+
+from ..main import create_app
+from ..settings import Settings
 
 _LARGEST_MESSAGE = 1 << 20
 
@@ -29,7 +30,7 @@ class AnnouncingServer(uvicorn.Server):
             print(f"heli2dof {package_version()} is ready: http://{shown}:{port}", flush=True)
 
 
-def serve(host: str, port: int, settings: Settings) -> int:
+def listen(host: str, port: int, settings: Settings) -> int:
     """Serves until interrupted; returns the exit status."""
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM)
@@ -60,21 +61,14 @@ def server_config(settings: Settings) -> uvicorn.Config:
     )
 
 
-def main(arguments: list[str] | None = None) -> None:
-    """Entry point of the `heli2dof` command."""
-    parser = argparse.ArgumentParser(prog="heli2dof", description="Pole placement for a 2-DOF helicopter.")
-    parser.add_argument("--version", action="version", version=package_version())
-    commands = parser.add_subparsers(dest="command", required=True)
-    command = commands.add_parser("serve", help="start the app and print its address")
-    command.add_argument("--host", default="127.0.0.1", help="address to listen on (%(default)s)")
-    command.add_argument(
-        "--port",
-        type=int,
-        default=int(os.environ.get("PORT", "8000")),
-        help="TCP port (%(default)s, or $PORT)",
-    )
-    command.add_argument("--scenes", type=int, default=100, help="most 3D scenes at once (%(default)s)")
-    options = parser.parse_args(arguments)
+@click.command()
+@click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on.")
+@click.option(
+    "--port", type=int, default=8000, envvar="PORT", show_default="8000, or $PORT", help="TCP port."
+)
+@click.option("--scenes", type=int, default=100, show_default=True, help="Most 3D scenes at once.")
+def serve(host: str, port: int, scenes: int) -> None:
+    """Start the app and print its address."""
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(name)s: %(message)s")
     logging.getLogger("websockets").setLevel(logging.WARNING)
-    sys.exit(serve(options.host, options.port, Settings(scenes=options.scenes)))
+    sys.exit(listen(host, port, Settings(scenes=scenes)))

@@ -1,0 +1,76 @@
+"""A worked request for every kind of body, shown at /docs and run by the tests."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from fastapi import FastAPI
+
+Json = dict[str, Any]
+
+_PAIR: list[Json] = [{"re": -3, "im": 4}, {"re": -3, "im": -4}]
+_PITCH: Json = {"reference": {"theta": 0.2}, "duration": 3, "samples": 301}
+
+EXAMPLES: dict[str, dict[str, tuple[str, Json]]] = {
+    "DesignRequest": {
+        "default": ("The default rig with the paper's poles", {}),
+        "complex": ("A complex pair for yaw, rad/s", {"poles": [-12, -10, *_PAIR]}),
+        "rig": (
+            "Another rig, one parameter changed, yaw leading",
+            {"preset": "quanser-aero-2", "parameters": {"J_p": 0.03}, "lead": "yaw"},
+        ),
+    },
+    "RgaRequest": {
+        "frequencies": ("With |RGA(jω)| at three frequencies, rad/s", {"frequencies": [0, 1, 10]}),
+    },
+    "LoopsRequest": {"bode": ("L(jω) at three frequencies, rad/s", {"frequencies": [0.1, 1, 10]})},
+    "StepRequest": {"pitch": ("A step of 0.2 rad in pitch", {"scenario": _PITCH})},
+    "ResponseRequest": {
+        "pitch": ("A step of 0.2 rad in pitch, with the rates", {"scenario": _PITCH, "states": True}),
+        "linear": ("Both references, the linear model", {"scenario": {"model": "linear", "duration": 2}}),
+        "digital": (
+            "The rig's digital controller: 10 ms, late, noisy",
+            {"scenario": {**_PITCH, "digital": {"sample_time": 0.01, "delay": True, "noise": 0.001}}},
+        ),
+    },
+    "EvaluateRequest": {
+        "all": ("Everything, each axis stepped alone too", {"poles": [-12, -10, *_PAIR], "each_axis": True}),
+    },
+    "CompareRequest": {
+        "three": ("Three methods", {"methods": ["full-rank", "tits-yang", "lqr"]}),
+    },
+    "RobustnessRequest": {
+        "inertia": ("A hundred rigs, 20 % about the inertia", {"uncertainty": {"J_p": 0.2}, "samples": 100}),
+    },
+    "PlaceRequest": {
+        "three": (
+            "Three states, two inputs",
+            {
+                "A": [[0, 1, 0], [0, 0, 1], [1, 2, 3]],
+                "B": [[0, 0], [1, 0], [0, 1]],
+                "poles": [-1, {"re": -2, "im": 1}, {"re": -2, "im": -1}],
+            },
+        ),
+    },
+}
+"""By the name of the request's schema: examples by name, each with its summary."""
+
+
+def install(app: FastAPI) -> None:
+    """Adds the examples to every body of the app's OpenAPI document."""
+    plain: Callable[[], Json] = app.openapi
+
+    def openapi() -> Json:
+        document = plain()
+        for operations in document["paths"].values():
+            body = operations.get("post", {}).get("requestBody", {})
+            for content in body.get("content", {}).values():
+                name = content["schema"].get("$ref", "").rpartition("/")[2]
+                content["examples"] = {
+                    key: {"summary": summary, "value": value}
+                    for key, (summary, value) in EXAMPLES.get(name, {}).items()
+                }
+        return document
+
+    app.openapi = openapi

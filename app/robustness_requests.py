@@ -1,0 +1,67 @@
+"""The cloud of uncertain rigs: its request, its reply, and the reply's model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import Field
+
+from heli2dof_core.robustness import Cloud, Distribution, Uncertainty
+
+from .models import Complex, Model
+from .replies import Reply, poles_reply
+from .requests import StepRequest
+
+MOST_POLES = 2000
+"""Rigs whose poles are sent; more make no other picture."""
+
+
+class RobustnessRequest(StepRequest):
+    """A design, an experiment, and how far the rigs may differ from the nominal one."""
+
+    uncertainty: dict[str, float] | None = Field(
+        default=None, description="relative, per parameter; by default 0.1 for all but g"
+    )
+    distribution: Distribution = "uniform"
+    samples: int = Field(default=200, ge=1, le=20_000, description="how many rigs")
+    seed: int = Field(default=0, ge=0, le=2**32 - 1, description="of the random rigs")
+
+    def to_uncertainty(self) -> Uncertainty:
+        """The core's uncertainty."""
+        given: Mapping[str, Any] = {} if self.uncertainty is None else {"spread": self.uncertainty}
+        return Uncertainty(**given, distribution=self.distribution, samples=self.samples, seed=self.seed)
+
+
+class Envelope(Model):
+    """One output's percentiles over t, rad: a row per percentile."""
+
+    theta: list[list[float]] = Field(description="pitch, rad; a row per percentile")
+    psi: list[list[float]] = Field(description="yaw, rad; a row per percentile")
+
+
+class RobustnessReply(Model):
+    """After `done` of `samples` rigs; poles of the whole loop of the first of them, rad/s."""
+
+    done: int = Field(description="rigs so far")
+    samples: int = Field(description="rigs in all")
+    loop_poles: list[list[Complex]]
+    t: list[float] = Field(description="s")
+    percentiles: list[float] = Field(description="%, of `envelopes`")
+    envelopes: Envelope
+    share_stable: float = Field(description="0 to 1")
+    share_within_limits: float = Field(description="0 to 1")
+
+
+def cloud_reply(result: Cloud) -> Reply:
+    """A cloud, or what is known of it so far."""
+    return {
+        "done": result.done,
+        "samples": result.samples,
+        "loop_poles": [poles_reply(poles) for poles in result.loop_poles[:MOST_POLES]],
+        "t": result.t,
+        "percentiles": list(result.percentiles),
+        "envelopes": result.envelopes,
+        "share_stable": result.share_stable,
+        "share_within_limits": result.share_within_limits,
+    }

@@ -1,0 +1,47 @@
+"""Both models' responses as numbers, one row per sample."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..evaluate import Spec, Step, evaluate
+from ..signals import INPUTS, INTEGRALS, OUTPUTS, STATES, Floats
+from .format import Format
+from .origin import origin
+
+
+def render(spec: Spec, link: str = "") -> str:
+    """Comma-separated values behind lines that begin with #; units in the header."""
+    report = evaluate(spec)
+    columns = [("t [s]", report.step["linear"].response.t)]
+    references = report.step["linear"].response.reference
+    columns += [
+        (f"{signal.name}_reference [{signal.unit}]", columns[0][1] * 0 + value)
+        for signal, value in zip(OUTPUTS, references, strict=True)
+    ]
+    for model, step in report.step.items():
+        columns += [(f"{name}_{model} [{unit}]", values) for name, unit, values in _signals(step)]
+    trim = ", ".join(
+        f"{s.name} = {v!r} V" for s, v in zip(INPUTS, report.design.plant.trim.tolist(), strict=True)
+    )
+    lines = [
+        *(f"# {line}" for line in origin(spec, FORMAT.name, link)),
+        f"# Linear voltages are deviations from the trim, {trim}; those of the nonlinear rig hold it.",
+        ",".join(name for name, _ in columns),
+        *(",".join(map(repr, row)) for row in zip(*(values.tolist() for _, values in columns), strict=True)),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _signals(step: Step) -> Iterator[tuple[str, str, Floats]]:
+    response = step.response
+    assert response.states is not None  # every model gives them
+    for signal, values in zip((*STATES, *INTEGRALS), response.states, strict=False):
+        yield signal.name, signal.unit.replace("·", "*"), values
+    for signal, values in zip(INPUTS, response.voltages, strict=True):
+        yield signal.name, signal.unit, values
+
+
+FORMAT = Format(
+    "csv", "Responses as numbers", ".csv", "text/csv; charset=utf-8", render, "heli2dof_responses"
+)
