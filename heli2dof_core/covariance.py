@@ -11,7 +11,7 @@ def plain_covariance(J: Floats, r: Floats, unknowns: int) -> Floats:
     """σ² (JᵀJ)⁻¹, (k, k): right where residuals are white. J (n, outputs, k), r (n, outputs)."""
     columns = J.reshape(-1, J.shape[-1])
     variance = float(np.sum(r**2)) / max(1, r.size - unknowns)
-    return variance * np.linalg.inv(columns.T @ columns)
+    return np.asarray(variance * np.linalg.inv(columns.T @ columns), dtype=np.float64)
 
 
 def sandwich_covariance(J: Floats, r: Floats, unknowns: int) -> tuple[Floats, float]:
@@ -44,9 +44,7 @@ def _lags(scores: Floats) -> float:
     power = np.sum(before**2, axis=0)
     rho = np.clip(np.sum(before * after, axis=0) / np.where(power > 0, power, 1.0), -0.99, 0.99)
     variance = np.mean((after - rho * before) ** 2, axis=0)
-    weight = np.where(
-        variance > 0, 1.0 / np.where(variance > 0, variance, 1.0), 0.0
-    )  # no score outweighs by its unit
+    weight = np.where(variance > 0, 1.0 / np.where(variance > 0, variance, 1.0), 0.0)
     top = np.sum(weight**2 * 4 * rho**2 * variance**2 / ((1 - rho) ** 6 * (1 + rho) ** 2))
     bottom = np.sum(weight**2 * variance**2 / (1 - rho) ** 4)
     return float(min(1.1447 * (top / bottom * n) ** (1 / 3), n / 8)) if bottom > 0 else 0.0

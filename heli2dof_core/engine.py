@@ -168,7 +168,7 @@ def _exercise(kernels: Engine) -> None:
     kernels.run_digital(
         y, t, c, m, d, np.zeros((3, 2)), np.inf, *numbers, w, *scratch, states, np.empty((2, 2))
     )
-    _exercise_recorded(kernels, y, c, m, d, numbers)
+    _exercise_recorded(kernels, (y, c, m, d), numbers)
     rigs, angles = c[None, :GAIN].copy(), np.empty((1, 2, 2))
     kernels.run_cloud(
         rigs, y, t, c, m, *numbers, w, y.copy(), c.copy(), m.copy(), states, angles, np.empty(1)
@@ -186,7 +186,8 @@ def _exercise(kernels: Engine) -> None:
         getattr(kernels, name).disable_compile()
 
 
-def _exercise_recorded(kernels: Engine, y: Any, c: Any, m: Any, d: Any, numbers: Any) -> None:
+def _exercise_recorded(kernels: Engine, rig: tuple[Any, ...], numbers: tuple[float, ...]) -> None:
+    y, c, m, d = rig
     t, pairs, scratch = np.array([0.0, 1e-3]), np.zeros((1, 2)), np.zeros(RECORDED_WORKSPACE)
     volts, bounds, slopes = np.zeros((2, 2)), np.array([[0, 2]]), np.empty((2, 2, SENSITIVITIES))
     kernels.run_segments(np.zeros((1, 4)), bounds, t, volts, c, 1e-2, scratch, volts.copy(), slopes)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +22,7 @@ from .signals import Floats
 from .simulation.recorded import longest_step
 
 IDENTIFIABLE = ("K_pp", "K_py", "K_yp", "K_yy", "B_p", "B_y", "K_s")
-"""Parameters that can be found, in the order of the sensitivities. J, m and l only scale them and stay as they are."""
+"""Parameters that can be found, in the order of the sensitivities; J, m and l only scale them and stay."""
 QUANTILE = 1.959964
 """Of the normal distribution, for 95 %."""
 MOST_EVALUATIONS = 60
@@ -111,9 +112,10 @@ def identify(
     """The free parameters that bring the simulated angles nearest to the recorded ones.
 
     Output error (Ljung, System Identification, 1999, sections 7.2 and 10.2): the nonlinear model, driven by the
-    recorded voltages in segments whose starting states are unknown too, is fitted by SciPy's trust-region Gauss–Newton
-    method, starting states eliminated within each step (Golub & Pereyra, SIAM J. Numer. Anal. 10 (1973) 413–432). A
-    first fit weights both axes alike, a second one by their residuals. Intervals are those of `sandwich_covariance`.
+    recorded voltages in segments whose starting states are unknown too, is fitted by SciPy's trust-region
+    Gauss–Newton method, starting states eliminated within each step (Golub & Pereyra, SIAM J. Numer. Anal. 10
+    (1973) 413–432). Short segments bring a wrong rig near; then both axes are weighted alike, then by their
+    residuals. Intervals are those of `sandwich_covariance`.
 
     Args:
         p: the rig as it is thought to be; what is not free stays.
@@ -205,7 +207,9 @@ class _Search:
         values = SimpleNamespace(**self.p.as_dict(), alpha=self.p.alpha)
         for i, name in enumerate(self.names):
             setattr(values, name, self.value(i, deviations))
-        answer = fit_starts(values, self.recording, self.bounds, self._starts, self.weights, self._step)
+        answer = fit_starts(
+            values, self.recording, self.bounds, self._starts, weights=self.weights, step=self._step
+        )
         self._starts, self._last = answer.starts, (deviations.copy(), key, answer)
         self.evaluations += 1
         self.report(Progress(self.evaluations, _pair(self.rms(answer))))
@@ -234,7 +238,8 @@ class _Search:
                 -1, len(self.names)
             )
 
-        result = least_squares(
+        search: Any = least_squares  # its stubs know neither callable derivatives nor the absence of gtol
+        result = search(
             residuals,
             start,
             derivatives,

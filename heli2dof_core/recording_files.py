@@ -1,4 +1,4 @@
-"""Recordings as files: CSV in its many dialects and MATLAB's .mat, read into tables within fixed limits; CSV written."""
+"""Recordings as files: CSV in its dialects and MATLAB's .mat, read into tables within fixed limits; CSV written."""
 
 from __future__ import annotations
 

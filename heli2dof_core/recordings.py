@@ -176,7 +176,7 @@ def _angle(table: Table, columns: Columns, axis: int, suffix: str) -> Floats:
     values = (
         columns.signs[axis] * _bounded(table, columns.names[role], role, columns.unit) + columns.offsets[axis]
     )
-    return np.radians(values) if columns.unit == "deg" else values
+    return values * radians(1.0) if columns.unit == "deg" else values
 
 
 def _bounded(table: Table, name: str, role: str, unit: str) -> Floats:
@@ -215,7 +215,7 @@ _UNITS = re.compile(r"[\[(]\s*([^\])]*)\s*[\])]|_(deg|rad|s|v|volts)$")
 
 
 def guess_columns(table: Table) -> Columns:
-    """What the columns probably are, by their names; angles in degrees where a name says so or pitch exceeds 2 rad."""
+    """What the columns probably are, by their names; degrees where a name says so or pitch exceeds 2 rad."""
     chosen: dict[str, str] = {}
     for name in table.names:
         bare = re.sub(r"[^a-z0-9]", "", _UNITS.sub("", name.strip().lower().translate(_GREEK)))

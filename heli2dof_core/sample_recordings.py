@@ -21,11 +21,11 @@ MOST_DEVIATION = 0.5
 def reference_steps(
     duration: float, sample_time: float, theta: float, psi: float, *, theta_0: float = 0.0, seed: int = 0
 ) -> Floats:
-    """References that step at random times, each by itself, to random levels within θ₀ ± `theta` and ± `psi`, (n, 2), rad.
+    """References (n, 2), rad, that step at random times to random levels within θ₀ ± `theta` and ± `psi`.
 
     Steps are 1 to 3 s apart; the first second is at rest.
     """
-    n = int(round(duration / sample_time))
+    n = round(duration / sample_time)
     rng = np.random.default_rng(seed)
     references = np.tile([theta_0, 0.0], (n, 1))
     for axis, (middle, size) in enumerate(((theta_0, theta), (0.0, psi))):
@@ -37,7 +37,7 @@ def reference_steps(
 
 
 def deviating_rig(p: Parameters, deviation: float, seed: int) -> Parameters:
-    """A rig whose identifiable parameters differ by up to ± `deviation` (relative), as rigs do from their data sheet."""
+    """A rig whose identifiable parameters are off their data sheet by up to ± `deviation` (relative)."""
     require_within(deviation, "deviation", "", 0.0, MOST_DEVIATION)
     rng = np.random.default_rng([seed, 1])
     return p.replaced(

@@ -9,7 +9,7 @@ pp. 102–125; Ljung, System Identification, 1999, section 13.4 on closed loops)
 from __future__ import annotations
 
 from dataclasses import dataclass
-from types import SimpleNamespace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -61,7 +61,7 @@ def segment_length(p: Parameters, recording: Recording) -> float:
 
 
 def cut(recording: Recording, length: float, travel: float | None) -> NDArray[np.int64]:
-    """First and last + 1 of each segment, (segments, 2): equal parts of at most `length` s, none while pitch is on a stop.
+    """First and last + 1 of each segment, (segments, 2): at most `length` s each, none while pitch is on a stop.
 
     Raises:
         RecordingError: nothing is left.
@@ -77,7 +77,7 @@ def cut(recording: Recording, length: float, travel: float | None) -> NDArray[np
         span = recording.t[end - 1] - recording.t[first]
         parts = max(1, min(int(np.ceil(span / length - 1e-9)), (end - first) // FEWEST))
         marks = np.linspace(first, end, parts + 1).astype(np.int64)
-        bounds += list(zip(marks[:-1], marks[1:], strict=True))
+        bounds += pairwise(marks.tolist())
     if not bounds:
         raise RecordingError(
             "the rig rests on its stops all the time",
@@ -100,12 +100,15 @@ def rough_starts(recording: Recording, bounds: NDArray[np.int64]) -> Floats:
 
 
 def fit_starts(
-    p: Any, recording: Recording, bounds: NDArray[np.int64], starts: Floats, weights: Floats, step: float
+    p: Any, recording: Recording, bounds: NDArray[np.int64], starts: Floats, *, weights: Floats, step: float
 ) -> Fitted:
     """Gauss and Newton's method on each segment's starting state, from `starts`; p stays.
 
     Args:
         p: has Parameters' fields, of any value.
+        recording: what was measured.
+        bounds: of the segments.
+        starts: where to begin, (segments, 4).
         weights: of the residuals of θ and ψ, 1/rad.
         step: longest one of the integration, s.
     """
@@ -113,7 +116,7 @@ def fit_starts(
     starts = starts.copy()
     last = starts, np.empty(0), np.empty(0)
     for _ in range(_MOST_STEPS):
-        outputs, slopes = run_segments(p, starts, bounds, t, volts, step)
+        outputs, slopes = run_segments(p, starts, bounds, t, volts, step=step)
         residuals, largest = (angles - outputs) * weights, 0.0
         slopes *= weights[:, None]
         last = starts.copy(), slopes, residuals
@@ -145,5 +148,5 @@ def _projected(
 
 def fit_of(p: Parameters, recording: Recording, bounds: NDArray[np.int64]) -> Fitted:
     """The segments under a rig's parameters, both axes weighted alike."""
-    values = SimpleNamespace(**p.as_dict(), alpha=p.alpha)
-    return fit_starts(values, recording, bounds, rough_starts(recording, bounds), np.ones(2), longest_step(p))
+    starts, step = rough_starts(recording, bounds), longest_step(p)
+    return fit_starts(p, recording, bounds, starts, weights=np.ones(2), step=step)

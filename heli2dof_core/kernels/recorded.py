@@ -1,4 +1,4 @@
-"""The rig as it was recorded: driven by held voltages, with sensitivities, or by references under its digital controller.
+"""The rig as recorded: under held voltages, with sensitivities, or under references with its controller.
 
 Between two samples the voltages are constant, so that the classical Runge–Kutta method with steps well below
 the rig's own time constants is exact enough. It is applied to state and sensitivities together, which
@@ -60,7 +60,7 @@ def run_segments(starts, bounds, t, volts, c, longest_step, w, outputs, slopes):
                 for row in range(SENSITIVITIES):
                     slopes[k, axis, row] = state[row + 1, axis]
             if k + 1 < last:
-                steps = max(1, int(ceil((t[k + 1] - t[k]) / longest_step)))
+                steps = max(1, ceil((t[k + 1] - t[k]) / longest_step))
                 h = (t[k + 1] - t[k]) / steps
                 for _ in range(steps):
                     advance(h, volts[k, 0], volts[k, 1], c, SENSITIVITIES + 1, state, stage, slope, total)
@@ -77,7 +77,7 @@ def run_held(start, t, volts, c, longest_step, w, states):
     for k in range(len(t)):
         put(state[0], states[k])
         if k + 1 < len(t):
-            steps = max(1, int(ceil((t[k + 1] - t[k]) / longest_step)))
+            steps = max(1, ceil((t[k + 1] - t[k]) / longest_step))
             h = (t[k + 1] - t[k]) / steps
             for _ in range(steps):
                 advance(h, volts[k, 0], volts[k, 1], c, 1, state, stage, slope, total)
@@ -142,11 +142,14 @@ def bend(x, V_p, V_y, c, rows, out):
 
 
 @kernel
-def run_recorder(y, c, m, d, noise, references, offsets, rtol, atol, most_steps, w, own, plant, free, grid, course, measured, states, voltages):  # fmt: skip
+def run_recorder(
+    y, c, m, d, noise, references, offsets, rtol, atol, most_steps,
+    w, own, plant, free, grid, course, measured, states, voltages,
+):  # fmt: skip
     """The digital rig under changing references, with what its controller measured at each of its samples.
 
-    `references` and `offsets`, (n, 2): c's WANTED and OFFSET from sample k on; `noise`, (n, 2), rad. Filled, with a row
-    per sample: `measured` and `voltages` (n, 2), `states` (n, 6). Scratch: `w` of zeros, `own`, `plant` like c,
+    `references` and `offsets`, (n, 2): c's WANTED and OFFSET from sample k on; `noise`, (n, 2), rad. Filled, with a
+    row per sample: `measured` and `voltages` (n, 2), `states` (n, 6). Scratch: `w` of zeros, `own`, `plant` like c,
     `free` like m, `grid` (2,), `course` (2, 6). Returns the outcome, the samples filled and the impacts.
     """
     put(c, own)

@@ -19,7 +19,7 @@ from .digital import settings_of
 from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
 
 SHARE_OF_TIME_CONSTANT = 0.05
-"""Longest step of the Runge–Kutta method in the rig's shortest time constants; the error per step is then below 1e-8."""
+"""Longest step of the Runge–Kutta method in the rig's shortest time constants: an error below 1e-8 per step."""
 RTOL = 1e-6
 
 
@@ -68,7 +68,7 @@ def run_held(p: Parameters, start: Floats, t: Floats, volts: Floats, travel: flo
 
 
 def run_segments(
-    p: Any, starts: Floats, bounds: NDArray[np.int64], t: Floats, volts: Floats, step: float
+    p: Any, starts: Floats, bounds: NDArray[np.int64], t: Floats, volts: Floats, *, step: float
 ) -> tuple[Floats, Floats]:
     """Angles (n, 2) of each segment from its own start, and their derivatives (n, 2, SENSITIVITIES).
 
@@ -96,7 +96,8 @@ def run_recorder(
     """The digital controller of `loop` on a rig, under references (n, 2) that may change at each sample.
 
     Args:
-        loop, limits: the controller and its limits; clamping stops its integrals, the trim is fed forward.
+        loop: the controller; clamping stops its integrals, the trim is fed forward.
+        limits: of the rig.
         digital: sample time, encoders, filters, delay, noise.
         references: θ_ref, ψ_ref at each sample, rad.
         rig: the rig that it controls, the design's own by default.
@@ -104,7 +105,8 @@ def run_recorder(
         voltages: V_p, V_y of the first sample; the integrals start so that the controller asks for them.
     """
     theta_0, n = loop.design.plant.theta_0, len(references)
-    first = (theta_0, 0.0, 0.0, 0.0) if start is None else tuple(float(v) for v in start)
+    theta, psi, theta_dot, psi_dot = (theta_0, 0.0, 0.0, 0.0) if start is None else start.tolist()
+    first = (theta, psi, theta_dot, psi_dot)
     system = NonlinearLoop.of(loop, limits, Scenario(initial=first, samples=2))
     c, y = system.constants.copy(), system.start.copy()
     at_zero = NonlinearLoop.of(loop, limits, Scenario(theta=0.0, psi=0.0, initial=first, samples=2)).offset
@@ -122,13 +124,15 @@ def run_recorder(
         y, c, system.modes.copy(), settings_of(digital), noise, references, offsets, *numbers, *scratch,
         measured, states, held,
     )  # fmt: skip
-    return Recorded(digital.sample_time * np.arange(n), measured, states, held, references, done)
+    return Recorded(
+        np.arange(n, dtype=np.float64) * digital.sample_time, measured, states, held, references, done
+    )
 
 
 def _integrals(system: NonlinearLoop, offset: Floats, y: Floats, voltages: Floats) -> Floats:
     """z_p, z_y with which the controller asks for these voltages, within the limits; 0 where it cannot."""
     missing = np.clip(voltages, -system.limits, system.limits) - offset - system.gain[:, :4] @ y[:4]
-    return np.linalg.lstsq(system.gain[:, 4:], missing, rcond=None)[0]
+    return np.asarray(np.linalg.lstsq(system.gain[:, 4:], missing, rcond=None)[0], dtype=np.float64)
 
 
 def exact(digital: Digital) -> Digital:

@@ -1,7 +1,7 @@
 """How often the 95 % intervals of an identification contain the truth: `python -m tests.bench.identification [runs]`.
 
-Each run is a digital rig of its own: parameters off its data sheet by up to 15 %, random reference steps, encoders, filtered
-rates and noise by its seed. Also given: intervals that take the residuals for white, and the time.
+Each run is a digital rig of its own: parameters off its data sheet by up to 15 %, random reference steps, encoders,
+filtered rates and noise by its seed. Also given: intervals that take the residuals for white, and the time.
 """
 
 from __future__ import annotations
