@@ -174,7 +174,7 @@ class IdentificationReply(Model):
 
     done: bool
     estimates: list[EstimateReply]
-    rms_before: PerAxis
+    rms_before: PerAxis | None = None
     rms: PerAxis
     segments: int
     lags: float
@@ -230,7 +230,7 @@ def identification_reply(found: Identification) -> Reply:
     return {
         "done": True,
         "estimates": [{**vars(e), "adopted": e.allowed} for e in found.estimates],
-        "rms_before": _axes(found.rms_before),
+        "rms_before": None if found.rms_before is None else _axes(found.rms_before),
         "rms": _axes(found.rms),
         "segments": len(found.segments),
         "lags": found.lags,

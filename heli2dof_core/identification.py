@@ -27,7 +27,8 @@ QUANTILE = 1.959964
 """Of the normal distribution, for 95 %."""
 MOST_EVALUATIONS = 60
 COARSE = 0.5
-"""Length of the segments of a first fit, s."""
+"""Length of the segments of a first fit, s; from one fit to the next they grow."""
+GROWING = 3.0
 TOLERANCE, COARSE_TOLERANCE = 1e-6, 1e-2
 """Relative change of the parameters at which a search ends."""
 _POOR_CONDITION = 1e6
@@ -74,7 +75,8 @@ class Identification:
     Attributes:
         estimates: of the free parameters.
         parameters: the rig with them, each within its range.
-        rms_before, rms: of the residuals of θ and ψ, rad; starting states are fitted in both.
+        rms_before, rms: of the residuals of θ and ψ, rad; starting states are fitted in both. Before: None where the rig as it was
+            thought to be runs away.
         residuals: measured minus simulated, (n, 2), rad; 0 where nothing was simulated.
         segments: (count, 2), first sample and last + 1.
         lags: over which the residuals' correlation was taken into account, samples.
@@ -85,7 +87,7 @@ class Identification:
 
     estimates: tuple[Estimate, ...]
     parameters: Parameters
-    rms_before: tuple[float, float]
+    rms_before: tuple[float, float] | None
     rms: tuple[float, float]
     residuals: Floats
     segments: NDArray[np.int64]
@@ -133,19 +135,14 @@ def identify(
     names = _checked(default_free(p) if free is None else free)
     length = segment_length(p, recording) if segment is None else segment
     require_within(length, "segment", "s", 0.1, 1e4)
-    search = _Search(p, recording, names, cut(recording, length, travel), report)
-    start = np.zeros(len(names))
-    before = search.fitted(start)
-    excited = search.slopes(before).reshape(-1, len(names))
-    _require_excited(excited, names)
-    values = start
-    if length > COARSE:  # a wrong rig soon falls out of reach of the right one; short segments bring it near
-        near = _Search(p, recording, names, cut(recording, COARSE, travel), report)
-        values = near.minimum(start, COARSE_TOLERANCE)
-        search.evaluations = near.evaluations
-    for _ in range(2):
-        search.weights = 1.0 / np.maximum(search.rms(search.fitted(values)), 1e-9)
-        values = search.minimum(values)
+    try:
+        search, before, values = _found(p, recording, names, length, travel, report)
+    except FloatingPointError as error:
+        raise RecordingError(
+            "under the recorded voltages the simulated rig runs away",
+            field="columns",
+            hint="Check units, signs and offsets, and that this is the rig that was recorded; or try shorter segments.",
+        ) from error
     after = search.fitted(values)
     J, r = search.slopes(after) * search.weights[:, None], after.residuals * search.weights
     inside = search.inside
@@ -161,7 +158,7 @@ def identify(
     return Identification(
         estimates=tuple(estimates),
         parameters=p.replaced({e.name: e.allowed for e in estimates}),
-        rms_before=_pair(search.rms(before)),
+        rms_before=before,
         rms=_pair(search.rms(after)),
         residuals=after.residuals,
         segments=search.bounds,
@@ -170,6 +167,36 @@ def identify(
         seconds=perf_counter() - began,
         findings=(*recording.findings, *_remarks(estimates, J[inside], names, search)),
     )
+
+
+def _found(
+    p: Parameters,
+    recording: Recording,
+    names: tuple[str, ...],
+    length: float,
+    travel: float | None,
+    report: Callable[[Progress], None],
+) -> tuple[_Search, tuple[float, float] | None, Floats]:
+    """The search in segments of `length`, the residuals before it and what it found.
+
+    A wrong rig soon falls out of reach of the right one, so that short segments bring it near first.
+    """
+    values, short, spent = np.zeros(len(names)), min(COARSE, length), 0
+    search = _Search(p, recording, names, cut(recording, short, travel), report)
+    _require_excited(search.slopes(search.fitted(values)).reshape(-1, len(names)), names)
+    while short < length:
+        values = search.minimum(values, COARSE_TOLERANCE)
+        short, spent = min(GROWING * short, length), search.evaluations
+        search = _Search(p, recording, names, cut(recording, short, travel), report, spent)
+    try:
+        before = _pair(search.rms(search.fitted(np.zeros(len(names)))))
+    except FloatingPointError:
+        before = None
+    search.begin()
+    for _ in range(2):
+        search.weights = 1.0 / np.maximum(search.rms(search.fitted(values)), 1e-9)
+        values = search.minimum(values)
+    return search, before, values
 
 
 class _Search:
@@ -182,10 +209,11 @@ class _Search:
         names: tuple[str, ...],
         bounds: NDArray[np.int64],
         report: Callable[[Progress], None],
+        evaluations: int = 0,
     ) -> None:
         self.p, self.recording, self.names, self.bounds, self.report = p, recording, names, bounds, report
         self.scales = np.array([_scale(p, name) for name in names])
-        self.weights, self.evaluations, self.ended = np.ones(2), 0, True
+        self.weights, self.evaluations, self.ended = np.ones(2), evaluations, True
         self._columns = [IDENTIFIABLE.index(name) for name in names]
         self._starts, self._last = rough_starts(recording, bounds), (np.full(len(names), np.nan), 0.0, None)
         self._step = longest_step(p) / 2
@@ -193,6 +221,10 @@ class _Search:
         for first, end in bounds.tolist():
             inside[first:end] = True
         self.inside = inside
+
+    def begin(self) -> None:
+        """Forgets the starting states: those of another rig lead astray."""
+        self._starts = rough_starts(self.recording, self.bounds)
 
     def value(self, i: int, deviations: Floats) -> float:
         """The i-th free parameter."""

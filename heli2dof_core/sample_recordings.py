@@ -26,7 +26,7 @@ def reference_steps(
     Steps are 1 to 3 s apart; the first second is at rest.
     """
     n = round(duration / sample_time)
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng([seed, 2])  # not the stream that the noise takes
     references = np.tile([theta_0, 0.0], (n, 1))
     for axis, (middle, size) in enumerate(((theta_0, theta), (0.0, psi))):
         at, side = 1.0 + 0.5 * axis, 1.0

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from heli2dof_core import PoleSet, Spec, close_loop, place, preset
+from heli2dof_core import OuterLoop, PoleSet, Spec, close_loop, place, preset
 from heli2dof_core.covariance import plain_covariance, sandwich_covariance
 from heli2dof_core.errors import CancelledError, InvalidInputError, RecordingError
 from heli2dof_core.identification import IDENTIFIABLE, identify
@@ -182,7 +182,7 @@ def test_refusals():
 
 def test_runaway_loops_are_not_recorded():
     base = Spec.from_preset(preset())
-    spec = replace(base, poles=PoleSet([1.0, 2.0, -3.0, -4.0]))
+    spec = replace(base, poles=PoleSet([-3.0, -4.0, 1.0, 2.0]), outer=OuterLoop(outer="none"))
     loop = close_loop(place(spec), spec.outer)
     with pytest.raises(InvalidInputError, match="runs away"):
         sample_recording(loop, Limits(1e3, 1e3), EXACT, rig=spec.parameters, duration=30.0, size=(0.1, 0.1))
