@@ -33,6 +33,7 @@ class Compute:
 
     def __init__(self, threads: int = 2) -> None:
         self._pool = ThreadPoolExecutor(threads, thread_name_prefix="compute")
+        self._slow = ThreadPoolExecutor(1, thread_name_prefix="slow")
         self._warm = threading.Event()
         self._failure: BaseException | None = None
         self._kernels = KernelCompiler()
@@ -59,19 +60,26 @@ class Compute:
 
     async def run(self, function: Callable[..., T], *args: object) -> T:
         """`function(*args)` in the pool, after the derivation."""
+        return await self._run(self._pool, function, args)
 
+    async def run_slow(self, function: Callable[..., T], *args: object) -> T:
+        """As `run`, for what takes seconds: in a thread of its own, so that no design waits for it."""
+        return await self._run(self._slow, function, args)
+
+    async def _run(self, pool: ThreadPoolExecutor, function: Callable[..., T], args: tuple[object, ...]) -> T:
         def work() -> T:
             self._warm.wait()
             if self._failure is not None:
                 raise RuntimeError("the derivation failed at start") from self._failure
             return function(*args)
 
-        return await asyncio.get_running_loop().run_in_executor(self._pool, work)
+        return await asyncio.get_running_loop().run_in_executor(pool, work)
 
     def close(self) -> None:
         """Drops what waits and stops the pool's threads."""
         self._kernels.close()
-        self._pool.shutdown(wait=False, cancel_futures=True)
+        for pool in (self._pool, self._slow):
+            pool.shutdown(wait=False, cancel_futures=True)
 
     def _warm_up(self) -> None:
         began = perf_counter()

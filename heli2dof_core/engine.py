@@ -30,7 +30,9 @@ from .layout import (
     PI,
     POLYNOMIAL_WORKSPACE,
     POLYNOMIALS,
+    RECORDED_WORKSPACE,
     REFERENCE,
+    SENSITIVITIES,
     SENSITIVITY,
     SETTINGS,
     START,
@@ -57,6 +59,9 @@ class Engine:
     run_experiments: Any
     integrate: Any
     run_digital: Any
+    run_recorder: Any
+    run_segments: Any
+    run_held: Any
     run_cloud: Any
     trajectories: Any
     hold: Any
@@ -77,6 +82,7 @@ _HOMES = {
     **dict.fromkeys(("run_linear", "run_experiments"), "experiment"),
     "integrate": "dormand_prince",
     "run_digital": "digital",
+    **dict.fromkeys(("run_recorder", "run_segments", "run_held"), "recorded"),
     "run_cloud": "cloud",
     **dict.fromkeys(("trajectories", "hold", "share_at_limit", "measure"), "measures"),
     **dict.fromkeys(("describe", "margins", "peaks"), "frequency"),
@@ -164,6 +170,7 @@ def _exercise(kernels: Engine) -> None:
     kernels.run_digital(
         y, t, c, m, d, np.zeros((3, 2)), np.inf, *numbers, w, *scratch, states, np.empty((2, 2))
     )
+    _exercise_recorded(kernels, (y, c, m, d), numbers)
     rigs, angles = c[None, :GAIN].copy(), np.empty((1, 2, 2))
     kernels.run_cloud(
         rigs, y, t, c, m, *numbers, w, y.copy(), c.copy(), m.copy(), states, angles, np.empty(1)
@@ -179,3 +186,15 @@ def _exercise(kernels: Engine) -> None:
     kernels.peaks(f, np.array([-1 + 0j]), np.empty(FREQUENCIES + 2), np.empty(SENSITIVITY))
     for name in _HOMES:
         getattr(kernels, name).disable_compile()
+
+
+def _exercise_recorded(kernels: Engine, rig: tuple[Any, ...], numbers: tuple[float, ...]) -> None:
+    y, c, m, d = rig
+    t, pairs, scratch = np.array([0.0, 1e-3]), np.zeros((1, 2)), np.zeros(RECORDED_WORKSPACE)
+    volts, bounds, slopes = np.zeros((2, 2)), np.array([[0, 2]]), np.empty((2, 2, SENSITIVITIES))
+    kernels.run_segments(np.zeros((1, 4)), bounds, t, volts, c, 1e-2, scratch, volts.copy(), slopes)
+    kernels.run_held(np.zeros(4), t, volts, c, 1e-2, scratch, np.empty((2, 4)))
+    own = np.zeros(WORKSPACE), c.copy(), c.copy(), m.copy(), np.empty(2), np.empty((2, 6))
+    kernels.run_recorder(
+        y.copy(), c, m, d, *np.zeros((3, 1, 2)), *numbers, *own, pairs, np.empty((1, 6)), pairs.copy()
+    )

@@ -5,7 +5,9 @@
     ├── UnpairedPolesError         a pair is neither two real poles nor two conjugates
     ├── UncontrollableError        the two motors cannot move the two axes independently
     ├── StructureUnavailableError  the coupling asked for does not exist on this rig
-    └── MethodUnavailableError     a placement method cannot solve this task, or is not installed
+    ├── MethodUnavailableError     a placement method cannot solve this task, or is not installed
+    ├── RecordingError             a recorded file, or what it holds, is unusable
+    └── CancelledError             whoever asked does not want the answer any more
 
 A design that is legal but unwise raises nothing; it carries findings (see `findings`).
 """
@@ -60,3 +62,15 @@ class MethodUnavailableError(Heli2DofError):
     """A placement method cannot solve the task, or needs a package that is not installed."""
 
     code = "method_unavailable"
+
+
+class RecordingError(Heli2DofError):
+    """A file of a recording cannot be read, or a row or column of it is unusable."""
+
+    code = "unusable_recording"
+
+
+class CancelledError(Heli2DofError):
+    """The work was called off by whoever asked for it."""
+
+    code = "cancelled"

@@ -48,3 +48,8 @@ POLYNOMIALS = (2, 2, 16)
 POLYNOMIAL_WORKSPACE = (11, 16)
 FREQUENCIES = 100
 """Grid of the search over frequency, from a hundredth of the slowest to a hundred times the fastest pole."""
+
+SENSITIVITIES = 11
+"""Columns of a recorded course's derivatives: by θ, ψ, θ̇, ψ̇ at its start, then by seven parameters."""
+RECORDED_WORKSPACE = (4, SENSITIVITIES + 1, 4)
+"""Shape of the scratch array of `kernels.recorded`: state, stage, slope and their sum."""

@@ -60,6 +60,19 @@ export async function recordMotion(format, design) {
   if (!response.ok) throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
   return response.blob();
 }
+/** @param {string} path @param {BodyInit} body @param {string} [type] @returns {Promise<Response>} */
+async function post(path, body, type = 'application/octet-stream') {
+  const response = await fetch(at(path), { method: 'POST', headers: { 'Content-Type': type }, body });
+  if (!response.ok) throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
+  return response;
+}
+
+/** A recorded file. @param {Blob} file @param {string} name */
+export const sendRecording = async (file, name) => (await post(`api/v1/recordings?${new URLSearchParams({ name })}`, file)).json();
+/** A recording of a design's digital rig. @param {unknown} design @returns {Promise<Blob>} */
+export const sampleRecording = async (design) => (await post('api/v1/recordings/sample', JSON.stringify(design), 'application/json')).blob();
+/** @param {string} id @param {unknown} body */
+export const overlayRecording = (id, body) => call(`api/v1/recordings/${encodeURIComponent(id)}/overlay`, { method: 'POST', body });
 /** The rig in a window of its own. @param {string} session */
 export const windowAddress = (session) => at(`scene/${encodeURIComponent(session)}/`).href;
 
@@ -73,6 +86,7 @@ function socketAddress(path) {
 export const liveAddress = () => socketAddress('api/v1/live');
 /** @param {string} session */
 export const hubAddress = (session) => socketAddress(`scene/${encodeURIComponent(session)}/hub?page=true`);
+export const identifyAddress = () => socketAddress('api/v1/recordings/identify');
 export const cloudAddress = () => socketAddress('api/v1/robustness');
 
 /**

@@ -34,6 +34,7 @@ import { PaperPanel } from './panels/paper.js';
 import { PinBar } from './panels/pin_bar.js';
 import { PinsPanel } from './panels/pins.js';
 import { PolesPanel } from './panels/poles.js';
+import { RecordingsPanel } from './panels/recordings.js';
 import { Remarks } from './panels/remarks.js';
 import { ScenarioPanel } from './panels/scenario.js';
 
@@ -54,7 +55,7 @@ const figures = [
   new HeaderPanel(byId('header'), store, address, { tour, projector }),
   new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new ExperimentPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
   new PinBar(byId('pin-bar'), store), new PinsPanel(byId('pins'), store),
-  new ComparePanel(byId('compare'), store), new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene, new CloudFeed(store),
+  new ComparePanel(byId('compare'), store), new RecordingsPanel(byId('recordings'), store), new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene, new CloudFeed(store),
   new Notice(byId('notice'), store),
   new Remarks(document), new FindingsPanel(byId('strip'), store), // last, as it measures what it has written
 ];

@@ -43,7 +43,7 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
         t,
         system.constants,
         system.modes.copy(),
-        _settings(digital),
+        settings_of(digital),
         noise,
         system.disturbed_from,
         scenario.rtol,
@@ -63,7 +63,7 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
     return Response(**{**vars(response), "findings": (*response.findings, *remarks)})
 
 
-def _settings(digital: Digital) -> Floats:
+def settings_of(digital: Digital) -> Floats:
     """`kernels.digital`'s array d."""
     steps = [2 * np.pi / counts if counts else 0.0 for counts in digital.encoders]
     filtered = float(digital.rates == "filtered")

@@ -1,0 +1,253 @@
+"""Recordings over REST: what is asked about a file, and what is replied."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field
+
+from heli2dof_core.identification import IDENTIFIABLE, Identification, Progress
+from heli2dof_core.overlay import Overlay
+from heli2dof_core.recordings import ROLES, AngleUnit, Columns, Recording, Table, guess_columns
+from heli2dof_core.signals import Floats
+
+from .models import Finding, Model
+from .requests import DesignRequest, StepRequest, Strict
+
+PREVIEWED = 5
+MOST_POINTS = 1500
+"""Points of a curve that are sent; more make no other picture."""
+Reply = dict[str, Any]
+Driver = Literal["voltages", "segments", "references"]
+
+
+class Signs(Strict):
+    """Of the encoders, 1 or −1."""
+
+    theta: Literal[-1, 1] = 1
+    psi: Literal[-1, 1] = 1
+
+
+class Offsets(Strict):
+    """Added to the file's angles after their signs, in its unit."""
+
+    theta: float = 0.0
+    psi: float = 0.0
+
+
+class Mapping(Strict):
+    """Which column is what, and how its angles become ours."""
+
+    time: str | None = None
+    theta: str | None = None
+    psi: str | None = None
+    V_p: str | None = None
+    V_y: str | None = None
+    theta_ref: str | None = None
+    psi_ref: str | None = None
+    unit: AngleUnit = Field(default="rad", description="of the file's angles")
+    signs: Signs = Signs()
+    offsets: Offsets = Offsets()
+    sample_time: float | None = Field(default=None, description="s, where no column is the time")
+
+    def to_columns(self) -> Columns:
+        """The core's mapping."""
+        names = {role: name for role in ROLES if (name := getattr(self, role)) is not None}
+        signs, offsets = (self.signs.theta, self.signs.psi), (self.offsets.theta, self.offsets.psi)
+        return Columns(names, self.unit, signs, offsets, self.sample_time)
+
+
+class SampleRequest(StepRequest):
+    """A design whose digital rig is to be recorded while its references step."""
+
+    length: float = Field(default=30.0, ge=2.0, le=600.0, description="of the recording, s")
+    deviation: float = Field(
+        default=0.15, ge=0, le=0.5, description="largest deviation of the recorded rig's parameters, relative"
+    )
+    noise: float = Field(default=1e-3, ge=0, le=0.1, description="standard deviation on the angles, rad")
+    seed: int = Field(default=0, ge=0, le=2**32 - 1)
+
+
+class OverlayRequest(StepRequest):
+    """A design to lay over a recording."""
+
+    columns: Mapping
+    driver: Driver = Field(
+        default="segments",
+        description="voltages: one run under the recorded voltages; segments: begun anew every few seconds; "
+        "references: the design's loop under the recorded references",
+    )
+    segment: float | None = Field(
+        default=None, ge=0.1, le=1e4, description="s; by default by the rig's stability"
+    )
+
+
+class IdentifyRequest(DesignRequest):
+    """A rig as it is thought to be, and which of its parameters are free."""
+
+    recording: str = Field(max_length=64)
+    columns: Mapping
+    free: list[Annotated[str, Field(json_schema_extra={"enum": [*IDENTIFIABLE]})]] | None = Field(
+        default=None, max_length=len(IDENTIFIABLE), description="all by default, K_s only where it is not 0"
+    )
+    segment: float | None = Field(
+        default=None, ge=0.1, le=1e4, description="s; by default by the rig's stability"
+    )
+
+
+class Guess(Model):
+    """What the columns probably are."""
+
+    columns: dict[str, str]
+    unit: str
+
+
+class Preview(Model):
+    """A recording as it was read; `id` is kept for half an hour after its last use."""
+
+    id: str
+    name: str
+    columns: list[str]
+    rows: int
+    first_row: int
+    preview: list[list[float | None]]
+    guess: Guess
+
+
+class PerAxis(Model):
+    """A number per axis; null where it is not defined."""
+
+    theta: float | None
+    psi: float | None
+
+
+class Courses(Model):
+    """Angles, rad; null where nothing was simulated."""
+
+    theta: list[float | None]
+    psi: list[float | None]
+
+
+class Volts(Model):
+    """V."""
+
+    V_p: list[float]
+    V_y: list[float]
+
+
+class OverlayReply(Model):
+    """Measured and simulated, at no more than 1500 of the recording's times."""
+
+    driver: str
+    samples: int
+    sample_time: float
+    duration: float
+    fit: PerAxis
+    rms: PerAxis
+    segments: int
+    t: list[float]
+    measured: Courses
+    simulated: Courses
+    residuals: Courses
+    references: Courses | None = None
+    voltages: Volts
+    driving: Volts
+    findings: list[Finding]
+
+
+class EstimateReply(Model):
+    """A parameter in SI units with its 95 % interval; `plain` is the half width if residuals were white."""
+
+    name: str
+    unit: str
+    before: float
+    value: float
+    low: float
+    high: float
+    plain: float
+    adopted: float
+
+
+class IdentificationReply(Model):
+    """The result over the socket; before it come `{"evaluations", "rms"}`."""
+
+    done: bool
+    estimates: list[EstimateReply]
+    rms_before: PerAxis | None = None
+    rms: PerAxis
+    segments: int
+    lags: float
+    evaluations: int
+    seconds: float
+    findings: list[Finding]
+
+
+def preview_reply(key: str, name: str, table: Table) -> Reply:
+    """What was read."""
+    guess = guess_columns(table)
+    rows = [[v if np.isfinite(v) else None for v in row] for row in table.values[:PREVIEWED].tolist()]
+    about = {"id": key, "name": name, "columns": list(table.names), "rows": len(table.values)}
+    return {
+        **about,
+        "first_row": table.first_row,
+        "preview": rows,
+        "guess": {"columns": guess.names, "unit": guess.unit},
+    }
+
+
+def overlay_reply(driver: Driver, recording: Recording, overlay: Overlay) -> Reply:
+    """Both courses, thinned out."""
+    n = len(recording.t)
+    kept = np.unique(np.linspace(0, n - 1, min(n, MOST_POINTS)).round().astype(int))
+    references = recording.references
+    return {
+        "driver": driver,
+        "samples": n,
+        "sample_time": recording.sample_time,
+        "duration": float(recording.t[-1]),
+        "fit": _axes(overlay.fit),
+        "rms": _axes(overlay.rms),
+        "segments": len(overlay.segments),
+        "t": recording.t[kept],
+        "measured": _courses(recording.angles[kept]),
+        "simulated": _courses(overlay.angles[kept]),
+        "residuals": _courses((recording.angles - overlay.angles)[kept]),
+        **({} if references is None else {"references": _courses(references[kept])}),
+        "voltages": _volts(recording.voltages[kept]),
+        "driving": _volts(overlay.voltages[kept]),
+        "findings": [vars(finding) for finding in recording.findings],
+    }
+
+
+def progress_reply(progress: Progress) -> Reply:
+    """How far the search is."""
+    return {"done": False, "evaluations": progress.evaluations, "rms": _axes(progress.rms)}
+
+
+def identification_reply(found: Identification) -> Reply:
+    """What was found."""
+    return {
+        "done": True,
+        "estimates": [{**vars(e), "adopted": e.allowed} for e in found.estimates],
+        "rms_before": None if found.rms_before is None else _axes(found.rms_before),
+        "rms": _axes(found.rms),
+        "segments": len(found.segments),
+        "lags": found.lags,
+        "evaluations": found.evaluations,
+        "seconds": found.seconds,
+        "findings": [vars(finding) for finding in found.findings],
+    }
+
+
+def _axes(values: tuple[float | None, float | None]) -> Reply:
+    theta, psi = (v if v is not None and np.isfinite(v) else None for v in values)
+    return {"theta": theta, "psi": psi}
+
+
+def _courses(angles: Floats) -> Reply:
+    return {name: np.ascontiguousarray(angles[:, i]) for i, name in enumerate(("theta", "psi"))}
+
+
+def _volts(volts: Floats) -> Reply:
+    return {name: np.ascontiguousarray(volts[:, i]) for i, name in enumerate(("V_p", "V_y"))}

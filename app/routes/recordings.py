@@ -1,0 +1,225 @@
+"""Recordings of a rig: sent, laid over the simulation, and identified with progress and cancel over a WebSocket."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+import threading
+from dataclasses import replace
+from typing import Any
+
+import orjson
+from fastapi import APIRouter, HTTPException, Request, Response, WebSocket, WebSocketDisconnect
+from pydantic import ValidationError
+
+from heli2dof_core import Heli2DofError, Spec, close_loop, place, preset
+from heli2dof_core.engine import engine
+from heli2dof_core.errors import CancelledError, RecordingError
+from heli2dof_core.identification import Progress, identify
+from heli2dof_core.overlay import driven_by_references, driven_by_voltages, driven_in_segments
+from heli2dof_core.recording_files import MOST_BYTES, read_table, write_csv
+from heli2dof_core.recordings import recording_of
+from heli2dof_core.sample_recordings import deviating_rig, named_columns, sample_recording
+from heli2dof_core.spec import Digital
+
+from ..compute import Compute
+from ..encoding import json_bytes, json_response
+from ..models import described
+from ..problems import problem, problem_of
+from ..recording_models import (
+    IdentifyRequest,
+    OverlayReply,
+    OverlayRequest,
+    Preview,
+    Reply,
+    SampleRequest,
+    identification_reply,
+    overlay_reply,
+    preview_reply,
+    progress_reply,
+)
+from ..recording_store import RecordingStore
+
+_log = logging.getLogger(__name__)
+_SIZE = (0.2, 0.4)
+"""Reference steps of a sample where the preset's scenario names none, rad."""
+
+
+def build_router(compute: Compute) -> APIRouter:
+    """The routes recordings under /api/v1."""
+    router = APIRouter(prefix="/api/v1/recordings", tags=["recordings"])
+    store = RecordingStore()
+
+    @router.post("", **_takes_a_file())
+    async def send(request: Request, name: str = "") -> Response:
+        data = await _body(request)
+        table = await compute.run_slow(read_table, data, name[:200])
+        return json_response(preview_reply(store.put(table), name[:200], table))
+
+    @router.post("/sample", **_makes_a_file())
+    async def sample(request: SampleRequest) -> Response:
+        _require_compiled()
+        content = await compute.run_slow(_sample, request)
+        name = {"Content-Disposition": 'attachment; filename="heli2dof-recording.csv"'}
+        return Response(content, media_type="text/csv; charset=utf-8", headers=name)
+
+    @router.post(
+        "/{key}/overlay", **described(OverlayReply, "The recording over the simulation, with its fit")
+    )
+    async def overlay(key: str, request: OverlayRequest) -> Response:
+        _require_compiled()
+        table = store.get(key)
+        return json_response(await compute.run_slow(lambda: _overlay(request, table)))
+
+    @router.websocket("/identify")
+    async def identifying(socket: WebSocket) -> None:
+        """One request in; progress out, then the result. Whatever comes next cancels it."""
+        await socket.accept()
+        try:
+            text = await socket.receive_text()
+            while True:
+                answering = asyncio.create_task(_answer(socket, text, compute, store))
+                try:
+                    text = await socket.receive_text()
+                finally:
+                    answering.cancel()
+                    await asyncio.gather(answering, return_exceptions=True)
+        except WebSocketDisconnect:
+            pass
+
+    return router
+
+
+def _require_compiled() -> None:
+    if not engine().compiled:
+        raise HTTPException(
+            503, "Still compiling after the start; try again in half a minute.", {"Retry-After": "15"}
+        )
+
+
+async def _body(request: Request) -> bytes:
+    """The request's body, given up as soon as it is too long."""
+    parts, size = [], 0
+    async for part in request.stream():
+        size += len(part)
+        if size > MOST_BYTES:
+            raise RecordingError(
+                "the file is too large",
+                field="file",
+                value=size,
+                hint=f"At most {MOST_BYTES // 2**20} MiB are read.",
+            )
+        parts.append(part)
+    return b"".join(parts)
+
+
+def _sample(request: SampleRequest) -> bytes:
+    spec, base = request.to_spec(), preset(request.preset)
+    given = spec.scenario.digital or Digital(encoders=base.encoders)
+    digital = replace(given, noise=request.noise, seed=request.seed)
+    rig = deviating_rig(spec.parameters, request.deviation, request.seed)
+    wanted = (base.scenario.theta or _SIZE[0], base.scenario.psi or _SIZE[1])
+    size = (abs(wanted[0] - spec.theta_0) if base.scenario.theta is None else abs(wanted[0]), abs(wanted[1]))
+    loop = close_loop(place(spec), spec.outer)
+    run = sample_recording(loop, spec.limits, digital, rig=rig, duration=request.length, size=size)
+    changed = {name: v for name, v in rig.as_dict().items() if v != getattr(spec.parameters, name)}
+    truth = ", ".join(f"{name} = {value:.6g}" for name, value in changed.items())
+    comments = (
+        "A digital rig of heli2dof: angles in rad, voltages in V",
+        f"Its true parameters, SI: {truth}" if truth else "Its parameters are the design's",
+    )
+    return write_csv(named_columns(run), comments)
+
+
+def _overlay(request: OverlayRequest, table: Any) -> Reply:
+    spec, recording = request.to_spec(), recording_of(table, request.columns.to_columns())
+    if request.driver == "voltages":
+        result = driven_by_voltages(spec.parameters, recording, spec.limits.theta)
+    elif request.driver == "segments":
+        result = driven_in_segments(spec.parameters, recording, request.segment, spec.limits.theta)
+    else:
+        loop = close_loop(place(spec), spec.outer)
+        result = driven_by_references(loop, spec.limits, recording, spec.scenario.digital)
+    return overlay_reply(request.driver, recording, result)
+
+
+async def _answer(socket: WebSocket, text: str, compute: Compute, store: RecordingStore) -> None:
+    async def send(value: Any) -> None:
+        await socket.send_text(json_bytes(value).decode())
+
+    try:
+        data = orjson.loads(text)
+        if isinstance(data, dict) and data.get("cancel"):
+            await send({"cancelled": True})
+            return
+        _require_compiled()
+        request = IdentifyRequest.model_validate(data)
+        await _identify(send, request.to_spec(), request, compute, store)
+    except orjson.JSONDecodeError as error:
+        await send(problem(422, f"Not JSON: {error}.", "invalid_json", hint="Send one JSON object."))
+    except (ValidationError, Heli2DofError, HTTPException) as error:
+        await send(problem_of(error))
+    except (asyncio.CancelledError, WebSocketDisconnect):
+        raise
+    except Exception:
+        _log.exception("identification failed")
+        await send(problem(500, "The server failed to answer; this is a bug.", "internal_error"))
+
+
+async def _identify(
+    send: Any, spec: Spec, request: IdentifyRequest, compute: Compute, store: RecordingStore
+) -> None:
+    """Runs in the pool for what takes seconds; progress comes from there, of which only the newest waits."""
+    table, loop, called_off = store.get(request.recording), asyncio.get_running_loop(), threading.Event()
+    newest: list[Progress] = []
+    told = asyncio.Event()
+
+    def report(progress: Progress) -> None:
+        if called_off.is_set():
+            raise CancelledError("called off")
+        newest[:] = [progress]
+        loop.call_soon_threadsafe(told.set)
+
+    def work() -> Reply:
+        recording = recording_of(table, request.columns.to_columns())
+        found = identify(
+            spec.parameters,
+            recording,
+            request.free,
+            segment=request.segment,
+            travel=spec.limits.theta,
+            report=report,
+        )
+        return identification_reply(found)
+
+    running = asyncio.ensure_future(compute.run_slow(work))
+    running.add_done_callback(lambda _: told.set())
+    try:
+        while not running.done():
+            await told.wait()
+            told.clear()
+            if newest and not running.done():
+                await send(progress_reply(newest.pop()))
+        await send(await running)
+    finally:
+        called_off.set()
+        if not running.done():
+            running.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await asyncio.gather(running, return_exceptions=True)
+
+
+def _takes_a_file() -> dict[str, Any]:
+    options = described(Preview, "The file as it was read: columns, first rows, what they probably are")
+    content = {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}
+    extra = {"requestBody": {"required": True, "description": "CSV or .mat", "content": content}}
+    return {**options, "openapi_extra": extra}
+
+
+def _makes_a_file() -> dict[str, Any]:
+    options = described(None, "A recording of the design's digital rig, CSV")
+    del options["responses"][200]["model"]
+    options["responses"][200]["content"] = {"text/csv": {"schema": {"type": "string"}}}
+    options["responses"][503] = {"description": "Still compiling"}
+    return {**options, "response_class": Response}

@@ -1,0 +1,349 @@
+"""A rig's damping, stiffness and thrust constants from a recording, by output error on the nonlinear model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from time import perf_counter
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .checks import require_within
+from .covariance import plain_covariance, sandwich_covariance
+from .errors import InvalidInputError, RecordingError
+from .findings import Finding
+from .parameters import PARAMETER_INFO, Parameters
+from .recordings import Recording
+from .segments import Fitted, cut, fit_starts, rough_starts, segment_length
+from .signals import Floats
+from .simulation.recorded import longest_step
+
+IDENTIFIABLE = ("K_pp", "K_py", "K_yp", "K_yy", "B_p", "B_y", "K_s")
+"""Parameters that can be found, in the order of the sensitivities; J, m and l only scale them and stay."""
+QUANTILE = 1.959964
+"""Of the normal distribution, for 95 %."""
+MOST_EVALUATIONS = 60
+COARSE = 0.5
+"""Length of the segments of a first fit, s; from one fit to the next they grow."""
+GROWING = 3.0
+TOLERANCE, COARSE_TOLERANCE = 1e-6, 1e-2
+"""Relative change of the parameters at which a search ends."""
+_POOR_CONDITION = 1e6
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """One parameter.
+
+    Attributes:
+        name, unit: of the parameter.
+        before, value: as it was, and as found.
+        low, high: its 95 % interval, correlated residuals considered.
+        plain: half width of the interval that takes the residuals for white.
+    """
+
+    name: str
+    unit: str
+    before: float
+    value: float
+    low: float
+    high: float
+    plain: float
+
+    @property
+    def allowed(self) -> float:
+        """The value within the range that the parameter may have."""
+        info = PARAMETER_INFO[self.name]
+        return min(max(self.value, info["low"]), info["high"])
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far the search is: simulations so far, and the residuals' root mean square of θ and ψ, rad."""
+
+    evaluations: int
+    rms: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Identification:
+    """What a recording says about a rig.
+
+    Attributes:
+        estimates: of the free parameters.
+        parameters: the rig with them, each within its range.
+        rms_before, rms: of the residuals of θ and ψ, rad; starting states are fitted in both. Before: None where the rig as it was
+            thought to be runs away.
+        residuals: measured minus simulated, (n, 2), rad; 0 where nothing was simulated.
+        segments: (count, 2), first sample and last + 1.
+        lags: over which the residuals' correlation was taken into account, samples.
+        evaluations: simulations of the recording.
+        seconds: that it took.
+        findings: remarks.
+    """
+
+    estimates: tuple[Estimate, ...]
+    parameters: Parameters
+    rms_before: tuple[float, float] | None
+    rms: tuple[float, float]
+    residuals: Floats
+    segments: NDArray[np.int64]
+    lags: float
+    evaluations: int
+    seconds: float
+    findings: tuple[Finding, ...]
+
+
+def default_free(p: Parameters) -> tuple[str, ...]:
+    """The parameters that are free unless one says otherwise: stiffness only where the rig has one."""
+    return tuple(name for name in IDENTIFIABLE if name != "K_s" or p.K_s)
+
+
+def identify(
+    p: Parameters,
+    recording: Recording,
+    free: Sequence[str] | None = None,
+    *,
+    segment: float | None = None,
+    travel: float | None = None,
+    report: Callable[[Progress], None] = lambda progress: None,
+) -> Identification:
+    """The free parameters that bring the simulated angles nearest to the recorded ones.
+
+    Output error (Ljung, System Identification, 1999, sections 7.2 and 10.2): the nonlinear model, driven by the
+    recorded voltages in segments whose starting states are unknown too, is fitted by SciPy's trust-region
+    Gauss–Newton method, starting states eliminated within each step (Golub & Pereyra, SIAM J. Numer. Anal. 10
+    (1973) 413–432). Short segments bring a wrong rig near; then both axes are weighted alike, then by their
+    residuals. Intervals are those of `sandwich_covariance`.
+
+    Args:
+        p: the rig as it is thought to be; what is not free stays.
+        recording: at least as long as the rig's slowest motion.
+        free: of `IDENTIFIABLE`.
+        segment: length, s; by default as long as no error grows much (`segment_length`).
+        travel: pitch stops at ±travel, rad; what happens there is left out.
+        report: called after each simulation; what it raises ends the search.
+
+    Raises:
+        InvalidInputError: `free` is empty or holds an unknown name; `segment` is out of its range.
+        RecordingError: the recording does not say what is asked of it.
+    """
+    began = perf_counter()
+    names = _checked(default_free(p) if free is None else free)
+    length = segment_length(p, recording) if segment is None else segment
+    require_within(length, "segment", "s", 0.1, 1e4)
+    try:
+        search, before, values = _found(p, recording, names, length, travel, report)
+    except FloatingPointError as error:
+        raise RecordingError(
+            "under the recorded voltages the simulated rig runs away",
+            field="columns",
+            hint="Check units, signs and offsets, and that this is the rig that was recorded; or try shorter segments.",
+        ) from error
+    after = search.fitted(values)
+    J, r = search.slopes(after) * search.weights[:, None], after.residuals * search.weights
+    inside = search.inside
+    unknowns = len(names) + 4 * len(search.bounds)
+    covariance, lags = sandwich_covariance(J[inside], r[inside], unknowns)
+    widths = QUANTILE * search.scales * np.sqrt(np.diag(covariance))
+    plain = QUANTILE * search.scales * np.sqrt(np.diag(plain_covariance(J[inside], r[inside], unknowns)))
+    estimates = []
+    for i, name in enumerate(names):
+        own, value = getattr(p, name), search.value(i, values)
+        unit, width = PARAMETER_INFO[name]["unit"], float(widths[i])
+        estimates.append(Estimate(name, unit, own, value, value - width, value + width, float(plain[i])))
+    return Identification(
+        estimates=tuple(estimates),
+        parameters=p.replaced({e.name: e.allowed for e in estimates}),
+        rms_before=before,
+        rms=_pair(search.rms(after)),
+        residuals=after.residuals,
+        segments=search.bounds,
+        lags=lags,
+        evaluations=search.evaluations,
+        seconds=perf_counter() - began,
+        findings=(*recording.findings, *_remarks(estimates, J[inside], names, search)),
+    )
+
+
+def _found(
+    p: Parameters,
+    recording: Recording,
+    names: tuple[str, ...],
+    length: float,
+    travel: float | None,
+    report: Callable[[Progress], None],
+) -> tuple[_Search, tuple[float, float] | None, Floats]:
+    """The search in segments of `length`, the residuals before it and what it found.
+
+    A wrong rig soon falls out of reach of the right one, so that short segments bring it near first.
+    """
+    values, short, spent = np.zeros(len(names)), min(COARSE, length), 0
+    search = _Search(p, recording, names, cut(recording, short, travel), report)
+    _require_excited(search.slopes(search.fitted(values)).reshape(-1, len(names)), names)
+    while short < length:
+        values = search.minimum(values, COARSE_TOLERANCE)
+        short, spent = min(GROWING * short, length), search.evaluations
+        search = _Search(p, recording, names, cut(recording, short, travel), report, spent)
+    try:
+        before = _pair(search.rms(search.fitted(np.zeros(len(names)))))
+    except FloatingPointError:
+        before = None
+    search.begin()
+    for _ in range(2):
+        search.weights = 1.0 / np.maximum(search.rms(search.fitted(values)), 1e-9)
+        values = search.minimum(values)
+    return search, before, values
+
+
+class _Search:
+    """The fit as a function of the free parameters' deviations, each in units of its own scale."""
+
+    def __init__(
+        self,
+        p: Parameters,
+        recording: Recording,
+        names: tuple[str, ...],
+        bounds: NDArray[np.int64],
+        report: Callable[[Progress], None],
+        evaluations: int = 0,
+    ) -> None:
+        self.p, self.recording, self.names, self.bounds, self.report = p, recording, names, bounds, report
+        self.scales = np.array([_scale(p, name) for name in names])
+        self.weights, self.evaluations, self.ended = np.ones(2), evaluations, True
+        self._columns = [IDENTIFIABLE.index(name) for name in names]
+        self._starts, self._last = rough_starts(recording, bounds), (np.full(len(names), np.nan), 0.0, None)
+        self._step = longest_step(p) / 2
+        inside = np.zeros(len(recording.t), dtype=bool)
+        for first, end in bounds.tolist():
+            inside[first:end] = True
+        self.inside = inside
+
+    def begin(self) -> None:
+        """Forgets the starting states: those of another rig lead astray."""
+        self._starts = rough_starts(self.recording, self.bounds)
+
+    def value(self, i: int, deviations: Floats) -> float:
+        """The i-th free parameter."""
+        return float(getattr(self.p, self.names[i]) + deviations[i] * self.scales[i])
+
+    def fitted(self, deviations: Floats) -> Fitted:
+        """The segments under these parameters; the last answer is kept, for derivatives are asked for apart."""
+        known, weight, answer = self._last
+        key = float(self.weights[0] / self.weights[1])
+        if answer is not None and weight == key and np.array_equal(known, deviations):
+            return answer
+        values = SimpleNamespace(**self.p.as_dict(), alpha=self.p.alpha)
+        for i, name in enumerate(self.names):
+            setattr(values, name, self.value(i, deviations))
+        answer = fit_starts(
+            values, self.recording, self.bounds, self._starts, weights=self.weights, step=self._step
+        )
+        self._starts, self._last = answer.starts, (deviations.copy(), key, answer)
+        self.evaluations += 1
+        self.report(Progress(self.evaluations, _pair(self.rms(answer))))
+        return answer
+
+    def rms(self, fitted: Fitted) -> Floats:
+        """Root mean square of the residuals of θ and ψ, rad."""
+        return np.sqrt(np.mean(fitted.residuals[self.inside] ** 2, axis=0))
+
+    def slopes(self, fitted: Fitted) -> Floats:
+        """Derivatives of the simulated angles by the free parameters in their scales, (n, 2, free)."""
+        return fitted.slopes[:, :, self._columns] * self.scales
+
+    def minimum(self, start: Floats, tolerance: float = TOLERANCE) -> Floats:
+        """Deviations at the least sum of weighted squares."""
+        from scipy.optimize import least_squares
+
+        def residuals(deviations: Floats) -> Floats:
+            try:
+                return (self.fitted(deviations).residuals * self.weights).ravel()
+            except FloatingPointError:
+                return np.full(self.recording.angles.size, np.inf)  # a step too far; the next one is shorter
+
+        def derivatives(deviations: Floats) -> Floats:
+            return -(self.slopes(self.fitted(deviations)) * self.weights[:, None]).reshape(
+                -1, len(self.names)
+            )
+
+        search: Any = least_squares  # its stubs know neither callable derivatives nor the absence of gtol
+        result = search(
+            residuals,
+            start,
+            derivatives,
+            xtol=tolerance,
+            ftol=tolerance**2,
+            gtol=None,
+            max_nfev=MOST_EVALUATIONS,
+        )
+        self.ended = result.status > 0
+        return result.x
+
+
+def _checked(free: Sequence[str]) -> tuple[str, ...]:
+    for name in free:
+        if name not in IDENTIFIABLE:
+            raise InvalidInputError(
+                f"{name!r} cannot be identified",
+                field="free",
+                value=name,
+                hint="Choose of " + ", ".join(IDENTIFIABLE),
+            )
+    if not free:
+        raise InvalidInputError("no parameter is free", field="free", hint="Choose at least one.")
+    return tuple(name for name in IDENTIFIABLE if name in free)
+
+
+def _scale(p: Parameters, name: str) -> float:
+    """What one unit of the search means: the parameter's own size, or a fraction of its like."""
+    own = abs(getattr(p, name))
+    like = {"K": max(abs(p.K_pp), abs(p.K_py), abs(p.K_yp), abs(p.K_yy)), "B": max(p.B_p, p.B_y)}
+    return max(own, 0.1 * p.alpha if name == "K_s" else 0.05 * like[name[0]], 1e-9)
+
+
+def _require_excited(J: Floats, names: tuple[str, ...]) -> None:
+    sizes = np.linalg.norm(J, axis=0)
+    silent = [name for name, size in zip(names, sizes, strict=True) if size < 1e-9 * (1e-300 + np.max(sizes))]
+    rank = np.linalg.matrix_rank(J / np.where(sizes > 0, sizes, 1.0), tol=1e-7)
+    if silent or rank < len(names):
+        which = (
+            "nothing about " + ", ".join(silent) if silent else "too little to tell these parameters apart"
+        )
+        raise RecordingError(
+            f"the recording says {which}",
+            field="free",
+            value=list(silent or names),
+            hint="Leave some out, or record steps of both references, one after the other.",
+        )
+
+
+def _pair(values: Floats) -> tuple[float, float]:
+    return float(values[0]), float(values[1])
+
+
+def _remarks(estimates: list[Estimate], J: Floats, names: tuple[str, ...], search: _Search) -> list[Finding]:
+    found = []
+    if not search.ended:
+        words = (
+            f"The search was given up after {MOST_EVALUATIONS} steps: the values are no least squares yet."
+        )
+        found.append(Finding("search_stopped", "warning", words))
+    for e in estimates:
+        if e.allowed != e.value:
+            words = (
+                f"{e.name} was found at {e.value:.3g} {e.unit}, where it cannot be; adopted is {e.allowed:g}."
+            )
+            found.append(Finding("out_of_range", "warning", words.replace("-", "−")))
+        if e.low < 0 < e.high and e.before:
+            words = f"The interval of {e.name} contains 0: the recording hardly shows it."
+            found.append(Finding("undetermined", "warning", words))
+    columns = J.reshape(-1, len(names))
+    condition = float(np.linalg.cond(columns / np.linalg.norm(columns, axis=0)))
+    if condition > _POOR_CONDITION:
+        words = "The recording hardly tells these parameters apart: their values depend on one another."
+        found.append(Finding("poorly_excited", "warning", words))
+    return found

@@ -1,0 +1,140 @@
+"""Recordings simulated: the rig under recorded voltages, and the digital rig under changing references."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..engine import engine
+from ..layout import GAIN, RECORDED_WORKSPACE, SENSITIVITIES, TRAVEL, WORKSPACE
+from ..loop import Loop
+from ..parameters import Parameters
+from ..plant import rig_constants
+from ..signals import Floats
+from ..spec import Digital, Limits, Scenario
+from .digital import settings_of
+from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
+
+SHARE_OF_TIME_CONSTANT = 0.05
+"""Longest step of the Runge–Kutta method in the rig's shortest time constants: an error below 1e-8 per step."""
+RTOL = 1e-6
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """A digital rig's run, a row per sample of its controller.
+
+    Attributes:
+        t: s, (n,).
+        measured: θ, ψ as its encoders told them, (n, 2), rad.
+        states: θ, ψ, θ̇, ψ̇, z_p, z_y as they were, (n, 6).
+        voltages: V_p, V_y from each sample to the next, (n, 2), V.
+        references: θ_ref, ψ_ref, (n, 2), rad.
+        done: samples until the simulation was given up; n if it was not.
+    """
+
+    t: Floats
+    measured: Floats
+    states: Floats
+    voltages: Floats
+    references: Floats
+    done: int
+
+
+def longest_step(p: Parameters) -> float:
+    """A step of the Runge–Kutta method that is short for this rig, s."""
+    rates = p.B_p / p.alpha, p.B_y / p.J_y, np.sqrt(p.m * p.g * p.l / p.alpha), np.sqrt(abs(p.K_s) / p.alpha)
+    return SHARE_OF_TIME_CONSTANT / max(1.0, *(abs(float(rate)) for rate in rates))
+
+
+def run_held(p: Parameters, start: Floats, t: Floats, volts: Floats, travel: float | None) -> Floats:
+    """States (n, 4) at all t under held voltages (n, 2) from `start`; pitch is stopped at ±`travel` (rad)."""
+    states, constants = np.empty((len(t), 4)), np.zeros(TRAVEL + 1)
+    constants[:GAIN] = rig_constants(p)
+    constants[TRAVEL] = np.inf if travel is None else travel
+    engine().run_held(
+        np.array(start, dtype=float),
+        t,
+        volts,
+        constants,
+        longest_step(p),
+        np.zeros(RECORDED_WORKSPACE),
+        states,
+    )
+    return states
+
+
+def run_segments(
+    p: Any, starts: Floats, bounds: NDArray[np.int64], t: Floats, volts: Floats, *, step: float
+) -> tuple[Floats, Floats]:
+    """Angles (n, 2) of each segment from its own start, and their derivatives (n, 2, SENSITIVITIES).
+
+    `p` has Parameters' fields, of any value; `bounds`, (segments, 2), are first and last + 1; samples outside are 0.
+    The derivatives are by θ, ψ, θ̇, ψ̇ at the segment's start, then by K_pp, K_py, K_yp, K_yy, B_p, B_y, K_s.
+    """
+    constants = np.array(rig_constants(p), dtype=float)
+    outputs, slopes = np.zeros((len(t), 2)), np.zeros((len(t), 2, SENSITIVITIES))
+    engine().run_segments(
+        starts, bounds, t, volts, constants, step, np.zeros(RECORDED_WORKSPACE), outputs, slopes
+    )
+    return outputs, slopes
+
+
+def run_recorder(
+    loop: Loop,
+    limits: Limits,
+    digital: Digital,
+    references: Floats,
+    *,
+    rig: Parameters | None = None,
+    start: Floats | None = None,
+    voltages: Floats | None = None,
+) -> Recorded:
+    """The digital controller of `loop` on a rig, under references (n, 2) that may change at each sample.
+
+    Args:
+        loop: the controller; clamping stops its integrals, the trim is fed forward.
+        limits: of the rig.
+        digital: sample time, encoders, filters, delay, noise.
+        references: θ_ref, ψ_ref at each sample, rad.
+        rig: the rig that it controls, the design's own by default.
+        start: θ, ψ, θ̇, ψ̇, at rest at the operating point by default.
+        voltages: V_p, V_y of the first sample; the integrals start so that the controller asks for them.
+    """
+    theta_0, n = loop.design.plant.theta_0, len(references)
+    theta, psi, theta_dot, psi_dot = (theta_0, 0.0, 0.0, 0.0) if start is None else start.tolist()
+    first = (theta, psi, theta_dot, psi_dot)
+    system = NonlinearLoop.of(loop, limits, Scenario(initial=first, samples=2))
+    c, y = system.constants.copy(), system.start.copy()
+    at_zero = NonlinearLoop.of(loop, limits, Scenario(theta=0.0, psi=0.0, initial=first, samples=2)).offset
+    references = np.ascontiguousarray(references, dtype=float)
+    offsets = np.ascontiguousarray(at_zero + references @ loop.voltage_from_reference.T)
+    if voltages is not None and loop.integral is not None:
+        y[4:] = _integrals(system, offsets[0], y, np.asarray(voltages, dtype=float))
+    c[:GAIN] = rig_constants(rig or loop.design.plant.parameters)
+    noise = digital.noise * np.random.default_rng(digital.seed).standard_normal((n, 2))
+    measured, states, held = np.full((n, 2), np.nan), np.full((n, 6), np.nan), np.full((n, 2), np.nan)
+    kernels = engine()
+    numbers = (RTOL, ABSOLUTE_TOLERANCE * RTOL, kernels.most_steps)
+    scratch = (np.zeros(WORKSPACE), c.copy(), c.copy(), system.modes.copy(), np.empty(2), np.empty((2, 6)))
+    _, done, _ = kernels.run_recorder(
+        y, c, system.modes.copy(), settings_of(digital), noise, references, offsets, *numbers, *scratch,
+        measured, states, held,
+    )  # fmt: skip
+    return Recorded(
+        np.arange(n, dtype=np.float64) * digital.sample_time, measured, states, held, references, done
+    )
+
+
+def _integrals(system: NonlinearLoop, offset: Floats, y: Floats, voltages: Floats) -> Floats:
+    """z_p, z_y with which the controller asks for these voltages, within the limits; 0 where it cannot."""
+    missing = np.clip(voltages, -system.limits, system.limits) - offset - system.gain[:, :4] @ y[:4]
+    return np.asarray(np.linalg.lstsq(system.gain[:, 4:], missing, rcond=None)[0], dtype=np.float64)
+
+
+def exact(digital: Digital) -> Digital:
+    """The same controller, knowing its state exactly."""
+    return replace(digital, encoders=(0, 0), rates="true", noise=0.0)

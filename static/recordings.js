@@ -1,0 +1,80 @@
+/**
+ * Recordings of a rig: what is asked of the server about them, and its answers in words and curves. Pure.
+ * @typedef {import('./types.js').Recorded} Recorded
+ * @typedef {import('./types.js').RecordingColumns} RecordingColumns
+ */
+import { DEGREE, fixed, significant } from './format.js';
+import { bodyOf, initialState } from './store.js';
+import { count, say } from './words.js';
+
+export const ROLES = [
+  { role: 'time', base: 't', title: 'time, s' }, { role: 'theta', base: 'θ', title: 'pitch angle' }, { role: 'psi', base: 'ψ', title: 'yaw angle' },
+  { role: 'V_p', base: 'V', sub: 'p', title: 'pitch motor, V' }, { role: 'V_y', base: 'V', sub: 'y', title: 'yaw motor, V' },
+  { role: 'theta_ref', base: 'θ', sub: 'ref', title: 'pitch reference', optional: true }, { role: 'psi_ref', base: 'ψ', sub: 'ref', title: 'yaw reference', optional: true },
+];
+export const IDENTIFIABLE = ['K_pp', 'K_py', 'K_yp', 'K_yy', 'B_p', 'B_y', 'K_s'];
+export const DRIVERS = { segments: 'recorded voltages, in segments', voltages: 'recorded voltages, one run', references: 'recorded references, present loop' };
+
+/** @returns {Recorded} */
+export const nothing = () => initialState().recorded;
+
+/** What the server guessed, as the controls hold it. @param {any} preview @returns {RecordingColumns} */
+export const guessed = ({ guess }) => ({ names: { ...guess.columns }, unit: guess.unit, signs: { theta: 1, psi: 1 }, offsets: { theta: 0, psi: 0 }, sample_time: 0.002 });
+
+/** The columns as the server takes them; the sample time only where no column is the time. @param {RecordingColumns} columns */
+export function columnsBody({ names, unit, signs, offsets, sample_time }) {
+  const chosen = Object.fromEntries(Object.entries(names).filter(([, name]) => name));
+  return { ...chosen, unit, signs, offsets, ...(chosen.time ? {} : { sample_time }) };
+}
+
+/** Whether all is chosen that is needed. @param {RecordingColumns|null} columns */
+export const isMapped = (columns) => Boolean(columns) && ROLES.every(({ role, optional }) => optional || role === 'time' || columns?.names[role]);
+
+/** @param {import('./types.js').Design} design @param {Recorded} recorded */
+export const overlayBody = (design, { columns, driver }) => ({ ...bodyOf(design), columns: columns && columnsBody(columns), driver });
+
+/** Free from the start: stiffness only where the rig has one. @param {Record<string, number>} parameters of the rig */
+export const freeAtFirst = (parameters) => IDENTIFIABLE.filter((name) => name !== 'K_s' || parameters.K_s);
+
+/** @param {import('./types.js').Design} design @param {Recorded} recorded @param {string[]} free */
+export const identifyBody = (design, { preview, columns }, free) => ({ ...bodyOf(design), recording: preview?.id, columns: columns && columnsBody(columns), free });
+
+/** Measured and simulated, in degrees. @param {any} overlay @param {'theta'|'psi'} axis @returns {(number|null)[][]} t, measured, simulated, reference */
+export function curves(overlay, axis) {
+  const shown = (/** @type {(number|null)[]|undefined} */ values) => overlay.t.map((/** @type {number} */ _t, /** @type {number} */ i) => (typeof values?.[i] === 'number' ? /** @type {number} */ (values[i]) * DEGREE : null));
+  return [overlay.t, shown(overlay.measured[axis]), shown(overlay.simulated[axis]), shown(overlay.references?.[axis])];
+}
+
+/** Room for what was measured; what runs away is cut off. @param {(number|null)[][]} data @returns {[number, number]} */
+export function rangeOfCurves([, measured, , reference]) {
+  const seen = [...measured, ...reference].filter((v) => v !== null);
+  const [low, high] = [Math.min(...seen), Math.max(...seen)];
+  const room = Math.max(0.15 * (high - low), 0.5);
+  return [low - room, high + room];
+}
+
+/** @param {number|null} fit % */
+export const fitText = (fit) => (fit === null ? 'no fit: the axis never moves' : fit < -100 ? 'fit below −100 %' : `fit ${fixed(fit, 1)} %`);
+
+/** @param {any} preview */
+export const previewWords = (preview) => say`${preview.name || 'Recording'}: ${preview.rows} rows, ${count(preview.columns.length, '{0} column', '{0} columns')}`;
+
+/** @param {any} overlay */
+export function overlayWords(overlay) {
+  const about = say`${overlay.samples} samples in ${fixed(overlay.duration, 1)} s`;
+  return overlay.segments > 1 ? say`${about}, ${overlay.segments} segments, each from the state that fits it best` : about;
+}
+
+/** @param {any} progress */
+export const progressWords = (progress) => (progress ? say`Simulation ${progress.evaluations}: residuals ${significant(progress.rms.theta * DEGREE, 3)}° in pitch, ${significant(progress.rms.psi * DEGREE, 3)}° in yaw` : 'Identifying…');
+
+/** One row per parameter. @param {any} found @returns {{name: string, unit: string, before: string, value: string, width: string, interval: string}[]} */
+export function estimateRows(found) {
+  return found.estimates.map((/** @type {any} */ e) => ({
+    name: e.name, unit: e.unit, before: significant(e.before, 5), value: significant(e.value, 5),
+    width: `± ${significant((e.high - e.low) / 2, 2)}`, interval: `${significant(e.low, 5)} … ${significant(e.high, 5)}`,
+  }));
+}
+
+/** The design on the rig that was found. @param {import('./types.js').Design} design @param {any} found @returns {import('./types.js').Design} */
+export const adopted = (design, found) => ({ ...design, parameters: { ...design.parameters, ...Object.fromEntries(found.estimates.map((/** @type {any} */ e) => [e.name, Number(e.adopted.toPrecision(7))])) } });

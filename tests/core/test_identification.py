@@ -1,0 +1,195 @@
+"""Identification: derivatives, overlays and intervals against what is known of synthetic recordings."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from heli2dof_core import OuterLoop, PoleSet, Spec, close_loop, place, preset
+from heli2dof_core.covariance import plain_covariance, sandwich_covariance
+from heli2dof_core.errors import CancelledError, InvalidInputError, RecordingError
+from heli2dof_core.identification import IDENTIFIABLE, identify
+from heli2dof_core.overlay import driven_by_references, driven_by_voltages, driven_in_segments, nrmse_fit
+from heli2dof_core.recordings import Recording
+from heli2dof_core.sample_recordings import deviating_rig, reference_steps, sample_recording
+from heli2dof_core.segments import cut, segment_length
+from heli2dof_core.simulation.digital import simulate_digital
+from heli2dof_core.simulation.recorded import run_held, run_recorder, run_segments
+from heli2dof_core.spec import Digital, Limits, Scenario
+from tests.bench.identification import run
+
+EXACT = Digital(encoders=(0, 0), rates="true")
+
+
+def made(name="quanser-2dof-manual", duration=8.0, deviation=0.1, digital=EXACT, seed=1):
+    base = preset(name)
+    spec = Spec.from_preset(base)
+    loop = close_loop(place(spec), spec.outer)
+    rig = deviating_rig(spec.parameters, deviation, seed)
+    size = (abs(base.scenario.theta or 0), abs(base.scenario.psi or 0))
+    own = sample_recording(loop, spec.limits, digital, rig=rig, duration=duration, size=size)
+    return spec, loop, rig, own, Recording(own.t, own.measured, own.voltages, own.references)
+
+
+@pytest.mark.parametrize("noise", [0.0, 1e-3])
+def test_the_recorder_is_the_digital_rig(noise):
+    """Under constant references, to the integrator's tolerance, encoders, filters and delay included."""
+    spec, loop, *_ = made()
+    digital = Digital(sample_time=0.005, delay=True, noise=noise, seed=3)
+    scenario = Scenario(theta=0.1, psi=0.3, duration=2.0, samples=401, digital=digital, rtol=1e-10)
+    own = run_recorder(loop, spec.limits, digital, np.tile([0.1, 0.3], (401, 1)))
+    other = simulate_digital(loop, spec.limits, scenario, digital)
+    np.testing.assert_allclose(own.states[:, :2].T, other.angles, atol=1e-6)
+    assert np.max(np.abs(own.measured - own.states[:, :2])) > 1e-4
+
+
+def test_held_voltages_lead_where_the_recorder_went():
+    """An integrator of another kind; stops are met, too."""
+    _, _, rig, own, recording = made(duration=4.0)
+    states = run_held(rig, own.states[0, :4], own.t, own.voltages, None)
+    np.testing.assert_allclose(states[:, :2], own.states[:, :2], atol=2e-5)
+    fallen = run_held(rig, np.zeros(4), recording.t, np.zeros_like(own.voltages), 0.3)
+    assert fallen[-1, 0] == -0.3
+    assert fallen[-1, 2] == 0.0
+    assert np.min(fallen[:, 0]) >= -0.3
+
+
+@pytest.mark.parametrize("name", ["quanser-2dof-manual", "quanser-aero-2"])
+def test_sensitivities_are_derivatives(name):
+    _, _, rig, own, recording = made(name, duration=2.0)
+    start, bounds = own.states[:1, :4].copy(), np.array([[0, len(own.t)]])
+    start[0, 2:] = 0.3, -0.4
+
+    def angles(deltas):
+        p = SimpleNamespace(**rig.as_dict(), alpha=rig.alpha)
+        for parameter, delta in zip(IDENTIFIABLE, deltas[4:], strict=True):
+            setattr(p, parameter, getattr(p, parameter) + delta)
+        return run_segments(p, start + deltas[:4], bounds, recording.t, recording.voltages, step=0.01)
+
+    slopes = angles(np.zeros(11))[1]
+    for i in range(11):
+        size = 1e-5 * (abs(getattr(rig, IDENTIFIABLE[i - 4])) + 1e-3) if i >= 4 else 1e-5
+        step = size * np.eye(11)[i]
+        numeric = (angles(step)[0] - angles(-step)[0]) / (2 * size)
+        np.testing.assert_allclose(slopes[:, :, i], numeric, atol=1e-5 * (1e-9 + np.max(np.abs(numeric))))
+
+
+@pytest.mark.parametrize("name", ["quanser-2dof-manual", "quanser-aero-2"])
+def test_exact_recordings_give_the_rig_exactly(name):
+    spec, _, rig, _, recording = made(name, deviation=0.2)
+    found = identify(spec.parameters, recording, travel=spec.limits.theta)
+    for estimate in found.estimates:
+        assert estimate.value == pytest.approx(getattr(rig, estimate.name), rel=2e-4)
+    assert max(found.rms) < 1e-5 < max(found.rms_before)
+    assert found.parameters == spec.parameters.replaced({e.name: e.value for e in found.estimates})
+
+
+def test_true_parameters_lie_within_the_intervals():
+    """Twelve noisy, quantized runs: each parameter inside in at least ten (the bench makes a hundred)."""
+    inside: dict[str, int] = {}
+    for seed in range(200, 212):
+        rig, found = run("quanser-2dof-manual", 1e-3, 8.0, 0.004, seed)
+        for e in found.estimates:
+            inside[e.name] = inside.get(e.name, 0) + (e.low <= getattr(rig, e.name) <= e.high)
+            assert e.high - e.low < 0.2 * abs(e.value) + 1e-3  # and say something
+    assert min(inside.values()) >= 10, inside
+
+
+def test_correlated_residuals_widen_the_intervals():
+    """A mean of an AR(1) series: σ²/n (1 + ρ)/(1 − ρ), which the plain covariance underrates ninefold."""
+    rng, n, rho = np.random.default_rng(0), 40_000, 0.8
+    noise = np.empty((n, 1))
+    last = 0.0
+    for k, e in enumerate(rng.standard_normal(n)):
+        last = rho * last + e
+        noise[k] = last
+    J = np.ones((n, 1, 1))
+    variance = 1 / (1 - rho**2)
+    truth = variance / n * (1 + rho) / (1 - rho)
+    robust, lags = sandwich_covariance(J, noise, 1)
+    assert robust[0, 0] == pytest.approx(truth, rel=0.25)
+    assert plain_covariance(J, noise, 1)[0, 0] == pytest.approx(variance / n, rel=0.1)
+    assert 10 < lags < 200
+    white = rng.standard_normal((n, 1))
+    assert sandwich_covariance(J, white, 1)[0][0, 0] == pytest.approx(1 / n, rel=0.1)
+
+
+def test_fit_is_matlabs():
+    y = np.array([0.0, 1.0, 2.0, 3.0])
+    assert nrmse_fit(y, y) == 100
+    assert nrmse_fit(y, np.full(4, 1.5)) == pytest.approx(0)
+    assert nrmse_fit(y, y + 0.5) == pytest.approx(100 * (1 - 1.0 / np.sqrt(5)))
+    assert nrmse_fit(np.ones(4), y) is None
+
+
+def test_overlays_fit_the_rig_that_was_recorded():
+    spec, loop, rig, _, recording = made(duration=6.0)
+    assert min(driven_by_voltages(rig, recording).fit) > 99  # pyright: ignore[reportArgumentType]
+    right, wrong = driven_in_segments(rig, recording), driven_in_segments(spec.parameters, recording)
+    assert min(right.fit) > 99.9 > max(wrong.fit)  # pyright: ignore[reportArgumentType]
+    assert len(right.segments) > 1
+    _, loop, _, _, recording = made(duration=6.0, deviation=0.0)
+    under = driven_by_references(loop, spec.limits, recording)
+    assert min(under.fit) > 99  # pyright: ignore[reportArgumentType]
+    np.testing.assert_allclose(under.voltages, recording.voltages, atol=0.3)
+    with pytest.raises(RecordingError, match="references"):
+        driven_by_references(loop, spec.limits, replace(recording, references=None))
+
+
+def test_bumpless_start_in_the_middle_of_a_run():
+    """The integrals start so that the first voltages are the recorded ones."""
+    spec, loop, _, _, recording = made(duration=6.0, deviation=0.0)
+    t, y, v, r = (
+        part[1000:] for part in (recording.t, recording.angles, recording.voltages, recording.references)
+    )
+    late = Recording(t - t[0], y, v, r)
+    under = driven_by_references(loop, spec.limits, late)
+    np.testing.assert_allclose(under.voltages[0], late.voltages[0], atol=0.05)
+    assert min(under.fit) > 97  # pyright: ignore[reportArgumentType]
+
+
+def test_segments_avoid_the_stops_and_what_grows():
+    _, _, rig, _, recording = made(duration=6.0)
+    assert 0.5 < segment_length(rig, recording) < 6
+    aero = Spec.from_preset(preset("quanser-aero-2")).parameters
+    assert segment_length(aero, recording) == recording.t[-1]
+    angles = recording.angles.copy()
+    angles[500:1500, 0] = -0.7
+    bounds = cut(replace(recording, angles=angles), 2.0, 0.705)
+    assert all(end <= 500 or first >= 1500 for first, end in bounds.tolist())
+    with pytest.raises(RecordingError, match="stops"):
+        cut(replace(recording, angles=np.full_like(angles, -0.7)), 2.0, 0.7)
+
+
+def test_refusals():
+    spec, _, _, _, recording = made(duration=3.0)
+    for free in (["J_p"], []):
+        with pytest.raises(InvalidInputError):
+            identify(spec.parameters, recording, free)
+    silent = replace(recording, voltages=np.zeros_like(recording.voltages))
+    with pytest.raises(RecordingError, match="nothing about K_"):
+        identify(spec.parameters, silent, ["K_pp", "B_p"])
+
+    def stop(progress):
+        raise CancelledError("enough")
+
+    with pytest.raises(CancelledError):
+        identify(spec.parameters, recording, report=stop)
+
+
+def test_runaway_loops_are_not_recorded():
+    base = Spec.from_preset(preset())
+    spec = replace(base, poles=PoleSet([-3.0, -4.0, 1.0, 2.0]), outer=OuterLoop(outer="none"))
+    loop = close_loop(place(spec), spec.outer)
+    with pytest.raises(InvalidInputError, match="runs away"):
+        sample_recording(loop, Limits(1e3, 1e3), EXACT, rig=spec.parameters, duration=30.0, size=(0.1, 0.1))
+
+
+def test_steps_are_seeded_and_within():
+    steps = reference_steps(20.0, 0.01, 0.2, 0.5, theta_0=0.1, seed=4)
+    np.testing.assert_array_equal(steps, reference_steps(20.0, 0.01, 0.2, 0.5, theta_0=0.1, seed=4))
+    assert np.all(np.abs(steps - [0.1, 0.0]) <= [0.2, 0.5])
+    assert np.all(np.sum(np.diff(steps, axis=0) != 0, axis=0) >= 6)
