@@ -106,18 +106,25 @@ def rga_reply(design: Design, gains: Interaction, frequencies: Sequence[float] =
     return reply
 
 
-def step_reply(step: Step, loop: Loop) -> Reply:
-    """Trajectories and metrics of one response; the long arrays are NumPy's."""
+def loop_reply(loop: Loop) -> Reply:
+    """What every response of a loop has in common."""
+    return {
+        "loop_poles": poles_reply(loop.poles),
+        "stable": loop.stable,
+        "trim": _voltages(loop.design.plant.trim),
+    }
+
+
+def step_reply(step: Step, loop: Loop, common: Reply) -> Reply:
+    """Trajectories and metrics of one response, and `common`, the loop's; the long arrays are NumPy's."""
     response = step.response
     return {
+        **common,
         "t": response.t,
         **{signal.name: response.angles[i] for i, signal in enumerate(OUTPUTS)},
         **{signal.name: response.voltages[i] for i, signal in enumerate(INPUTS)},
         "reference": dict(zip(("theta", "psi"), response.reference, strict=True)),
-        "trim": _voltages(loop.design.plant.trim),
         "metrics": metrics_reply(step.metrics),
-        "loop_poles": poles_reply(loop.poles),
-        "stable": loop.stable,
         "findings": findings_reply(merged(loop.design.findings, loop.findings, response.findings)),
     }
 
@@ -162,21 +169,19 @@ def walkthrough_reply(design: Design) -> Reply:
 
 def report_reply(report: Report, spec: Spec) -> Reply:
     """Everything at once: what the page needs after a drag."""
-    loop = report.loop
+    loop, common = report.loop, loop_reply(report.loop)
     return {
+        **common,
         "gains": gains_reply(report.design),
         "open_loop_poles": poles_reply(report.design.plant.poles),
         "rga": rga_reply(report.design, report.interaction),
-        "step": {model: step_reply(step, loop) for model, step in report.step.items()},
+        "step": {model: step_reply(step, loop, common) for model, step in report.step.items()},
         "axis_steps": {
-            axis: {model: step_reply(step, loop) for model, step in steps.items()}
+            axis: {model: step_reply(step, loop, common) for model, step in steps.items()}
             for axis, steps in report.axis_steps.items()
         },
         "margins": margins_reply(report.margins),
         **sensitivity_reply(report.sensitivity),
-        "loop_poles": poles_reply(loop.poles),
-        "stable": loop.stable,
-        "trim": _voltages(report.design.plant.trim),
         "limits": _limits(spec.limits),
         "findings": findings_reply(report.findings),
     }
