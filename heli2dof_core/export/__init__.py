@@ -10,10 +10,18 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
-from . import responses_csv
+from . import c_controller, matlab_data, matlab_script, python_script, report, responses_csv
 from .format import Format
 
-_ALL = (responses_csv.FORMAT,)
+_ALL = (
+    python_script.FORMAT,
+    matlab_script.FORMAT,
+    matlab_data.FORMAT,
+    c_controller.HEADER,
+    c_controller.SOURCE,
+    responses_csv.FORMAT,
+    report.FORMAT,
+)
 
 FORMATS = MappingProxyType({each.name: each for each in _ALL})
 """Formats by name."""

@@ -66,14 +66,20 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
 def _settings(digital: Digital) -> Floats:
     """`kernels.digital`'s array d."""
     steps = [2 * np.pi / counts if counts else 0.0 for counts in digital.encoders]
+    filtered = float(digital.rates == "filtered")
+    F, b = rate_filter(digital.sample_time)
+    rate = FILTER_FREQUENCY**2
+    return np.array([digital.sample_time, *steps, filtered, *F.ravel(), *b, rate, float(digital.delay)])
+
+
+def rate_filter(sample_time: float) -> tuple[Floats, Floats]:
+    """F 2×2 and b of a rate filter, exact for held angles: x⁺ = F x + b θ, rate = `FILTER_FREQUENCY`² x₂."""
     w, zeta = FILTER_FREQUENCY, FILTER_DAMPING
     continuous = np.array([[0.0, 1.0, 0.0], [-(w**2), -2 * zeta * w, 1.0], [0.0, 0.0, 0.0]])
     from scipy.linalg import expm
 
-    step = np.asarray(expm(continuous * digital.sample_time))
-    filtered = float(digital.rates == "filtered")
-    F, b = step[:2, :2].ravel(), step[:2, 2]
-    return np.array([digital.sample_time, *steps, filtered, *F, *b, w**2, float(digital.delay)])
+    step = np.asarray(expm(continuous * sample_time), dtype=np.float64)
+    return step[:2, :2], step[:2, 2]
 
 
 def _remarks(loop: Loop, scenario: Scenario, digital: Digital) -> Iterator[Finding]:

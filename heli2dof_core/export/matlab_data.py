@@ -1,0 +1,68 @@
+"""The design and its responses as a MAT-file (level 5), which MATLAB, Octave and SciPy read."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from typing import Any
+
+import numpy as np
+
+from ..evaluate import Spec, Step, evaluate
+from ..signals import INPUTS, INTEGRALS, STATES, C
+from ..version import package_version
+from .format import Format
+from .origin import origin
+
+_TEXT = 116
+"""Bytes of free text at the head of a MAT-file."""
+
+
+def render(spec: Spec, link: str = "") -> bytes:
+    """One variable per matrix, structs for parameters and responses; equal designs give equal bytes."""
+    from scipy.io import savemat
+
+    report = evaluate(spec)
+    design, loop = report.design, report.loop
+    content: dict[str, Any] = {
+        "about": "\n".join(origin(spec, FORMAT.name, link)),
+        "parameters": spec.parameters.as_dict(),
+        "theta_0": spec.theta_0,
+        "A": design.plant.A,
+        "B": design.plant.B,
+        "C": C,
+        "D": np.zeros((2, 2)),
+        "trim": design.plant.trim[:, None],
+        "K": design.K,
+        "poles": design.poles.array[:, None],
+        "placed": design.closed_loop_poles[:, None],
+        "P": loop.proportional,
+        "F": loop.feedforward,
+        **({} if loop.integral is None else {"I_z": loop.integral}),
+        "A_loop": loop.A,
+        "B_loop": loop.B,
+        "law": loop.voltage_from_state,
+        "law_of_reference": loop.voltage_from_reference,
+        "loop_poles": loop.poles[:, None],
+        "t": report.step["linear"].response.t[:, None],
+        "reference": np.array(report.step["linear"].response.reference)[:, None],
+        **{model: _columns(step) for model, step in report.step.items()},
+    }
+    file = BytesIO()
+    savemat(file, content, oned_as="column")
+    head = f"MATLAB 5.0 MAT-file, heli2dof {package_version()}".encode().ljust(
+        _TEXT
+    )  # SciPy's holds the date
+    return head + file.getvalue()[_TEXT:]
+
+
+def _columns(step: Step) -> dict[str, Any]:
+    response = step.response
+    assert response.states is not None  # every model gives them
+    rows = zip((*STATES, *INTEGRALS), response.states, strict=False)
+    volts = zip(INPUTS, response.voltages, strict=True)
+    return {signal.name: values[:, None] for signal, values in (*rows, *volts)}
+
+
+FORMAT = Format(
+    "mat", "Data for MATLAB and Octave", ".mat", "application/x-matlab-data", render, "heli2dof_data"
+)
