@@ -15,7 +15,7 @@ from heli2dof_core.version import package_version
 
 from . import examples, live, problems, robustness, scene
 from .compute import Compute
-from .routes import catalogue, comparison, derivation, design, frequency, recording, recordings
+from .routes import catalogue, comparison, derivation, design, exports, frequency, recording, recordings
 from .settings import Settings
 
 _DESCRIPTION = (
@@ -53,6 +53,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(comparison.build_router(compute))
     app.include_router(recording.build_router(compute))
     app.include_router(recordings.build_router(compute))
+    app.include_router(exports.build_router(compute))
     app.include_router(live.build_router(compute))
     app.include_router(robustness.build_router(compute))
     app.include_router(scene.build_views_router())

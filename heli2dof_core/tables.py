@@ -43,6 +43,14 @@ class Table:
         )
         return cls.of(title, ("", *columns), cells)
 
+    @property
+    def numeric(self) -> tuple[bool, ...]:
+        """Per column, whether numbers alone stand there: these align to the right, words to the left."""
+        return tuple(all(row[i][:1] in _NUMERIC for row in self.rows) for i in range(len(self.columns)))
+
+
+_NUMERIC = "−0123456789" + NOTHING
+
 
 class Shown:
     """Base of a result: a repr of one line without arrays, and its tables where a notebook shows it."""
@@ -110,12 +118,14 @@ def _latex(value: float) -> str:
 
 
 def _html(table: Table) -> str:
-    head = "".join(f'<th scope="col">{escape(name)}</th>' for name in table.columns)
-    rows = "".join(
-        f'<tr><th scope="row">{escape(first)}</th>'
-        + "".join(f"<td>{escape(cell)}</td>" for cell in rest)
-        + "</tr>"
-        for first, *rest in table.rows
-    )
+    sides = [f"text-align:{'right' if numeric else 'left'}" for numeric in table.numeric]
+    heads = zip(table.columns, sides, strict=True)
+    head = "".join(f'<th scope="col" style="{side}">{escape(name)}</th>' for name, side in heads)
+    rows = "".join(f"<tr>{_cells(row, sides)}</tr>" for row in table.rows)
     caption = f"<caption>{escape(table.title)}</caption>"
     return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
+
+
+def _cells(row: tuple[str, ...], sides: list[str]) -> str:
+    first, *rest = (f' style="{side}">{escape(cell)}</' for cell, side in zip(row, sides, strict=True))
+    return f'<th scope="row"{first}th>' + "".join(f"<td{cell}td>" for cell in rest)

@@ -6,6 +6,7 @@ import { decodeFrame } from './wire.js';
 
 const PROTOCOL = 'heli2dof.v1+binary';
 const PATIENCE_MS = 10_000;
+const UNUSUAL = /[^\w\-.~:/?#[\]@!$&'()*+,;=%]/gu; // what RFC 3986 knows in no address, and browsers leave in it
 
 /** @param {string} path @returns {URL} */
 const at = (path) => new URL(path, document.baseURI);
@@ -54,9 +55,9 @@ export const putRig = (session, rig) => call(`scene/${encodeURIComponent(session
 /** What cameras need to know of each rig. @returns {Promise<Record<string, import('./scene_cameras.js').RigView>>} */
 export const getRigViews = () => call('scene/rigs');
 
-/** The motion of a design as a file. @param {'html'|'viser'} format @param {unknown} design with scenario @returns {Promise<Blob>} */
-export async function recordMotion(format, design) {
-  const response = await fetch(at(`api/v1/recording?format=${format}`), { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(design) });
+/** A file that the server makes of a design. @param {string} path @param {unknown} design with scenario @returns {Promise<Blob>} */
+async function fileOf(path, design) {
+  const response = await fetch(at(path), { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(design) });
   if (!response.ok) throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
   return response.blob();
 }
@@ -73,6 +74,11 @@ export const sendRecording = async (file, name) => (await post(`api/v1/recording
 export const sampleRecording = async (design) => (await post('api/v1/recordings/sample', JSON.stringify(design), 'application/json')).blob();
 /** @param {string} id @param {unknown} body */
 export const overlayRecording = (id, body) => call(`api/v1/recordings/${encodeURIComponent(id)}/overlay`, { method: 'POST', body });
+
+/** The motion of a design. @param {'html'|'viser'} format @param {unknown} design */
+export const recordMotion = (format, design) => fileOf(`api/v1/recording?format=${format}`, design);
+/** A design for another program or for print. @param {string} format @param {string} link that opens it @param {unknown} design */
+export const exportDesign = (format, link, design) => fileOf(`api/v1/export/${format}?${new URLSearchParams({ link: link.replace(UNUSUAL, encodeURIComponent) })}`, design);
 /** The rig in a window of its own. @param {string} session */
 export const windowAddress = (session) => at(`scene/${encodeURIComponent(session)}/`).href;
 

@@ -49,6 +49,19 @@ def test_wheel_holds_what_is_needed_and_nothing_else(wheel: Path):
     assert {f"heli2dof_app/{name}" for name in tracked.stdout.split()} <= set(names)
 
 
+def test_wheel_has_the_command_line(wheel: Path, tmp_path: Path):
+    zipfile.ZipFile(wheel).extractall(tmp_path)
+    code = f"import sys; sys.path.insert(0, {str(tmp_path)!r}); from heli2dof_app.cli import main; main(sys.argv[1:])"
+    for words, shown in (
+        (["--help"], "robustness"),
+        (["gains"], "51.17"),
+        (["export", "csv", "-o", "-"], "theta"),
+    ):
+        command = [sys.executable, "-I", "-c", code, *words]
+        result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+        assert shown in result.stdout
+
+
 def test_wheel_serves_outside_the_checkout(wheel: Path, tmp_path: Path):
     zipfile.ZipFile(wheel).extractall(tmp_path)
     code = (

@@ -7,8 +7,7 @@ from typing import IO, Any
 
 import click
 
-from heli2dof_core.export import FORMATS
-
+from ..exports import FORMATS
 from .fields import DESIGN, LOOPS, SCENARIO, body, takes
 from .output import refusals
 

@@ -40,8 +40,7 @@ def show(tables: Iterable[Table], *lines: str, findings: Iterable[Finding] = ())
         out.print(line)
     for table in tables:
         shown = RichTable(title=Text(table.title), title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-        numeric = [all(row[i][:1] in "−0123456789—" for row in table.rows) for i in range(len(table.columns))]
-        for head, right in zip(table.columns, numeric, strict=True):
+        for head, right in zip(table.columns, table.numeric, strict=True):
             shown.add_column(Text(head), justify="right" if right else "left")
         for row in table.rows:
             shown.add_row(*map(Text, row))

@@ -62,7 +62,7 @@ class Assignment(click.ParamType):
             self.fail(f"{value!r} gives no number; write it like J_p=0.04", param, ctx)
 
     def shell_complete(
-        self, _ctx: click.Context, _param: click.Parameter, incomplete: str
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
     ) -> list[CompletionItem]:
         """Names, with their ``=``."""
         return [CompletionItem(f"{name}=") for name in self.names() if name.startswith(incomplete)]
@@ -77,7 +77,7 @@ class Name(click.ParamType):
         self.names = names
 
     def shell_complete(
-        self, _ctx: click.Context, _param: click.Parameter, incomplete: str
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
     ) -> list[CompletionItem]:
         """The names that begin so."""
         return [CompletionItem(name) for name in self.names() if name.startswith(incomplete)]

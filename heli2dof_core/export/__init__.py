@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
-from . import c_controller, matlab_data, matlab_script, python_script, responses_csv
+from . import c_controller, matlab_data, matlab_script, python_script, report, responses_csv
 from .format import Format
 
 _ALL = (
@@ -20,6 +20,7 @@ _ALL = (
     c_controller.HEADER,
     c_controller.SOURCE,
     responses_csv.FORMAT,
+    report.FORMAT,
 )
 
 FORMATS = MappingProxyType({each.name: each for each in _ALL})

@@ -74,11 +74,11 @@ def settings_of(digital: Digital) -> Floats:
 
 def rate_filter(sample_time: float) -> tuple[Floats, Floats]:
     """F 2×2 and b of a rate filter, exact for held angles: x⁺ = F x + b θ, rate = `FILTER_FREQUENCY`² x₂."""
-    w, zeta = FILTER_FREQUENCY, FILTER_DAMPING
-    continuous = np.array([[0.0, 1.0, 0.0], [-(w**2), -2 * zeta * w, 1.0], [0.0, 0.0, 0.0]])
     from scipy.linalg import expm
 
-    step = np.asarray(expm(continuous * sample_time))
+    w, zeta = FILTER_FREQUENCY, FILTER_DAMPING
+    continuous = np.array([[0.0, 1.0, 0.0], [-(w**2), -2 * zeta * w, 1.0], [0.0, 0.0, 0.0]])
+    step = np.asarray(expm(continuous * sample_time), dtype=np.float64)
     return step[:2, :2], step[:2, 2]
 
 

@@ -1,5 +1,6 @@
 /** The top line: which rig, where its numbers come from, what of them is changed, one step back or forth, pin and link, and whether the server is there. */
 import { h, setAttr, setText } from '../dom.js';
+import { exportMenu } from '../export_menu.js';
 import { lockNames } from '../locks.js';
 import { designOf, presetOf } from '../store.js';
 import { say } from '../words.js';
@@ -28,7 +29,7 @@ export class HeaderPanel {
     this.share = new ShareButtons(store, address);
     this.locked = h('span', { class: 'locked', hidden: true, 'data-testid': 'locked' });
     this.status = h('span', { class: 'connection', role: 'status', 'data-testid': 'connection' }, h('span', { class: 'dot', 'aria-hidden': 'true' }), h('span', {}));
-    root.append(h('div', { class: 'rig' }, this.select, this.rig.node, this.locked, this.source), h('div', { class: 'buttons' }, this.undo, this.redo, this.reset, this.pin, this.share.node, h('a', { class: 'button', href: '#compare', title: 'Methods side by side' }, 'Compare'), h('a', { class: 'button', href: '#formulas' }, 'Formulas'), h('a', { class: 'button', href: '#paper', title: 'The paper, step by step' }, 'Paper'), this.tour, this.projector), this.status);
+    root.append(h('div', { class: 'rig' }, this.select, this.rig.node, this.locked, this.source), h('div', { class: 'buttons' }, this.undo, this.redo, this.reset, this.pin, this.share.node, exportMenu(store, address), h('a', { class: 'button', href: '#compare', title: 'Methods side by side' }, 'Compare'), h('a', { class: 'button', href: '#formulas' }, 'Formulas'), h('a', { class: 'button', href: '#paper', title: 'The paper, step by step' }, 'Paper'), this.tour, this.projector), this.status);
     document.addEventListener('keydown', (e) => this.#key(e));
   }
 

@@ -48,8 +48,14 @@ def test_html_holds_the_numbers_of_k():
     html = design._repr_html_()
     assert html is not None
     for entry in design.K.flat:
-        assert f"<td>{number(float(entry))}</td>" in html
+        assert f'<td style="text-align:right">{number(float(entry))}</td>' in html
     assert re.findall(r"<(\w+)[^>]*>", html).count("td") == 8 + 4 * 2
+
+
+def test_numbers_align_to_the_right_and_words_to_the_left():
+    table = Table.of("", ("name", "value", "unit"), [("a", "−1.5", "V"), ("b", "—", "rad")])
+    assert table.numeric == (False, True, False)
+    assert heli.preset().tables()[0].numeric == (False, True, False, False)
 
 
 def test_html_is_escaped():

@@ -1,0 +1,50 @@
+"""POST export: a design and an experiment in, a file to take away out."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Path, Query, Response
+
+from heli2dof_core.checks import require_known
+
+from ..compute import Compute
+from ..exports import FORMATS
+from ..models import described
+from ..requests import StepRequest
+
+# The characters of RFC 3986 alone: none of them ends a line, a comment or an attribute of the files.
+_LINK = r"^https?://[A-Za-z0-9\-._~:/?#\[\]@!$&'()*+,;=%]+$"
+MOST_LINK = 4000
+"""Longest link, characters."""
+
+FormatName = Annotated[str, Path(json_schema_extra={"enum": [*FORMATS]})]
+Link = Annotated[
+    str | None,
+    Query(max_length=MOST_LINK, pattern=_LINK, description="address of the design, to be named in the file"),
+]
+
+
+def build_router(compute: Compute) -> APIRouter:
+    """The route export under /api/v1."""
+    router = APIRouter(prefix="/api/v1", tags=["export"])
+
+    @router.post("/export/{format}", **_described())
+    async def export(request: StepRequest, format: FormatName, link: Link = None) -> Response:  # noqa: A002
+        chosen = require_known(format, FORMATS, "format")
+        content = await compute.run(lambda: chosen.content(request.to_spec(), link or ""))
+        name = {"Content-Disposition": f'attachment; filename="{chosen.filename}"'}
+        return Response(content, media_type=chosen.media_type, headers=name)
+
+    return router
+
+
+def _described() -> dict[str, Any]:
+    """Route options for the schema: a file instead of JSON."""
+    options = described(None, "The design as a file for another program, or for print")
+    kinds = {each.media_type.partition(";")[0] for each in FORMATS.values()}
+    binary = {"schema": {"type": "string", "format": "binary"}}
+    del options["responses"][200]["model"]
+    options["responses"][200]["content"] = dict.fromkeys(sorted(kinds), binary)
+    names = ", ".join(f"`{each.name}` ({each.title})" for each in FORMATS.values())
+    return {**options, "description": f"Formats: {names}.", "response_class": Response}

@@ -1,0 +1,280 @@
+"""A laboratory report: one HTML page to print, with formulas, plots, figures of merit and findings, and no script."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape
+from math import degrees
+
+import numpy as np
+
+from ..evaluate import Report, Spec, evaluate
+from ..metrics import AxisMetrics
+from ..parameters import PARAMETER_INFO
+from ..placement.registry import METHODS
+from ..signals import AXES, INPUTS, OUTPUTS
+from .format import Format
+from .markup import figure, formula, indexed, matrix, paragraph, pole, section, table
+from .origin import origin, preset_of
+from .report_style import STYLE
+from .svg import Curve, Marks, chart, number, pole_map
+
+
+def render(spec: Spec, link: str = "") -> str:
+    """The page; figures and words are those of `evaluate`."""
+    report, preset = evaluate(spec), preset_of(spec)
+    title = f"Pole placement: {preset.title}"
+    opened = (
+        f'<p class="about">This design, live: <a href="{escape(link)}">{escape(link)}</a></p>' if link else ""
+    )
+    return "".join(
+        [
+            '<!doctype html><html lang="en"><head><meta charset="utf-8">',
+            f"<title>{escape(title)}</title>",
+            '<meta name="viewport" content="width=device-width, initial-scale=1">',
+            f"<style>{STYLE}</style></head><body>",
+            f"<header><h1>{escape(title)}</h1>",
+            paragraph(preset.source, "about"),
+            opened,
+            '<p class="fields"><span>Name</span><span>Date</span></p></header><main>',
+            section("Rig", *_rig(spec, report)),
+            section("Design", *_design(spec, report)),
+            section("Formulas", *_formulas(spec)),
+            section("Responses", *_responses(spec, report)),
+            section("Figures of merit", *_merit(report)),
+            section("Findings", *_findings(report)),
+            section("Origin", f"<pre>{escape(chr(10).join(origin(spec, FORMAT.name, link)))}</pre>"),
+            "</main></body></html>\n",
+        ]
+    )
+
+
+def _rig(spec: Spec, report: Report) -> Iterator[str]:
+    rows = [
+        (name, info["meaning"], number(value, 6), info["unit"])
+        for (name, value), info in zip(
+            spec.parameters.as_dict().items(), PARAMETER_INFO.values(), strict=True
+        )
+    ]
+    yield table(("", "meaning", "value", "unit"), rows)
+    trim = ", ".join(
+        f"{s.symbol} = {number(v, 5)} V"
+        for s, v in zip(INPUTS, report.design.plant.trim.tolist(), strict=True)
+    )
+    travel = spec.limits.theta
+    free = "free" if travel is None else f"±{number(degrees(travel))}°"
+    yield paragraph(
+        f"Operating point θ₀ = {number(degrees(spec.theta_0))}°, held by {trim}. Limits: |V_p| ≤ "
+        f"{number(spec.limits.V_p)} V, |V_y| ≤ {number(spec.limits.V_y)} V; pitch travel {free}."
+    )
+
+
+def _design(spec: Spec, report: Report) -> Iterator[str]:
+    design, method = report.design, METHODS[spec.method]
+    structure = ""
+    if design.structure is not None:
+        lead = f", {design.structure.lead} leads" if design.structure.coupling == "triangular" else ""
+        structure = f"; {design.structure.coupling}{lead}"
+    yield paragraph(f"Method: {method.title}{structure}. Source: {method.source}")
+    names = [f"p{chr(0x2081 + i)}" for i in range(4)]
+    found = design.closed_loop_poles.tolist()
+    if design.aims:
+        rows = [
+            (name, pole(p), pole(q), number(abs(p - q), 2))
+            for name, p, q in zip(names, design.poles.values, found, strict=True)
+        ]
+        yield table(("", "asked for, rad/s", "placed, rad/s", "distance, rad/s"), rows)
+    else:
+        yield table(("", "chosen by the method, rad/s"), list(zip(names, map(pole, found), strict=True)))
+    yield matrix("<mi>K</mi>", design.K)
+    yield paragraph(
+        "u = −Kx + v with x = [θ, ψ, θ̇, ψ̇], in V/rad and V·s/rad. "
+        f"Frobenius norm {number(design.norm, 5)}, mixed units."
+    )
+    rga = report.interaction.rga
+    if rga is not None:
+        yield matrix("<mi mathvariant='normal'>RGA</mi>", rga, 5)
+    yield paragraph(report.interaction.reason)
+    yield paragraph(_outer(spec, report))
+    groups = [
+        Marks(found, "cross", names),
+        Marks(report.loop.poles.tolist(), "plus"),
+        Marks(design.plant.poles.tolist(), "circle"),
+    ]
+    words = "× placed poles, + poles of the whole loop, ○ poles of the rig alone"
+    parts = figure(pole_map("Poles in the s-plane", groups), words)
+    whole = table(
+        ("", "rad/s"),
+        [(str(i + 1), pole(p)) for i, p in enumerate(report.loop.poles.tolist())],
+        "Poles of the whole loop",
+    )
+    yield f'<div class="plots">{parts}<div>{whole}</div></div>'
+
+
+def _outer(spec: Spec, report: Report) -> str:
+    outer = spec.outer
+    if report.design.integral is not None:
+        return "The method brings its own integral action; there are no PI loops."
+    if outer.outer == "none":
+        return "No outer loop: v = Ĝ(0)⁻¹ r."
+    gains = "; ".join(
+        f"{axis} {number(pi.kp, 5)} V/rad · (1 + 1/({number(pi.ti, 5)} s · s))"
+        for axis, pi in zip(AXES, (outer.pitch, outer.yaw), strict=True)
+    )
+    return f"PI loops, {outer.pairing} pairing{', with the static decoupler' if outer.decoupler else ''}: {gains}."
+
+
+def _formulas(spec: Spec) -> Iterator[str]:
+    from ..symbolic.render import symbolic_report  # SymPy: on first use
+
+    full_rank = spec.method == "full-rank"
+    shifted = full_rank and spec.structure.shift is not None
+    symbols = symbolic_report(spec.structure.family, shifted=shifted)
+    yield paragraph("Linear model ẋ = Ax + Bu about rest at θ₀:")
+    for name in ("A", "B"):
+        yield formula(f"<mi>{name}</mi>", symbols.formulas[name].mathml)
+    if full_rank:
+        yield paragraph("Gain of the state feedback:")
+        for name, entry in symbols.entries["K"].items():
+            yield formula(indexed("k", name.removeprefix("k_")), entry.mathml)
+        yield paragraph("Relative gain at s = 0:")
+        yield formula(indexed("λ", "11"), symbols.entries["RGA"]["lambda_11"].mathml)
+    else:
+        yield paragraph(f"K is computed in numbers by the method {METHODS[spec.method].title}.")
+    yield paragraph("With the abbreviations")
+    for name, definition in symbols.definitions.items():
+        if name in symbols.notation:
+            yield formula(_inner(symbols.notation[name].mathml), definition.mathml)
+
+
+def _inner(mathml: str) -> str:
+    """What a whole math element holds."""
+    return mathml[mathml.index(">") + 1 : mathml.rindex("</math>")]
+
+
+def _responses(spec: Spec, report: Report) -> Iterator[str]:
+    rig, linear = report.step["nonlinear"].response, report.step["linear"].response
+    yield paragraph(_experiment(spec, report))
+    t, pictures = rig.t, []
+    for i, signal in enumerate(OUTPUTS):
+        curves = [
+            Curve(t, np.full(len(t), degrees(rig.reference[i])), "mark"),
+            Curve(t, np.degrees(linear.angles[i]), "linear"),
+            Curve(t, np.degrees(rig.angles[i]), "rig"),
+        ]
+        pictures.append(figure(chart(signal.meaning, "t, s", f"{signal.symbol}, °", curves), signal.meaning))
+    bounds = (spec.limits.V_p, spec.limits.V_y)
+    for i, signal in enumerate(INPUTS):
+        curves = [
+            Curve(t, linear.voltages[i] + report.design.plant.trim[i], "linear"),
+            Curve(t, rig.voltages[i], "rig"),
+        ]
+        if spec.scenario.saturation:
+            near = [bound for bound in (-bounds[i], bounds[i]) if np.max(rig.voltages[i] / bound) > 0.8]
+            curves += [Curve(t, np.full(len(t), bound), "mark") for bound in near]
+        pictures.append(figure(chart(signal.meaning, "t, s", f"{signal.symbol}, V", curves), signal.meaning))
+    yield f'<div class="plots">{"".join(pictures)}</div>'
+    yield paragraph(
+        "Solid: the nonlinear rig within its limits; dashed: the linear model without them, the trim added to its "
+        "voltages, where it fits in the picture; dotted: references and voltage limits.",
+        "about",
+    )
+
+
+def _experiment(spec: Spec, report: Report) -> str:
+    scenario = spec.scenario
+    rig = report.step["nonlinear"].response
+    steps = ", ".join(
+        f"{s.symbol} from {number(degrees(a))}° to {number(degrees(b))}°"
+        for s, a, b in zip(OUTPUTS, rig.start, rig.reference, strict=True)
+    )
+    parts = [f"Steps at t = 0: {steps}"]
+    parts.append("voltages limited" if scenario.saturation else "voltages unlimited")
+    if scenario.saturation and report.loop.has_integrators:
+        parts.append(f"anti-windup: {scenario.anti_windup}")
+    if not scenario.trim_feedforward:
+        parts.append("without the trim voltages")
+    if scenario.digital is not None:
+        parts.append(f"digital controller, {number(1e3 * scenario.digital.sample_time)} ms")
+    if scenario.disturbance is not None:
+        d = scenario.disturbance
+        parts.append(f"disturbed by {number(d.V_p)} V and {number(d.V_y)} V from {number(d.time)} s on")
+    return "; ".join(parts) + "."
+
+
+_ROWS = (
+    ("rise time (10–90 %)", "s", "rise_time", 1.0),
+    ("settling time (2 %)", "s", "settling_time", 1.0),
+    ("overshoot", "%", "overshoot", 1.0),
+    ("peak", "°", "peak", degrees(1.0)),
+    ("peak time", "s", "peak_time", 1.0),
+    ("steady-state error", "°", "steady_state_error", degrees(1.0)),
+    ("IAE", "rad·s", "iae", 1.0),
+    ("ITAE", "rad·s²", "itae", 1.0),
+)
+
+
+def _value(axis: AxisMetrics, name: str, factor: float) -> str:
+    value = getattr(axis, name)
+    return "–" if value is None else number(factor * value)
+
+
+def _merit(report: Report) -> Iterator[str]:
+    rig, linear = report.step["nonlinear"].metrics, report.step["linear"].metrics
+    names = [*rig.axes]
+    symbols = {signal.name: signal.symbol for signal in (*OUTPUTS, *INPUTS)}
+    if names:
+        head = ("", *(f"{symbols[name]}, {model}" for name in names for model in ("rig", "linear")), "unit")
+        rows = [
+            (words, *(_value(m.axes[name], key, factor) for name in names for m in (rig, linear)), unit)
+            for words, unit, key, factor in _ROWS
+        ]
+        yield table(head, rows)
+    if rig.coupling_peak is not None and linear.coupling_peak is not None:
+        peaks = (number(degrees(m.coupling_peak or 0.0)) for m in (rig, linear))
+        yield paragraph("The other axis moves by at most {}° (linear: {}°).".format(*peaks))
+    motors = [
+        (symbols[name], number(m.peak), number(100 * m.saturated), number(m.effort))
+        for name, m in rig.motors.items()
+    ]
+    yield table(("motor", "peak, V", "at its limit, % of time", "effort, V²·s"), motors, "Motors of the rig")
+    yield from _margins(report)
+
+
+def _margins(report: Report) -> Iterator[str]:
+    if report.margins is None or report.sensitivity is None:
+        yield paragraph("The whole loop is unstable: it has no margins.")
+        return
+
+    def told(value: float | None, factor: float = 1.0) -> str:
+        return "unlimited" if value is None else number(factor * value)
+
+    rows = [
+        (
+            axis,
+            told(m.gain_margin),
+            told(m.gain_reduction_margin),
+            told(m.phase_margin, degrees(1)),
+            told(m.delay_margin, 1e3),
+        )
+        for axis, m in zip(AXES, report.margins, strict=True)
+    ]
+    head = ("motor", "gain, up to ×", "gain, down to ×", "phase, °", "delay, ms")
+    yield table(head, rows, "Margins at each motor, the other loop closed")
+    s = report.sensitivity
+    yield paragraph(
+        f"Both motors at once: sensitivity peak {number(s.peak)}, disk margin {number(s.disk_margin)}."
+    )
+
+
+def _findings(report: Report) -> Iterator[str]:
+    if not report.findings:
+        yield paragraph("None.")
+        return
+    items = "".join(f"<li><b>{escape(f.severity)}:</b> {escape(f.message)}</li>" for f in report.findings)
+    yield f"<ul>{items}</ul>"
+
+
+FORMAT = Format(
+    "report", "Laboratory report, to print", ".html", "text/html; charset=utf-8", render, "heli2dof_report"
+)

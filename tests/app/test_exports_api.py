@@ -1,0 +1,70 @@
+"""POST export: the files, their names and their refusals; equality with the other calls."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from app import models
+from app.exports import FORMATS
+
+BODY = {"poles": [-9, -8, {"re": -3, "im": 4}, {"re": -3, "im": -4}], "scenario": {"reference": {"psi": 0.4}}}
+LINK = "http://127.0.0.1:8000/?projector#poles=-9,-8&x='*/"
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_every_format_is_a_file(client, name: str):
+    reply = client.post(f"/api/v1/export/{name}", params={"link": LINK}, json=BODY)
+    assert reply.status_code == 200, reply.text
+    assert reply.headers["content-type"] == FORMATS[name].media_type
+    assert reply.headers["content-disposition"] == f'attachment; filename="{FORMATS[name].filename}"'
+    assert len(reply.content) > 1000
+
+
+def test_json_is_the_evaluate_reply_and_makes_itself_again(client):
+    file = client.post("/api/v1/export/json", params={"link": LINK}, json=BODY).json()
+    origin = file.pop("origin")
+    assert origin["link"] == LINK and origin["preset"]["name"] == "quanser-2dof-manual"
+    assert origin["call"] == "POST /api/v1/export/json"
+    again = client.post("/api/v1/export/json", json=origin["request"]).json()
+    assert {**file, "origin": None} == {**again, "origin": None}
+    for model in ("linear", "nonlinear"):
+        assert set(file["step"][model].pop("states")) == {"theta_dot", "psi_dot", "z_p", "z_y"}
+    assert file == client.post("/api/v1/evaluate", json={**BODY, "each_axis": True}).json()
+    models.Evaluation.model_validate(file)
+
+
+def test_what_is_wrong_is_a_problem_that_names_its_field(client):
+    for path, params, body, field in (
+        ("export/pascal", {}, {}, "format"),
+        ("export/csv", {"link": "javascript:alert(1)"}, {}, "link"),
+        ("export/csv", {"link": 'http://x/"\n'}, {}, "link"),
+        ("export/csv", {"link": "http://x/" + "a" * 4000}, {}, "link"),
+        ("export/c-source", {}, {"poles": [1, 2]}, "poles"),
+        ("export/report", {}, {"scenario": {"samples": 1}}, "scenario.samples"),
+    ):
+        reply = client.post(f"/api/v1/{path}", params=params, json=body)
+        assert (reply.status_code, reply.json()["field"]) == (422, field), path
+        assert reply.headers["content-type"] == "application/problem+json"
+
+
+def test_the_schema_tells_the_formats(client):
+    schema = client.get("/openapi.json").json()["paths"]["/api/v1/export/{format}"]["post"]
+    names = next(p for p in schema["parameters"] if p["name"] == "format")["schema"]["enum"]
+    assert names == [*FORMATS] and {
+        "python",
+        "matlab",
+        "mat",
+        "c-header",
+        "c-source",
+        "csv",
+        "json",
+        "report",
+    } == {*names}
+    assert "application/json" in schema["responses"]["200"]["content"]
+
+
+def test_json_is_finite(client):
+    reply = client.post("/api/v1/export/json", json={"poles": [0, -1, 5, -3], "outer": "none"})
+    json.loads(reply.text, parse_constant=pytest.fail)

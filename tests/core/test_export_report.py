@@ -1,0 +1,96 @@
+"""The laboratory report: well-formed, without script, its numbers and curves those of the core."""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heli2dof_core import PRESETS, OuterLoop, PoleSet, Scenario, Spec, Structure, evaluate, preset
+from heli2dof_core.export import FORMATS
+from heli2dof_core.export.svg import HEIGHT, LEFT, WIDTH, Curve, chart, number, thinned, ticks
+
+BASE = Spec.from_preset(preset())
+SPECS = {
+    "default": BASE,
+    "unstable": replace(
+        BASE, poles=PoleSet([-3 + 4j, -3 - 4j, -5, -6]), scenario=Scenario(theta=0.6, duration=8.0)
+    ),
+    "shifted": replace(BASE, structure=Structure("triangular", "yaw", 0.2), outer=OuterLoop("none")),
+    "lqr": replace(BASE, method="lqr-integral"),
+    "at-rest": replace(BASE, scenario=Scenario()),
+    "aero": Spec.from_preset(PRESETS["quanser-aero"]),
+}
+
+
+def tree(text: str) -> ET.Element:
+    """The page as XML: void elements are closed first, all else has to be well-formed as it is."""
+    text = text.removeprefix("<!doctype html>").replace("&nbsp;", " ")
+    return ET.fromstring(re.sub(r"<meta ([^>]*)>", r"<meta \1/>", text))
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_the_report_is_well_formed_and_holds_the_design(name: str):
+    spec = SPECS[name]
+    text, report = FORMATS["report"].render(spec), evaluate(spec)
+    page = tree(text)
+    words = " ".join(page.itertext())
+    for value in (*report.design.K.ravel(), report.design.norm):
+        assert number(value, 5)[:5] in words
+    for finding in report.findings:
+        assert finding.message in words
+    assert not list(page.iter("script")) and not re.search(
+        r"\son\w+=|javascript:|https?://(?!www.w3.org)", text
+    )
+    kinds = {element.tag.rpartition("}")[2] for element in page.iter()}
+    assert {"math", "svg", "table", "polyline", "title"} <= kinds
+    headings = [element.text for element in page.iter("h2")]
+    assert headings == ["Rig", "Design", "Formulas", "Responses", "Figures of merit", "Findings", "Origin"]
+    assert "nan" not in words.lower().split() and "None°" not in words
+
+
+def test_a_link_is_shown_and_escaped():
+    text = FORMATS["report"].render(BASE, "http://127.0.0.1:8000/#a&b=<i>'")
+    anchor = next(tree(text).iter("a"))
+    assert anchor.get("href") == anchor.text == "http://127.0.0.1:8000/#a&b=<i>'"
+
+
+def test_a_curve_is_where_its_numbers_are():
+    x, y = np.linspace(0, 2, 5), np.array([0.0, 1.0, 4.0, 9.0, 10.0])
+    svg = ET.fromstring(chart("a & b", "x", "y", [Curve(x, y, "rig")]))
+    assert svg[0].text == "a & b"
+    points = np.array([p.split(",") for p in next(svg.iter("polyline")).get("points").split()], dtype=float)
+    labels = {e.text: e for e in svg.iter("text")}
+    left, right = (float(labels[text].get("x")) for text in ("0", "2"))
+    assert (left, right) == (LEFT, WIDTH - 10)
+    np.testing.assert_allclose(points[:, 0], left + x / 2 * (right - left), atol=0.06)
+    lows, highs = sorted(
+        (float(e.get("y")) - 3.5, e.text) for e in svg.iter("text") if e.get("text-anchor") == "end"
+    )[:: len(ticks(-0.6, 10.6)) - 1]
+    slope = (highs[0] - lows[0]) / (float(highs[1]) - float(lows[1]))
+    np.testing.assert_allclose(points[:, 1], lows[0] + slope * (y - float(lows[1])), atol=0.15)
+    assert np.all((points >= 0) & (points <= [WIDTH, HEIGHT]))
+
+
+@pytest.mark.parametrize(("low", "high"), [(0, 1), (-3.2, 17), (1e-7, 3e-7), (-1e6, 1e6), (12.1, 12.2)])
+def test_ticks_are_round_and_inside(low: float, high: float):
+    found = ticks(low, high)
+    assert 2 <= len(found) <= 7
+    slack = 1e-9 * (high - low)
+    assert all(low - slack <= value <= high + slack for value in found)
+    step = found[1] - found[0]
+    assert step / 10 ** np.floor(np.log10(step) + 1e-9) == pytest.approx(1) or round(
+        step / 10 ** np.floor(np.log10(step) + 1e-9)
+    ) in (2, 5)
+
+
+def test_thinning_keeps_every_peak():
+    x = np.linspace(0, 1, 20_001)
+    y = np.sin(30 * x)
+    y[12_345], y[777] = 7.0, -9.0
+    short_x, short_y = thinned(x, y)
+    assert len(short_x) <= 402 and np.all(np.diff(short_x) > 0)
+    assert short_y.max() == 7.0 and short_y.min() == -9.0 and (short_x[0], short_x[-1]) == (0, 1)

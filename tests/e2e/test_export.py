@@ -1,0 +1,77 @@
+"""The menu "Export": files of the present design, by mouse and by keyboard."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from app.exports import FORMATS
+from tests.e2e.conftest import App, settled, state
+
+
+def saved(page: Page, name: str) -> tuple[str, bytes]:
+    with page.expect_download() as download:
+        page.get_by_test_id(f"export-{name}").click()
+    path = download.value.path()
+    return download.value.suggested_filename, Path(path).read_bytes()
+
+
+def test_every_format_is_saved_under_its_name(page: Page):
+    page.get_by_test_id("export").click()
+    offered = page.locator("[data-testid=popup] [data-testid^=export-]:is(button)")
+    assert {b.get_attribute("data-testid").removeprefix("export-") for b in offered.all()} == {*FORMATS}
+    for name, chosen in FORMATS.items():
+        filename, content = saved(page, name)
+        assert filename == chosen.filename
+        assert len(content) > 1000
+        expect(page.get_by_test_id("export-told")).to_have_text(f"{filename} is saved.")
+
+
+def test_the_file_is_of_what_is_shown_and_names_the_link(page: Page, app: App):
+    page.get_by_test_id("preset").select_option("quanser-aero-2")
+    settled(page)
+    page.get_by_test_id("export").click()
+    file = json.loads(saved(page, "json")[1])
+    assert file["gains"]["K"] == state(page)["K"]
+    assert file["origin"]["preset"]["name"] == "quanser-aero-2"
+    link = file["origin"]["link"]
+    assert link.startswith(f"{app.url}#") and "quanser-aero-2" in link
+
+
+def test_the_report_opens_in_a_tab(page: Page):
+    page.get_by_test_id("export").click()
+    with page.context.expect_page() as opened:
+        page.get_by_test_id("open-report").click()
+    report = opened.value
+    expect(report.locator("h1")).to_have_text("Pole placement: Quanser 2-DOF Helicopter (manual)")
+    assert report.locator("svg[role=img]").count() == 5
+
+
+def test_the_menu_works_by_keyboard(page: Page):
+    button = page.get_by_test_id("export")
+    button.focus()
+    page.keyboard.press("Enter")
+    expect(page.get_by_test_id("export-python")).to_be_focused()
+    page.keyboard.press("ArrowRight")
+    expect(page.get_by_test_id("export-matlab")).to_be_focused()
+    page.keyboard.press("ArrowDown")
+    expect(page.get_by_test_id("export-c-header")).to_be_focused()
+    with page.expect_download() as download:
+        page.keyboard.press("Enter")
+    assert download.value.suggested_filename == "heli2dof_controller.h"
+    page.keyboard.press("Escape")
+    expect(button).to_be_focused()
+    expect(button).to_have_attribute("aria-expanded", "false")
+
+
+@pytest.mark.parametrize("status", [422, 503])
+def test_a_refusal_is_told(page: Page, status: int):
+    problem = {"title": "No", "status": status, "detail": "It cannot be made.", "code": "x"}
+    page.route("**/api/v1/export/**", lambda route: route.fulfill(status=status, json=problem))
+    page.evaluate("() => { console.error = () => {} }")
+    page.get_by_test_id("export").click()
+    page.get_by_test_id("export-csv").click()
+    expect(page.get_by_test_id("export-told")).to_have_text("It cannot be made.")
