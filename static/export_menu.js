@@ -3,7 +3,7 @@ import { exportDesign } from './api.js';
 import { saveFile } from './clipboard.js';
 import { h, setText } from './dom.js';
 import { EXPORTS } from './export_formats.js';
-import { popupButton } from './popup.js';
+import { icon, popupButton } from './popup.js';
 import { bodyOf, scenarioOf } from './store.js';
 import { say } from './words.js';
 
@@ -12,7 +12,7 @@ const READ_MS = 60_000; // by then a tab has read its page
 
 /** @param {import('./store.js').Store} store @param {import('./address.js').Address} address */
 export function exportMenu(store, address) {
-  return popupButton({ label: 'Export this design as a file', text: 'Export', testid: 'export', kind: 'export', content: () => menu(store, address) });
+  return popupButton({ label: 'Export this design as a file', text: h('span', { class: 'export' }, icon('save'), h('span', { class: 'word' }, 'Export')), testid: 'export', kind: '', content: () => menu(store, address) });
 }
 
 /** @param {import('./store.js').Store} store @param {import('./address.js').Address} address */

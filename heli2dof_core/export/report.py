@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html import escape
 from math import degrees
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..couplings import Structure
 from ..evaluate import Report, Spec, evaluate
 from ..metrics import AxisMetrics
 from ..parameters import PARAMETER_INFO
@@ -18,6 +20,9 @@ from .markup import figure, formula, indexed, matrix, paragraph, pole, section, 
 from .origin import origin, preset_of
 from .report_style import STYLE
 from .svg import Curve, Marks, chart, number, pole_map
+
+if TYPE_CHECKING:  # it would import SymPy before the first page
+    from ..symbolic.render import Formula
 
 
 def render(spec: Spec, link: str = "") -> str:
@@ -127,24 +132,40 @@ def _outer(spec: Spec, report: Report) -> str:
 def _formulas(spec: Spec) -> Iterator[str]:
     from ..symbolic.render import symbolic_report  # SymPy: on first use
 
-    full_rank = spec.method == "full-rank"
-    shifted = full_rank and spec.structure.shift is not None
-    symbols = symbolic_report(spec.structure.family, shifted=shifted)
+    symbols = symbolic_report(spec.structure.family)
     yield paragraph("Linear model ẋ = Ax + Bu about rest at θ₀:")
     for name in ("A", "B"):
         yield formula(f"<mi>{name}</mi>", symbols.formulas[name].mathml)
-    if full_rank:
-        yield paragraph("Gain of the state feedback:")
-        for name, entry in symbols.entries["K"].items():
+    if spec.method == "full-rank":
+        shift = spec.structure.shift
+        gains, relative = symbols.entries["K"], symbols.entries["RGA"]["lambda_11"]
+        if shift is not None:
+            gains, relative = _shifted(spec.structure.family)
+            yield paragraph(f"Gain of the state feedback, with the basis' shift c = {number(shift, 6)}:")
+        else:
+            yield paragraph("Gain of the state feedback:")
+        for name, entry in gains.items():
             yield formula(indexed("k", name.removeprefix("k_")), entry.mathml)
         yield paragraph("Relative gain at s = 0:")
-        yield formula(indexed("λ", "11"), symbols.entries["RGA"]["lambda_11"].mathml)
+        yield formula(indexed("λ", "11"), relative.mathml)
     else:
         yield paragraph(f"K is computed in numbers by the method {METHODS[spec.method].title}.")
     yield paragraph("With the abbreviations")
     for name, definition in symbols.definitions.items():
         if name in symbols.notation:
             yield formula(_inner(symbols.notation[name].mathml), definition.mathml)
+
+
+def _shifted(structure: Structure) -> tuple[dict[str, Formula], Formula]:
+    """K's entries and λ₁₁ with the shift as a symbol, and no more: all else with it takes SymPy a minute."""
+    from ..symbolic.full_rank import full_rank
+    from ..symbolic.render import formula, group
+    from ..symbolic.rga import relative_gain_array
+
+    K: Any = full_rank(structure, shifted=True).K.to_Matrix()  # SymPy's entries are dynamic
+    relative: Any = relative_gain_array(structure, shifted=True).to_Matrix()
+    entries = {f"k_{i + 1}{j + 1}": formula(group(K[i, j])) for i in range(2) for j in range(4)}
+    return entries, formula(group(relative[0, 0]))
 
 
 def _inner(mathml: str) -> str:

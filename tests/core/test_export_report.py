@@ -63,15 +63,14 @@ def test_a_curve_is_where_its_numbers_are():
     svg = ET.fromstring(chart("a & b", "x", "y", [Curve(x, y, "rig")]))
     assert svg[0].text == "a & b"
     points = np.array([p.split(",") for p in next(svg.iter("polyline")).get("points").split()], dtype=float)
-    labels = {e.text: e for e in svg.iter("text")}
+    labels = {e.text: e for e in svg.iter("text") if e.get("text-anchor") == "middle"}
     left, right = (float(labels[text].get("x")) for text in ("0", "2"))
     assert (left, right) == (LEFT, WIDTH - 10)
     np.testing.assert_allclose(points[:, 0], left + x / 2 * (right - left), atol=0.06)
-    lows, highs = sorted(
-        (float(e.get("y")) - 3.5, e.text) for e in svg.iter("text") if e.get("text-anchor") == "end"
-    )[:: len(ticks(-0.6, 10.6)) - 1]
-    slope = (highs[0] - lows[0]) / (float(highs[1]) - float(lows[1]))
-    np.testing.assert_allclose(points[:, 1], lows[0] + slope * (y - float(lows[1])), atol=0.15)
+    upright = [e for e in svg.iter("text") if e.get("text-anchor") == "end"]  # of the y axis
+    (low, bottom), *_, (high, top) = sorted((float(e.text), float(e.get("y")) - 3.5) for e in upright)
+    slope = (top - bottom) / (high - low)
+    np.testing.assert_allclose(points[:, 1], bottom + slope * (y - low), atol=0.15)
     assert np.all((points >= 0) & (points <= [WIDTH, HEIGHT]))
 
 

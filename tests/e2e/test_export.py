@@ -70,8 +70,10 @@ def test_the_menu_works_by_keyboard(page: Page):
 @pytest.mark.parametrize("status", [422, 503])
 def test_a_refusal_is_told(page: Page, status: int):
     problem = {"title": "No", "status": status, "detail": "It cannot be made.", "code": "x"}
-    page.route("**/api/v1/export/**", lambda route: route.fulfill(status=status, json=problem))
-    page.evaluate("() => { console.error = () => {} }")
+    page.evaluate(
+        "(body) => { window.fetch = async () => new Response(JSON.stringify(body), { status: body.status }); }",
+        problem,
+    )
     page.get_by_test_id("export").click()
     page.get_by_test_id("export-csv").click()
     expect(page.get_by_test_id("export-told")).to_have_text("It cannot be made.")
