@@ -75,8 +75,8 @@ class Identification:
     Attributes:
         estimates: of the free parameters.
         parameters: the rig with them, each within its range.
-        rms_before, rms: of the residuals of θ and ψ, rad; starting states are fitted in both. Before: None where the rig as it was
-            thought to be runs away.
+        rms_before, rms: of the residuals of θ and ψ, rad; starting states are fitted in both. Before: None where
+            the rig as it was thought to be runs away.
         residuals: measured minus simulated, (n, 2), rad; 0 where nothing was simulated.
         segments: (count, 2), first sample and last + 1.
         lags: over which the residuals' correlation was taken into account, samples.
@@ -136,12 +136,18 @@ def identify(
     length = segment_length(p, recording) if segment is None else segment
     require_within(length, "segment", "s", 0.1, 1e4)
     try:
-        search, before, values = _found(p, recording, names, length, travel, report)
+
+        def segmented(length: float, spent: int = 0) -> _Search:
+            return _Search(
+                p, recording, names, cut(recording, length, travel), report=report, evaluations=spent
+            )
+
+        search, before, values = _found(segmented, names, length)
     except FloatingPointError as error:
         raise RecordingError(
             "under the recorded voltages the simulated rig runs away",
             field="columns",
-            hint="Check units, signs and offsets, and that this is the rig that was recorded; or try shorter segments.",
+            hint="Check units, signs, offsets and which rig was recorded, or try shorter segments.",
         ) from error
     after = search.fitted(values)
     J, r = search.slopes(after) * search.weights[:, None], after.residuals * search.weights
@@ -170,24 +176,19 @@ def identify(
 
 
 def _found(
-    p: Parameters,
-    recording: Recording,
-    names: tuple[str, ...],
-    length: float,
-    travel: float | None,
-    report: Callable[[Progress], None],
+    segmented: Callable[..., _Search], names: tuple[str, ...], length: float
 ) -> tuple[_Search, tuple[float, float] | None, Floats]:
     """The search in segments of `length`, the residuals before it and what it found.
 
     A wrong rig soon falls out of reach of the right one, so that short segments bring it near first.
     """
-    values, short, spent = np.zeros(len(names)), min(COARSE, length), 0
-    search = _Search(p, recording, names, cut(recording, short, travel), report)
+    values, short = np.zeros(len(names)), min(COARSE, length)
+    search = segmented(short)
     _require_excited(search.slopes(search.fitted(values)).reshape(-1, len(names)), names)
     while short < length:
         values = search.minimum(values, COARSE_TOLERANCE)
-        short, spent = min(GROWING * short, length), search.evaluations
-        search = _Search(p, recording, names, cut(recording, short, travel), report, spent)
+        short = min(GROWING * short, length)
+        search = segmented(short, search.evaluations)
     try:
         before = _pair(search.rms(search.fitted(np.zeros(len(names)))))
     except FloatingPointError:
@@ -208,6 +209,7 @@ class _Search:
         recording: Recording,
         names: tuple[str, ...],
         bounds: NDArray[np.int64],
+        *,
         report: Callable[[Progress], None],
         evaluations: int = 0,
     ) -> None:

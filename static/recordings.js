@@ -3,7 +3,7 @@
  * @typedef {import('./types.js').Recorded} Recorded
  * @typedef {import('./types.js').RecordingColumns} RecordingColumns
  */
-import { DEGREE, fixed, significant } from './format.js';
+import { DEGREE, fixed, forField, significant } from './format.js';
 import { bodyOf, initialState } from './store.js';
 import { count, say } from './words.js';
 
@@ -72,7 +72,7 @@ export const progressWords = (progress) => (progress ? say`Simulation ${progress
 export function estimateRows(found) {
   return found.estimates.map((/** @type {any} */ e) => ({
     name: e.name, unit: e.unit, before: significant(e.before, 5), value: significant(e.value, 5),
-    width: `± ${significant((e.high - e.low) / 2, 2)}`, interval: `${significant(e.low, 5)} … ${significant(e.high, 5)}`,
+    width: `± ${forField(Number(((e.high - e.low) / 2).toPrecision(2)))}`, interval: `${significant(e.low, 5)} … ${significant(e.high, 5)}`,
   }));
 }
 
