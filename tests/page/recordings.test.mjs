@@ -39,7 +39,7 @@ test('words', () => {
   assert.equal(fitText(-500), 'fit below −100 %');
   assert.match(fitText(null), /never moves/);
   assert.match(overlayWords({ samples: 100, duration: 2, segments: 3 }), /100 samples in 2\.0 s, 3 segments/);
-  assert.deepEqual(estimateRows(found)[0], { name: 'K_pp', unit: 'N·m/V', before: '1.0000', value: '1.2500', width: '± 0.05', interval: '1.2000 … 1.3000' });
+  assert.deepEqual(estimateRows(found)[0], { name: 'K_pp', unit: 'N·m/V', before: '1', value: '1.250', width: '± 0.050', interval: '1.200 … 1.300' });
   assert.ok(!freeAtFirst(preset.parameters).includes('K_s'));
   assert.ok(freeAtFirst({ K_s: 1 }).includes('K_s'));
   assert.deepEqual(adopted(designOf(preset), found).parameters, { K_pp: 1.25 });
