@@ -61,7 +61,7 @@ def driven_in_segments(
 ) -> Overlay:
     """As `driven_by_voltages`, but begun anew every `length` s from the state that fits the recording best.
 
-    By default a segment lasts a second, or the whole recording where no error grows; stretches on a stop are left out.
+    By default a segment lasts a second, or the whole recording where no error grows; stops are left out.
     """
     if length is None:
         longest = segment_length(p, recording)

@@ -90,6 +90,7 @@ export class RecordingsPanel {
     if (preview && preview !== this.#preview) this.#map(preview, columns);
     this.#preview = preview;
     if (this.timeless) this.timeless.hidden = Boolean(columns?.names.time);
+    for (const option of this.driver.options) option.disabled = option.value === 'references' && !(columns?.names.theta_ref && columns.names.psi_ref);
     this.driver.value = driver;
     this.again.hidden = overlaid === design;
     if (overlay) {
