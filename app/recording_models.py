@@ -200,7 +200,9 @@ def overlay_reply(driver: Driver, recording: Recording, overlay: Overlay) -> Rep
     """Both courses, thinned out."""
     n = len(recording.t)
     kept = np.unique(np.linspace(0, n - 1, min(n, MOST_POINTS)).round().astype(int))
-    references = recording.references
+    references, simulated = recording.references, overlay.angles[kept]
+    part = np.searchsorted(overlay.segments[:, 0], kept, side="right")
+    simulated[1:][np.diff(part) > 0] = np.nan  # a gap in the curve where a segment begins
     return {
         "driver": driver,
         "samples": n,
@@ -211,7 +213,7 @@ def overlay_reply(driver: Driver, recording: Recording, overlay: Overlay) -> Rep
         "segments": len(overlay.segments),
         "t": recording.t[kept],
         "measured": _courses(recording.angles[kept]),
-        "simulated": _courses(overlay.angles[kept]),
+        "simulated": _courses(simulated),
         "residuals": _courses((recording.angles - overlay.angles)[kept]),
         **({} if references is None else {"references": _courses(references[kept])}),
         "voltages": _volts(recording.voltages[kept]),

@@ -115,11 +115,11 @@ def loop_reply(loop: Loop) -> Reply:
     }
 
 
-def step_reply(step: Step, loop: Loop, common: Reply) -> Reply:
-    """Trajectories and metrics of one response, and `common`, the loop's; the long arrays are NumPy's."""
+def step_reply(step: Step, loop: Loop, common: Reply | None = None) -> Reply:
+    """Trajectories and metrics of one response; the long arrays are NumPy's. `common` is `loop_reply`'s, if known."""
     response = step.response
     return {
-        **common,
+        **(common or loop_reply(loop)),
         "t": response.t,
         **{signal.name: response.angles[i] for i, signal in enumerate(OUTPUTS)},
         **{signal.name: response.voltages[i] for i, signal in enumerate(INPUTS)},

@@ -11,7 +11,7 @@ from .errors import RecordingError
 from .loop import Loop
 from .parameters import Parameters
 from .recordings import Recording
-from .segments import cut, fit_of, rough_starts, segment_length
+from .segments import SHORTEST, cut, fit_of, rough_starts, segment_length
 from .signals import Floats
 from .simulation.recorded import exact, run_held, run_recorder
 from .spec import MOST_SAMPLE_TIMES, Digital, Limits
@@ -61,9 +61,12 @@ def driven_in_segments(
 ) -> Overlay:
     """As `driven_by_voltages`, but begun anew every `length` s from the state that fits the recording best.
 
-    By default a segment lasts as long as no error grows much; stretches on a stop are left out.
+    By default a segment lasts a second, or the whole recording where no error grows; stops are left out.
     """
-    bounds = cut(recording, segment_length(p, recording) if length is None else length, travel)
+    if length is None:
+        longest = segment_length(p, recording)
+        length = longest if longest >= recording.t[-1] else SHORTEST
+    bounds = cut(recording, length, travel)
     fitted = fit_of(p, recording, bounds)
     angles = np.full_like(recording.angles, np.nan)
     for first, end in bounds.tolist():

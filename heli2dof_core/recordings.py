@@ -163,7 +163,7 @@ def _time(table: Table, columns: Columns) -> Floats:
                 field="columns.time",
                 hint="Choose one, or give the sample time.",
             )
-        return columns.sample_time * np.arange(len(table.values))
+        return np.arange(len(table.values), dtype=np.float64) * columns.sample_time
     t = table.column(name, "time")
     back = np.flatnonzero(np.diff(t) <= 0)
     if len(back):
@@ -176,7 +176,7 @@ def _angle(table: Table, columns: Columns, axis: int, suffix: str) -> Floats:
     values = (
         columns.signs[axis] * _bounded(table, columns.names[role], role, columns.unit) + columns.offsets[axis]
     )
-    return values * radians(1.0) if columns.unit == "deg" else values
+    return np.asarray(values * (radians(1.0) if columns.unit == "deg" else 1.0), dtype=np.float64)
 
 
 def _bounded(table: Table, name: str, role: str, unit: str) -> Floats:

@@ -63,7 +63,9 @@ export class RecordingFeed {
     const { columns } = this.store.state.recorded;
     if (!columns) return;
     this.cancel();
-    this.#set({ columns: { ...columns, ...part }, overlay: null, found: null, problem: null });
+    const after = { ...columns, ...part };
+    const driver = after.names.theta_ref && after.names.psi_ref ? this.store.state.recorded.driver : 'segments';
+    this.#set({ columns: after, driver, overlay: null, found: null, problem: null });
     if (isMapped(this.store.state.recorded.columns)) this.overlay();
   }
 

@@ -3,7 +3,7 @@
  * @typedef {import('./types.js').Recorded} Recorded
  * @typedef {import('./types.js').RecordingColumns} RecordingColumns
  */
-import { DEGREE, fixed, significant } from './format.js';
+import { DEGREE, fixed, forField, significant } from './format.js';
 import { bodyOf, initialState } from './store.js';
 import { count, say } from './words.js';
 
@@ -68,11 +68,16 @@ export function overlayWords(overlay) {
 /** @param {any} progress */
 export const progressWords = (progress) => (progress ? say`Simulation ${progress.evaluations}: residuals ${significant(progress.rms.theta * DEGREE, 3)}° in pitch, ${significant(progress.rms.psi * DEGREE, 3)}° in yaw` : 'Identifying…');
 
+/** As many decimals as two digits of the interval's half width need. @param {number} v @param {{low: number, high: number}} e */
+function as(v, { low, high }) {
+  const half = (high - low) / 2;
+  return fixed(v, half > 0 ? Math.max(0, Math.min(12, 1 - Math.floor(Math.log10(half)))) : 6);
+}
+
 /** One row per parameter. @param {any} found @returns {{name: string, unit: string, before: string, value: string, width: string, interval: string}[]} */
 export function estimateRows(found) {
   return found.estimates.map((/** @type {any} */ e) => ({
-    name: e.name, unit: e.unit, before: significant(e.before, 5), value: significant(e.value, 5),
-    width: `± ${significant((e.high - e.low) / 2, 2)}`, interval: `${significant(e.low, 5)} … ${significant(e.high, 5)}`,
+    name: e.name, unit: e.unit, before: forField(e.before).replace('-', '\u2212'), value: as(e.value, e), width: `± ${as((e.high - e.low) / 2, e)}`, interval: `${as(e.low, e)} … ${as(e.high, e)}`,
   }));
 }
 

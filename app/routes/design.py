@@ -26,8 +26,7 @@ def build_router(compute: Compute) -> APIRouter:
             spec = request.to_spec()
             loop = close_loop(place(spec), spec.outer)
             step = simulate(loop, spec, request.scenario.model)
-            reply = replies.step_reply(step, loop, replies.loop_reply(loop))
-            return reply | (replies.states_reply(step) if request.states else {})
+            return replies.step_reply(step, loop) | (replies.states_reply(step) if request.states else {})
 
         return json_response(await compute.run(work))
 

@@ -42,6 +42,8 @@ from ..recording_models import (
 from ..recording_store import RecordingStore
 
 _log = logging.getLogger(__name__)
+_PATIENCE = 180
+"""Half seconds that a request waits for the kernels after the start."""
 _SIZE = (0.2, 0.4)
 """Reference steps of a sample where the preset's scenario names none, rad."""
 
@@ -59,7 +61,7 @@ def build_router(compute: Compute) -> APIRouter:
 
     @router.post("/sample", **_makes_a_file())
     async def sample(request: SampleRequest) -> Response:
-        _require_compiled()
+        await _compiled()
         content = await compute.run_slow(_sample, request)
         name = {"Content-Disposition": 'attachment; filename="heli2dof-recording.csv"'}
         return Response(content, media_type="text/csv; charset=utf-8", headers=name)
@@ -68,7 +70,7 @@ def build_router(compute: Compute) -> APIRouter:
         "/{key}/overlay", **described(OverlayReply, "The recording over the simulation, with its fit")
     )
     async def overlay(key: str, request: OverlayRequest) -> Response:
-        _require_compiled()
+        await _compiled()
         table = store.get(key)
         return json_response(await compute.run_slow(lambda: _overlay(request, table)))
 
@@ -91,11 +93,15 @@ def build_router(compute: Compute) -> APIRouter:
     return router
 
 
-def _require_compiled() -> None:
-    if not engine().compiled:
-        raise HTTPException(
-            503, "Still compiling after the start; try again in half a minute.", {"Retry-After": "15"}
-        )
+async def _compiled() -> None:
+    """Waits for the compiled kernels, without which all this would take minutes."""
+    for _ in range(_PATIENCE):
+        if engine().compiled:
+            return
+        await asyncio.sleep(0.5)
+    raise HTTPException(
+        503, "Still compiling after the start; try again in half a minute.", {"Retry-After": "15"}
+    )
 
 
 async def _body(request: Request) -> bytes:
@@ -153,7 +159,7 @@ async def _answer(socket: WebSocket, text: str, compute: Compute, store: Recordi
         if isinstance(data, dict) and data.get("cancel"):
             await send({"cancelled": True})
             return
-        _require_compiled()
+        await _compiled()
         request = IdentifyRequest.model_validate(data)
         await _identify(send, request.to_spec(), request, compute, store)
     except orjson.JSONDecodeError as error:

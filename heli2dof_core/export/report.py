@@ -159,7 +159,8 @@ def _formulas(spec: Spec) -> Iterator[str]:
 def _shifted(structure: Structure) -> tuple[dict[str, Formula], Formula]:
     """K's entries and λ₁₁ with the shift as a symbol, and no more: all else with it takes SymPy a minute."""
     from ..symbolic.full_rank import full_rank
-    from ..symbolic.render import formula, group
+    from ..symbolic.grouping import group
+    from ..symbolic.render import formula
     from ..symbolic.rga import relative_gain_array
 
     K: Any = full_rank(structure, shifted=True).K.to_Matrix()  # SymPy's entries are dynamic

@@ -13,6 +13,7 @@ export class RecordingsPanel {
   /** @type {any[]} */ #seen = [];
   /** @type {any} */ #preview = null;
   /** @type {string} */ #preset = '';
+  /** @type {HTMLElement|undefined} */ timeless;
 
   /** @param {HTMLElement} root @param {import('../store.js').Store} store */
   constructor(root, store) {
@@ -41,7 +42,7 @@ export class RecordingsPanel {
     const card = (/** @type {string} */ title, /** @type {string} */ kind, /** @type {any[]} */ ...content) => h('div', { class: `card ${kind}` }, h('h3', {}, title), content);
     this.overlayCard = card('Over the simulation', 'wide', h('div', { class: 'row' }, h('label', { class: 'row' }, h('span', {}, 'Driven by'), this.driver), this.again), this.about, h('div', { class: 'frequency-plots' }, this.plots.map((p) => p.node)));
     this.identifyCard = card('Identification', 'wide', h('p', { class: 'caption' }, 'Least squares on the nonlinear model under the recorded voltages. The intervals consider that residuals are correlated in time. J, m and l stay.'),
-      h('div', { class: 'row', role: 'group', 'aria-label': 'Free parameters' }, h('span', {}, 'Free'), this.free, this.run, this.cancel), this.progress, this.table, this.remarks, this.adopt);
+      h('div', { class: 'row', role: 'group', 'aria-label': 'Free parameters' }, h('span', {}, 'Free'), this.free, this.run, this.cancel), this.progress, h('div', { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Identified parameters' }, this.table), this.remarks, this.adopt);
     root.append(h('div', { class: 'row recording-file' }, h('label', { class: 'row' }, h('span', {}, 'File (CSV or .mat)'), this.file), this.sample, this.save), this.status, this.problem,
       h('div', { class: 'recording-body' }, this.columnsCard = card('Columns', 'wide', this.mapping, this.head), this.overlayCard, this.identifyCard));
   }
@@ -88,6 +89,8 @@ export class RecordingsPanel {
     this.identifyCard.hidden = !mapped;
     if (preview && preview !== this.#preview) this.#map(preview, columns);
     this.#preview = preview;
+    if (this.timeless) this.timeless.hidden = Boolean(columns?.names.time);
+    for (const option of this.driver.options) option.disabled = option.value === 'references' && !(columns?.names.theta_ref && columns.names.psi_ref);
     this.driver.value = driver;
     this.again.hidden = overlaid === design;
     if (overlay) {
@@ -133,7 +136,8 @@ export class RecordingsPanel {
     };
     const time = new NumberField({ label: 'Sample time where no column is the time', mark: 'sample time', unit: 's', min: 1e-5, max: 10, testid: 'recording-sample-time', onInput: (v) => { time.set(v); }, onCommit: () => change({ sample_time: time.value }) });
     time.set(columns.sample_time);
-    this.mapping.replaceChildren(...ROLES.map(choice), h('label', { class: 'recording-role' }, h('span', {}, 'angles in'), unit), axis('theta', 'θ', 'pitch'), axis('psi', 'ψ', 'yaw'), h('span', { class: 'recording-role' }, time.node));
+    this.mapping.replaceChildren(...ROLES.map(choice), h('label', { class: 'recording-role' }, h('span', {}, 'angles in'), unit), axis('theta', 'θ', 'pitch'), axis('psi', 'ψ', 'yaw'), this.timeless = h('span', { class: 'recording-role' }, time.node));
+    this.timeless.hidden = Boolean(columns.names.time);
     const cells = (/** @type {(number|null)[]} */ row, /** @type {number} */ i) => h('tr', {}, h('th', { scope: 'row' }, String(preview.first_row + i)), row.map((v) => h('td', {}, v === null ? '–' : significant(v, 5))));
     this.head.replaceChildren(h('table', { class: 'compare-table', 'data-testid': 'recording-preview' }, h('thead', {}, h('tr', {}, h('th', { scope: 'col' }, 'Row'), preview.columns.map((/** @type {string} */ name) => h('th', { scope: 'col', translate: 'no' }, name)))), h('tbody', {}, preview.preview.map(cells))));
   }

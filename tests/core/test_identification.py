@@ -98,6 +98,13 @@ def test_true_parameters_lie_within_the_intervals():
     assert min(inside.values()) >= 10, inside
 
 
+def test_rounding_without_noise_is_told():
+    """It is no noise: the intervals are then too narrow."""
+    codes = {f.code for f in run("quanser-2dof-manual", 0.0, 6.0, 0.004, 1)[1].findings}
+    assert codes == {"coarse_pitch_encoder", "coarse_yaw_encoder"}
+    assert run("quanser-2dof-manual", 1e-3, 6.0, 0.004, 1)[1].findings == ()
+
+
 def test_correlated_residuals_widen_the_intervals():
     """A mean of an AR(1) series: σ²/n (1 + ρ)/(1 − ρ), which the plain covariance underrates ninefold."""
     rng, n, rho = np.random.default_rng(0), 40_000, 0.8

@@ -1,0 +1,87 @@
+/** Recordings: what is asked of the server, words and curves, and the feed: newest file, progress, cancel. */
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { RecordingFeed } from '../../static/recording_feed.js';
+import { adopted, columnsBody, curves, estimateRows, fitText, freeAtFirst, guessed, isMapped, nothing, overlayWords, rangeOfCurves } from '../../static/recordings.js';
+import { designOf, Store } from '../../static/store.js';
+
+const preset = {
+  name: 'rig', title: '', source: '', rig: 'helicopter', parameters: { K_pp: 1, K_s: 0 }, limits: { V_p: 24, V_y: 15 }, poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),
+  loops: { pitch: { kp: 1, ti: 1 }, yaw: { kp: 1, ti: 1 } }, scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 3 },
+};
+const names = { time: 't', theta: 'a', psi: 'b', V_p: 'c', V_y: 'd' };
+const preview = { id: 'x', name: 'run.csv', columns: Object.values(names), rows: 9, first_row: 2, preview: [], guess: { columns: names, unit: 'deg' } };
+const found = { done: true, evaluations: 3, seconds: 1, findings: [], estimates: [{ name: 'K_pp', unit: 'N·m/V', before: 1, value: 1.25, low: 1.2, high: 1.3, plain: 0.02, adopted: 1.25 }] };
+
+test('columns are asked for as the server takes them', () => {
+  const columns = guessed(preview);
+  assert.ok(isMapped(columns));
+  assert.deepEqual(columnsBody(columns), { ...names, unit: 'deg', signs: { theta: 1, psi: 1 }, offsets: { theta: 0, psi: 0 } });
+  const timeless = { ...columns, names: { ...names, time: '' } };
+  assert.equal(columnsBody(timeless).sample_time, 0.002);
+  assert.ok(!('time' in columnsBody(timeless)));
+  assert.ok(!isMapped({ ...columns, names: { ...names, V_y: '' } }));
+  assert.ok(!isMapped(null));
+});
+
+test('curves are in degrees, gaps stay gaps, and what runs away is cut off', () => {
+  const overlay = { t: [0, 1], measured: { theta: [0, Math.PI / 18] }, simulated: { theta: [null, 100] } };
+  const data = curves(overlay, 'theta');
+  assert.deepEqual(data.map((c) => c.length), [2, 2, 2, 2]);
+  assert.ok(Math.abs(data[1][1] - 10) < 1e-12);
+  assert.deepEqual([data[2][0], data[3]], [null, [null, null]]);
+  const [low, high] = rangeOfCurves(data);
+  assert.ok(low < 0 && high > 10 && high < 20);
+});
+
+test('words', () => {
+  assert.equal(fitText(98.76), 'fit 98.8 %');
+  assert.equal(fitText(-500), 'fit below −100 %');
+  assert.match(fitText(null), /never moves/);
+  assert.match(overlayWords({ samples: 100, duration: 2, segments: 3 }), /100 samples in 2\.0 s, 3 segments/);
+  assert.deepEqual(estimateRows(found)[0], { name: 'K_pp', unit: 'N·m/V', before: '1', value: '1.250', width: '± 0.050', interval: '1.200 … 1.300' });
+  assert.ok(!freeAtFirst(preset.parameters).includes('K_s'));
+  assert.ok(freeAtFirst({ K_s: 1 }).includes('K_s'));
+  assert.deepEqual(adopted(designOf(preset), found).parameters, { K_pp: 1.25 });
+});
+
+function rigged() {
+  const store = new Store();
+  store.set({ presets: [preset] });
+  store.load(designOf(preset));
+  store.set({ recorded: { ...nothing(), preview, columns: guessed(preview) } });
+  const sockets = [];
+  const feed = new RecordingFeed(store, () => {
+    const socket = { sent: [], closed: false, send(text) { this.sent.push(JSON.parse(text)); }, close() { this.closed = true; } };
+    sockets.push(socket);
+    return socket;
+  });
+  const tell = (socket, message) => socket.onmessage({ data: JSON.stringify(message) });
+  return { store, feed, sockets, tell };
+}
+
+test('identification: progress, then the result and the rig that it belongs to', () => {
+  const { store, feed, sockets, tell } = rigged();
+  feed.identify(['K_pp']);
+  sockets[0].onopen();
+  assert.deepEqual([sockets[0].sent[0].recording, sockets[0].sent[0].free], ['x', ['K_pp']]);
+  tell(sockets[0], { done: false, evaluations: 2, rms: { theta: 0.1, psi: 0.1 } });
+  assert.equal(store.state.recorded.progress.evaluations, 2);
+  tell(sockets[0], found);
+  assert.deepEqual([store.state.recorded.found.done, store.state.recorded.busy, sockets[0].closed], [true, '', true]);
+  assert.equal(store.state.recorded.foundFor, store.state.design);
+});
+
+test('cancelled, nothing that still comes is shown; a lost connection is told', () => {
+  const { store, feed, sockets, tell } = rigged();
+  feed.identify(['K_pp']);
+  feed.cancel();
+  tell(sockets[0], found);
+  assert.deepEqual([store.state.recorded.found, store.state.recorded.busy, sockets[0].closed], [null, '', true]);
+  feed.identify(['K_pp']);
+  tell(sockets[1], { status: 422, detail: 'No.', code: 'unusable_recording' });
+  assert.equal(store.state.recorded.problem.detail, 'No.');
+  feed.identify(['K_pp']);
+  sockets[2].onclose();
+  assert.match(store.state.recorded.problem.detail, /cannot be reached/);
+});
