@@ -1,96 +1,30 @@
-"""The scene over the wire: page, socket, allow-list, isolation, capacity and idle sessions."""
+"""The scene over the wire: page, socket, allow-list, isolation."""
 
-import asyncio
-import gc
 import re
-import socket
-import threading
-import time
 import urllib.error
 import urllib.parse
 import urllib.request
-import weakref
 from collections.abc import Iterator
 from typing import Any
 
-import msgspec
 import pytest
-import zstandard
-from fastapi import FastAPI, WebSocket
-from starlette.types import Message
-from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
-from websockets.sync.connection import Connection
-from websockets.typing import Subprotocol
 
-from app.scene import SceneSessions, sessions
-from app.scene.relay import LARGEST_MESSAGE, admissible, relay
+from app.scene.relay import LARGEST_MESSAGE, admissible
+from tests.scene_client import (
+    CAMERA,
+    VISER,
+    answer,
+    closed,
+    encode,
+    messages,
+    put_rig,
+    replay,
+    session_id,
+    watch,
+)
 from tests.scene_server import SceneServer, serving, until
-
-VISER = "viser-v1.1.1"
-CAMERA: dict[str, Any] = {
-    "type": "ViewerCameraMessage",
-    "wxyz": [1.0, 0.0, 0.0, 0.0],
-    "position": [1, 0, 0.5],
-    "fov": 0.7,
-    "near": 0.01,
-    "far": 100,
-    "image_height": 330,
-    "image_width": 420,
-    "look_at": [0.0, 0.0, 0.3],
-    "up_direction": [0.0, 0.0, 1.0],
-}
-encode = msgspec.msgpack.encode
-
-
-def session_id(name: str) -> str:
-    return name.ljust(22, "_")
-
-
-def watch(server: SceneServer, name: str, protocol: str = VISER) -> Connection:
-    return connect(
-        server.socket(session_id(name)),
-        subprotocols=[Subprotocol(protocol)],
-        compression=None,
-        max_size=None,
-        proxy=None,
-    )
-
-
-def messages(frame: str | bytes) -> list[dict[str, Any]]:
-    """The messages in one of viser's frames, without their binary buffers."""
-    assert isinstance(frame, bytes)
-    size = int.from_bytes(frame[8:16], "little")
-    header = zstandard.ZstdDecompressor().decompress(
-        frame[16 : 16 + size], max_output_size=int.from_bytes(frame[:8], "little")
-    )
-    return msgspec.msgpack.decode(header)["messages"]
-
-
-def replay(socket: Connection) -> list[dict[str, Any]]:
-    """Everything a new visitor is told until the scene is complete."""
-    told: list[dict[str, Any]] = []
-    while not any(message["type"] == "ReplayDoneMessage" for message in told):
-        told += messages(socket.recv(timeout=20))
-    return told
-
-
-def put_rig(server: SceneServer, name: str, body: str) -> tuple[int, dict[str, str]]:
-    request = urllib.request.Request(
-        f"{server.http}/scene/{session_id(name)}/rig", data=body.encode(), method="PUT"
-    )
-    request.add_header("Content-Type", "application/json")
-    return answer(request)
-
-
-def answer(request: str | urllib.request.Request) -> tuple[int, dict[str, str]]:
-    try:
-        with urllib.request.urlopen(request, timeout=20) as response:
-            return response.status, dict(response.headers)
-    except urllib.error.HTTPError as error:
-        with error:
-            return error.code, dict(error.headers)
 
 
 @pytest.fixture(scope="module")
@@ -201,16 +135,6 @@ def test_frames_that_no_viewer_sends_end_the_connection(server: SceneServer, fra
         assert socket.close_code == code
 
 
-def closed(socket: Connection) -> bool:
-    try:
-        socket.recv(timeout=0.01)
-    except TimeoutError:
-        return False
-    except ConnectionClosed:
-        return True
-    return False
-
-
 def test_sessions_have_their_own_rigs(server: SceneServer):
     assert put_rig(server, "apart-a", '{"rig": "aero"}')[0] == 204
     with watch(server, "apart-a") as aero, watch(server, "apart-b") as helicopter:
@@ -252,152 +176,3 @@ def test_everything_works_under_a_path_prefix():
         assert put_rig(mounted, "prefix", '{"rig": "aero"}')[0] == 204
         with watch(mounted, "prefix") as socket:
             assert replay(socket)
-
-
-def test_full_server_says_so_and_makes_room_when_someone_leaves(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(sessions, "_SPARE_AFTER", 0.0)
-    with serving(capacity=1) as small:
-        with watch(small, "first") as first:
-            replay(first)
-            with watch(small, "second") as second:
-                with pytest.raises(ConnectionClosed):
-                    second.recv(timeout=20)
-                assert second.close_code == 1013
-                assert "1 scenes of this server are in use" in (second.close_reason or "")
-            status, headers = put_rig(small, "second", '{"rig": "aero"}')
-            assert (status, headers["retry-after"]) == (503, "30")
-        until(lambda: put_rig(small, "second", '{"rig": "aero"}')[0] == 204, "there is room")
-        assert len(small.sessions) == 1
-
-
-def test_session_lives_while_it_is_watched_and_not_much_longer():
-    with serving(idle_seconds=0.3) as server:
-        with watch(server, "brief") as watcher:
-            replay(watcher)
-            assert put_rig(server, "unwatched", '{"rig": "aero"}')[0] == 204
-            until(lambda: len(server.sessions) == 1, "the unwatched session is stopped")
-            assert not closed(watcher)
-        until(lambda: len(server.sessions) == 0, "the session is stopped after its last client")
-
-
-def test_stopping_the_app_stops_every_rig_and_tells_the_watchers():
-    with serving() as server:
-        socket = watch(server, "last")
-        replay(socket)
-        viser = server.sessions.server(session_id("last"))
-        assert viser is not None
-        port = viser.get_port()
-    with pytest.raises(ConnectionClosed):
-        socket.recv(timeout=20)
-    assert len(server.sessions) == 0
-    with pytest.raises(ConnectionRefusedError):
-        connect(f"ws://127.0.0.1:{port}", proxy=None)
-
-
-def test_watcher_is_told_when_its_rig_stops(server: SceneServer):
-    with watch(server, "stopped") as socket:
-        replay(socket)
-        viser = server.sessions.server(session_id("stopped"))
-        assert viser is not None
-        viser.stop()
-        until(lambda: closed(socket), "the connection ends")
-        assert socket.close_code == 1001
-
-
-def test_making_a_rig_leaves_the_event_loop_free(monkeypatch: pytest.MonkeyPatch):
-    release = threading.Event()
-
-    class Stub:
-        def stop(self) -> None:
-            pass
-
-    def slow(_: str) -> Stub:
-        assert release.wait(20)
-        return Stub()
-
-    monkeypatch.setattr(sessions, "_make_server", slow)
-
-    async def scenario() -> None:
-        async with SceneSessions().running() as scenes:
-            making = asyncio.create_task(scenes.set_rig("x" * 22, "aero"))
-            for _ in range(50):
-                await asyncio.sleep(0)
-            assert not making.done()
-            release.set()  # only reached if the loop still turns
-            await asyncio.wait_for(making, 20)
-
-    asyncio.run(scenario())
-
-
-def test_slow_visitor_slows_the_source_instead_of_filling_memory():
-    frame, sent = bytes(256 * 1024), 0
-    held = asyncio.Event()
-
-    async def flood(connection: ServerConnection) -> None:
-        nonlocal sent
-        while True:
-            await connection.send(frame)
-            sent += 1
-
-    async def scenario() -> None:
-        async with serve(flood, "127.0.0.1", 0, compression=None) as source:
-            port = source.sockets[0].getsockname()[1]
-
-            async def receive() -> Message:
-                await held.wait()
-                return {"type": "websocket.disconnect", "code": 1000}
-
-            async def send(_: Message) -> None:
-                await held.wait()  # a visitor whose buffers are full
-
-            scope = {"type": "websocket", "app": FastAPI(), "subprotocols": [], "headers": []}
-            visitor = WebSocket(scope, receive, send)
-            visitor.client_state = visitor.application_state = visitor.client_state.CONNECTED
-            relaying = asyncio.create_task(relay(visitor, port))
-            deadline, quiet, last = time.monotonic() + 20, 0, -1
-            while quiet < 20:
-                assert time.monotonic() < deadline, "the source is never slowed"
-                await asyncio.sleep(0.02)
-                quiet, last = (quiet + 1, last) if sent == last and sent else (0, sent)
-            held.set()
-            await asyncio.wait_for(relaying, 20)
-        assert sent * len(frame) < 32 * 1024 * 1024
-
-    asyncio.run(scenario())
-
-
-def test_stopped_rig_lets_go_of_its_scene_at_once():
-    rig = sessions._make_server("aero")
-    sessions._make_panel(rig, lambda _: None)
-    body = weakref.ref(rig.scene.get_handle_by_name("/rig/yoke/body"))
-    with connect(
-        f"ws://127.0.0.1:{rig.get_port()}", subprotocols=[Subprotocol(VISER)], compression=None
-    ) as viewer:
-        assert replay(viewer)
-        told = [weakref.ref(m) for m in rig._websock_server._broadcast_buffer.message_from_id.values()]
-    threads = threading.active_count()
-    gc.collect()
-    gc.disable()
-    try:
-        rig.stop()
-        rig.stop()  # twice does no harm
-        assert body() is None
-        kept = [m() for m in told if m() is not None]
-        assert not any(vars(m) for m in kept)
-        assert threading.active_count() < threads
-    finally:
-        gc.enable()
-
-
-def test_client_that_is_killed_in_mid_frame_leaves_nothing():
-    with serving(idle_seconds=0.3) as server:
-        rude = watch(server, "killed")
-        rude.recv(timeout=20)
-        raw = rude.socket
-        raw.sendall(b"\x82\xfe\x10\x00")  # a frame's head that promises 4096 bytes, of which none come
-        raw.shutdown(socket.SHUT_RDWR)
-        until(lambda: len(server.sessions) == 0, "the session is stopped")
-        until(
-            lambda: not [t for t in threading.enumerate() if "_background_worker" in t.name],
-            "its thread ends",
-        )
