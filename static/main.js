@@ -20,7 +20,6 @@ import { Stats } from './stats.js';
 import { requestOf, Store } from './store.js';
 import { watched } from './watch.js';
 import { languageOf, loadWords, say, translatePage } from './words.js';
-import { ComparePanel } from './panels/compare.js';
 import { ExperimentPanel } from './panels/experiment.js';
 import { FieldProblems } from './panels/problems.js';
 import { FindingsPanel } from './panels/findings.js';
@@ -34,7 +33,6 @@ import { PaperPanel } from './panels/paper.js';
 import { PinBar } from './panels/pin_bar.js';
 import { PinsPanel } from './panels/pins.js';
 import { PolesPanel } from './panels/poles.js';
-import { RecordingsPanel } from './panels/recordings.js';
 import { Remarks } from './panels/remarks.js';
 import { ScenarioPanel } from './panels/scenario.js';
 
@@ -51,11 +49,12 @@ const sharing = new SceneSharing(store, scene);
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t), onPeek: (t) => scene.peek(t) });
 const projector = new Projector();
 const moving = [new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store)]; // what the hand moves
+/** @type {{render: (state: State) => void}[]} */
 const figures = [
   new HeaderPanel(byId('header'), store, address, { tour, projector }),
   new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new ExperimentPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
   new PinBar(byId('pin-bar'), store), new PinsPanel(byId('pins'), store),
-  new ComparePanel(byId('compare'), store), new RecordingsPanel(byId('recordings'), store), new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene, new CloudFeed(store),
+  new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene, new CloudFeed(store),
   new Notice(byId('notice'), store),
   new Remarks(document), new FindingsPanel(byId('strip'), store), // last, as it measures what it has written
 ];
@@ -70,7 +69,10 @@ let answered = false;
 
 const live = new Live({
   onReply: (reply) => {
-    if (!answered) welcome();
+    if (!answered) {
+      welcome();
+      furtherDown().catch(report);
+    }
     answered = true;
     store.set({ reply, answered: asked.get(reply.seq)?.design ?? null, problem: null });
   },
@@ -144,6 +146,14 @@ async function tour(from) {
 /** At a first visit, after the first picture. */
 function welcome() {
   if (recall('tour') !== 'done') setTimeout(tour, 600);
+}
+
+/** Panels that the first view does not need, fetched when it is there. */
+async function furtherDown() {
+  const [{ ComparePanel }, { RecordingsPanel }] = await Promise.all([import('./panels/compare.js'), import('./panels/recordings.js')]);
+  figures.unshift(new ComparePanel(byId('compare'), store), new RecordingsPanel(byId('recordings'), store));
+  views = viewsOf();
+  schedule();
 }
 
 /** The design and its key results in one attribute, for tests and scripts. */
