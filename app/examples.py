@@ -43,6 +43,13 @@ EXAMPLES: dict[str, dict[str, tuple[str, Json]]] = {
     "RobustnessRequest": {
         "inertia": ("A hundred rigs, 20 % about the inertia", {"uncertainty": {"J_p": 0.2}, "samples": 100}),
     },
+    "SampleRequest": {"short": ("Ten seconds of the default rig", {"length": 10})},
+    "OverlayRequest": {
+        "segments": (
+            "Under the recorded voltages, begun anew every second or so",
+            {"columns": {"time": "time", "theta": "theta", "psi": "psi", "V_p": "V_p", "V_y": "V_y"}},
+        ),
+    },
     "PlaceRequest": {
         "three": (
             "Three states, two inputs",

@@ -25,15 +25,15 @@ Driver = Literal["voltages", "segments", "references"]
 class Signs(Strict):
     """Of the encoders, 1 or −1."""
 
-    theta: Literal[-1, 1] = 1
-    psi: Literal[-1, 1] = 1
+    theta: Literal[-1, 1] = Field(default=1, description="of pitch's")
+    psi: Literal[-1, 1] = Field(default=1, description="of yaw's")
 
 
 class Offsets(Strict):
     """Added to the file's angles after their signs, in its unit."""
 
-    theta: float = 0.0
-    psi: float = 0.0
+    theta: float = Field(default=0.0, description="to pitch, in the file's unit")
+    psi: float = Field(default=0.0, description="to yaw, in the file's unit")
 
 
 class Mapping(Strict):
@@ -66,7 +66,7 @@ class SampleRequest(StepRequest):
         default=0.15, ge=0, le=0.5, description="largest deviation of the recorded rig's parameters, relative"
     )
     noise: float = Field(default=1e-3, ge=0, le=0.1, description="standard deviation on the angles, rad")
-    seed: int = Field(default=0, ge=0, le=2**32 - 1)
+    seed: int = Field(default=0, ge=0, le=2**32 - 1, description="of steps, deviations and noise")
 
 
 class OverlayRequest(StepRequest):
@@ -109,44 +109,44 @@ class Preview(Model):
     id: str
     name: str
     columns: list[str]
-    rows: int
-    first_row: int
-    preview: list[list[float | None]]
+    rows: int = Field(description="of numbers")
+    first_row: int = Field(description="line of the file where they begin")
+    preview: list[list[float | None]] = Field(description="the first rows, in the file's own units")
     guess: Guess
 
 
 class PerAxis(Model):
     """A number per axis; null where it is not defined."""
 
-    theta: float | None
-    psi: float | None
+    theta: float | None = Field(description="of pitch; % or rad, as the field says")
+    psi: float | None = Field(description="of yaw")
 
 
 class Courses(Model):
     """Angles, rad; null where nothing was simulated."""
 
-    theta: list[float | None]
-    psi: list[float | None]
+    theta: list[float | None] = Field(description="rad")
+    psi: list[float | None] = Field(description="rad")
 
 
 class Volts(Model):
     """V."""
 
-    V_p: list[float]
-    V_y: list[float]
+    V_p: list[float] = Field(description="V")
+    V_y: list[float] = Field(description="V")
 
 
 class OverlayReply(Model):
     """Measured and simulated, at no more than 1500 of the recording's times."""
 
     driver: str
-    samples: int
-    sample_time: float
-    duration: float
+    samples: int = Field(description="of the recording")
+    sample_time: float = Field(description="s")
+    duration: float = Field(description="s")
     fit: PerAxis
     rms: PerAxis
-    segments: int
-    t: list[float]
+    segments: int = Field(description="how often the simulation was begun anew")
+    t: list[float] = Field(description="s")
     measured: Courses
     simulated: Courses
     residuals: Courses

@@ -6,7 +6,9 @@ import socket
 import threading
 import time
 import weakref
-from collections.abc import Iterator
+from collections.abc import Coroutine, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import pytest
 from fastapi import FastAPI, WebSocket
@@ -85,6 +87,12 @@ def test_watcher_is_told_when_its_rig_stops(server: SceneServer):
         assert socket.close_code == 1001
 
 
+def run_apart(work: Coroutine[Any, Any, None]) -> None:
+    """Run in an event loop of its own thread: a browser's tests before may have left one in this."""
+    with ThreadPoolExecutor(1) as pool:
+        pool.submit(asyncio.run, work).result()
+
+
 def test_making_a_rig_leaves_the_event_loop_free(monkeypatch: pytest.MonkeyPatch):
     release = threading.Event()
 
@@ -107,7 +115,7 @@ def test_making_a_rig_leaves_the_event_loop_free(monkeypatch: pytest.MonkeyPatch
             release.set()  # only reached if the loop still turns
             await asyncio.wait_for(making, 20)
 
-    asyncio.run(scenario())
+    run_apart(scenario())
 
 
 def test_slow_visitor_slows_the_source_instead_of_filling_memory():
@@ -144,7 +152,7 @@ def test_slow_visitor_slows_the_source_instead_of_filling_memory():
             await asyncio.wait_for(relaying, 20)
         assert sent * len(frame) < 32 * 1024 * 1024
 
-    asyncio.run(scenario())
+    run_apart(scenario())
 
 
 def test_stopped_rig_lets_go_of_its_scene_at_once():
