@@ -188,15 +188,20 @@ def test_nothing_is_asked_until_it_is_seen_nor_during_a_drag(page: Page):
     page.set_viewport_size({"width": 1280, "height": 1400})
     seen(page, "compare")
     assert "compare" in asked
+    # both in view: the card's upper edge at the bottom, the s-plane above
+    page.evaluate(
+        "(e) => scrollBy(0, e.getBoundingClientRect().top - innerHeight + 80)",
+        page.get_by_test_id("compare").element_handle(),
+    )
     box = page.get_by_test_id("pole-3").bounding_box()
-    assert box is not None
+    assert box is not None and box["y"] > 0
     asked.clear()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 30, y, steps=5)
     page.wait_for_timeout(500)
-    assert asked == []
+    assert state(page)["dragging"] and asked == []
     page.mouse.up()
     seen(page, "compare")
     assert "compare" in asked
