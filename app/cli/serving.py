@@ -71,4 +71,8 @@ def serve(host: str, port: int, scenes: int) -> None:
     """Start the app and print its address."""
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(name)s: %(message)s")
     logging.getLogger("websockets").setLevel(logging.WARNING)
-    sys.exit(listen(host, port, Settings(scenes=scenes)))
+    try:
+        status = listen(host, port, Settings(scenes=scenes))
+    except KeyboardInterrupt:  # uvicorn has shut down in good order and raises it again
+        status = 0
+    sys.exit(status)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import signal
 import socket
 import subprocess
 import sys
@@ -28,6 +29,16 @@ def run(*words: str, status: int = 0, given: str | None = None):
         raise result.exception
     assert result.exit_code == status, result.output
     return result
+
+
+def test_an_interrupted_server_ends_in_good_order():
+    command = [sys.executable, "-m", "app", "serve", "--port", "0"]
+    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    assert "is ready: http://127.0.0.1:" in process.stdout.readline()
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=30)
+    assert process.returncode == 0 and "Abort" not in said
 
 
 def test_a_port_in_use_is_told_with_a_way_out(capsys):
