@@ -15,7 +15,7 @@ from heli2dof_core.design import FULL_RANK
 
 from .compute import Compute
 from .encoding import BINARY_SUBPROTOCOL, binary_frame, json_bytes
-from .problems import problem, problem_of
+from .problems import problem_of
 from .replies import report_reply
 from .requests import LiveRequest
 
@@ -80,9 +80,9 @@ async def _answer(socket: WebSocket, newest: Newest, compute: Compute, *, binary
             answer = _at_once(text, binary) if compute.settled else None
             if answer is None:
                 answer = await compute.run(_evaluate, text, binary)
-        except Exception:
+        except Exception as error:
             _log.exception("live request failed")
-            answer = _text(problem(500, "The server failed to answer; this is a bug.", "internal_error"))
+            answer = _text(problem_of(error))
         if isinstance(answer, str):
             await socket.send_text(answer)
         else:
@@ -128,8 +128,6 @@ def _evaluate(text: str | bytes, binary: bool, most_steps: int | None = None) ->
         if most_steps is not None and any(f.code == "integration_stopped" for f in report.findings):
             return None
         reply = {**seq, **report_reply(report, spec)}
-    except orjson.JSONDecodeError as error:
-        return _text(problem(422, f"Not JSON: {error}.", "invalid_json", hint="Send one JSON object."))
-    except (ValidationError, Heli2DofError) as error:
+    except (orjson.JSONDecodeError, ValidationError, Heli2DofError) as error:
         return _text({**problem_of(error), **seq})
     return binary_frame(reply) if binary else _text(reply)

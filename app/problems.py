@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Mapping
+from json import JSONDecodeError
 from typing import Any
 
 from fastapi import FastAPI, Request, Response
@@ -55,6 +56,8 @@ def problem_of(error: Exception) -> dict[str, Any]:
             )
         case RequestValidationError() | ValidationError():
             return _of_validation(error.errors()[0])
+        case JSONDecodeError():
+            return problem(422, f"Not JSON: {error}.", "invalid_json", hint="Send one JSON object.")
         case HTTPException():
             return problem(error.status_code, str(error.detail), f"http_{error.status_code}")
         case _:

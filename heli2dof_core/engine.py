@@ -149,16 +149,16 @@ def _exercise(kernels: Engine) -> None:
     A, B = fixed(-np.eye(4)), fixed(np.eye(4)[:, 2:])
     pairs, law, whole, driven = np.zeros((4, 2, 2)), np.empty((2, 6)), np.empty((6, 6)), np.empty((6, 2))
     K, P, F, by_reference = np.ones((2, 4)), *pairs[1:]
-    I = np.zeros((2, 2))  # noqa: E741
+    integral = np.zeros((2, 2))
     settings = (PI, pairs[0], False, False)
-    kernels.close(K, fixed(I), A, B, *settings, P, I, F, law, by_reference, whole, driven)
+    kernels.close(K, fixed(integral), A, B, *settings, P, integral, F, law, by_reference, whole, driven)
     x = np.zeros(EXPERIMENT)
     x[REFERENCE : START + 2], x[BOUND : STOP + 1] = (1.0, 1.0, 0.0, 0.0), 1.0
     rig, trim = fixed(c[:GAIN]), fixed(c[:2])
-    kernels.compose(rig, trim, 0.0, law, by_reference, I, x, c, m)
+    kernels.compose(rig, trim, 0.0, law, by_reference, integral, x, c, m)
     linear, voltages, v = np.empty((AUGMENTED, 2)), np.empty((2, 2)), np.empty(LINEAR_WORKSPACE)
     kernels.run_linear(0.0, law, by_reference, whole, driven, x, t, v, linear, voltages)
-    loop = (rig, trim, 0.0, law, by_reference, I, whole, driven)
+    loop = (rig, trim, 0.0, law, by_reference, integral, whole, driven)
     scratch = (w, v, c.copy(), m.copy(), states, trim)
     courses = (np.empty((1, AUGMENTED, 2)), np.empty((1, 6, 2)), np.empty((1, 2, 2, 2)))
     metrics = np.empty((1, 2, 2, AXIS_METRICS)), np.empty((1, 2, 2, MOTOR_METRICS)), np.empty((1, 2, COURSE))

@@ -2,6 +2,7 @@
  * The server, as the page sees it: a few REST calls and the live socket. All addresses are relative to the page.
  * @typedef {import('./types.js').Connection} Connection
  */
+import { backoff } from './backoff.js';
 import { decodeFrame } from './wire.js';
 
 const PROTOCOL = 'heli2dof.v1+binary';
@@ -187,7 +188,6 @@ export class Live {
     this.#inFlight = null;
     if (this.#closed) return;
     this.onStatus('lost');
-    const delay = Math.min(8000, 250 * 2 ** this.#attempt++);
-    this.#retry = setTimeout(() => this.#connect(), delay * (0.75 + Math.random() / 2));
+    this.#retry = setTimeout(() => this.#connect(), backoff(this.#attempt++, 250, 8000));
   }
 }

@@ -5,6 +5,7 @@
  * @typedef {import('./scene_clock.js').Snapshot} Snapshot
  * @typedef {{others: number, leads: boolean, count: number}} Windows  count: of the panel's messages so far
  */
+import { backoff } from './backoff.js';
 import { decodeFrame, encodeFrame } from './wire.js';
 
 const PINGS = 4; // at first, to find the shortest way
@@ -96,8 +97,7 @@ export class Hub {
     this.#later = [];
     clearTimeout(this.#timer);
     if (this.#closed) return;
-    const delay = Math.min(LAST_RETRY_MS, FIRST_RETRY_MS * 2 ** this.#attempt++);
-    this.#timer = setTimeout(() => this.#connect(), delay * (0.75 + Math.random() / 2));
+    this.#timer = setTimeout(() => this.#connect(), backoff(this.#attempt++, FIRST_RETRY_MS, LAST_RETRY_MS));
   }
 
   /** @param {string|ArrayBuffer} message */

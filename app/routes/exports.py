@@ -18,7 +18,7 @@ _LINK = r"^https?://[A-Za-z0-9\-._~:/?#\[\]@!$&'()*+,;=%]+$"
 MOST_LINK = 4000
 """Longest link, characters."""
 
-FormatName = Annotated[str, Path(json_schema_extra={"enum": [*FORMATS]})]
+FormatName = Annotated[str, Path(alias="format", json_schema_extra={"enum": [*FORMATS]})]
 Link = Annotated[
     str | None,
     Query(max_length=MOST_LINK, pattern=_LINK, description="address of the design, to be named in the file"),
@@ -30,11 +30,11 @@ def build_router(compute: Compute) -> APIRouter:
     router = APIRouter(prefix="/api/v1", tags=["export"])
 
     @router.post("/export/{format}", **_described())
-    async def export(request: StepRequest, format: FormatName, link: Link = None) -> Response:  # noqa: A002
-        chosen = require_known(format, FORMATS, "format")
+    async def export(request: StepRequest, name: FormatName, link: Link = None) -> Response:
+        chosen = require_known(name, FORMATS, "format")
         content = await compute.run(lambda: chosen.content(request.to_spec(), link or ""))
-        name = {"Content-Disposition": f'attachment; filename="{chosen.filename}"'}
-        return Response(content, media_type=chosen.media_type, headers=name)
+        headers = {"Content-Disposition": f'attachment; filename="{chosen.filename}"'}
+        return Response(content, media_type=chosen.media_type, headers=headers)
 
     return router
 

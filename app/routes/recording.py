@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter, HTTPException, Response
+from fastapi import APIRouter, HTTPException, Query, Response
 
 from heli2dof_core import Spec, close_loop, place, preset, simulate
 from heli2dof_core.geometry import RigName
@@ -17,7 +17,9 @@ from ..requests import StepRequest
 from ..scene.poses import Motion
 from ..scene.recording import Format, record
 
+Kind = Annotated[Format, Query(alias="format")]
 MOST_WAITING = 8
+"""Recordings asked for at one time; one is made after the other."""
 _TYPES: dict[Format, str] = {"html": "text/html; charset=utf-8", "viser": "application/octet-stream"}
 _NAMES: dict[Format, str] = {"html": "heli2dof-motion.html", "viser": "heli2dof-motion.viser"}
 
@@ -29,22 +31,22 @@ def build_router(compute: Compute) -> APIRouter:
     waiting = 0
 
     @router.post("/recording", **_described())
-    async def recording(request: StepRequest, format: Format = "html") -> Response:  # noqa: A002
+    async def recording(request: StepRequest, kind: Kind = "html") -> Response:
         nonlocal waiting
         if waiting >= MOST_WAITING:
             busy = "Too many recordings are being made at this moment; try again in a few seconds."
             raise HTTPException(503, busy, {"Retry-After": "5"})
         rig, title = _of_rig(request)
         spec = request.to_spec()
-        motion = await compute.run(_motion, spec, request.scenario.model)
         waiting += 1
         try:
+            motion = await compute.run(_motion, spec, request.scenario.model)
             async with free:  # one at a time leaves a processor to the designs
-                content = await asyncio.to_thread(record, rig, motion, format, _title(title, spec))
+                content = await asyncio.to_thread(record, rig, motion, kind, _title(title, spec))
         finally:
             waiting -= 1
-        name = {"Content-Disposition": f'attachment; filename="{_NAMES[format]}"'}
-        return Response(content, media_type=_TYPES[format], headers=name)
+        name = {"Content-Disposition": f'attachment; filename="{_NAMES[kind]}"'}
+        return Response(content, media_type=_TYPES[kind], headers=name)
 
     return router
 

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import logging
 import threading
 from dataclasses import replace
 from typing import Any
 
-import orjson
-from fastapi import APIRouter, HTTPException, Request, Response, WebSocket, WebSocketDisconnect
-from pydantic import ValidationError
+from fastapi import APIRouter, HTTPException, Request, Response, WebSocket
 
-from heli2dof_core import Heli2DofError, Spec, close_loop, place, preset
+from heli2dof_core import Spec, close_loop, place, preset
 from heli2dof_core.engine import engine
 from heli2dof_core.errors import CancelledError, RecordingError
 from heli2dof_core.identification import Progress, identify
@@ -24,9 +21,9 @@ from heli2dof_core.sample_recordings import deviating_rig, named_columns, sample
 from heli2dof_core.spec import Digital
 
 from ..compute import Compute
+from ..conversation import Send, converse
 from ..encoding import json_bytes, json_response
 from ..models import described
-from ..problems import problem, problem_of
 from ..recording_models import (
     IdentifyRequest,
     OverlayReply,
@@ -41,7 +38,6 @@ from ..recording_models import (
 )
 from ..recording_store import RecordingStore
 
-_log = logging.getLogger(__name__)
 _PATIENCE = 180
 """Half seconds that a request waits for the kernels after the start."""
 _SIZE = (0.2, 0.4)
@@ -77,18 +73,14 @@ def build_router(compute: Compute) -> APIRouter:
     @router.websocket("/identify")
     async def identifying(socket: WebSocket) -> None:
         """One request in; progress out, then the result. Whatever comes next cancels it."""
-        await socket.accept()
-        try:
-            text = await socket.receive_text()
-            while True:
-                answering = asyncio.create_task(_answer(socket, text, compute, store))
-                try:
-                    text = await socket.receive_text()
-                finally:
-                    answering.cancel()
-                    await asyncio.gather(answering, return_exceptions=True)
-        except WebSocketDisconnect:
-            pass
+
+        async def answer(data: Any, send: Send) -> None:
+            request = IdentifyRequest.model_validate(data)
+            spec = request.to_spec()
+            await _compiled()
+            await _identify(send, spec, request, compute, store)
+
+        await converse(socket, answer)
 
     return router
 
@@ -150,31 +142,8 @@ def _overlay(request: OverlayRequest, table: Any) -> Reply:
     return overlay_reply(request.driver, recording, result)
 
 
-async def _answer(socket: WebSocket, text: str, compute: Compute, store: RecordingStore) -> None:
-    async def send(value: Any) -> None:
-        await socket.send_text(json_bytes(value).decode())
-
-    try:
-        data = orjson.loads(text)
-        if isinstance(data, dict) and data.get("cancel"):
-            await send({"cancelled": True})
-            return
-        await _compiled()
-        request = IdentifyRequest.model_validate(data)
-        await _identify(send, request.to_spec(), request, compute, store)
-    except orjson.JSONDecodeError as error:
-        await send(problem(422, f"Not JSON: {error}.", "invalid_json", hint="Send one JSON object."))
-    except (ValidationError, Heli2DofError, HTTPException) as error:
-        await send(problem_of(error))
-    except (asyncio.CancelledError, WebSocketDisconnect):
-        raise
-    except Exception:
-        _log.exception("identification failed")
-        await send(problem(500, "The server failed to answer; this is a bug.", "internal_error"))
-
-
 async def _identify(
-    send: Any, spec: Spec, request: IdentifyRequest, compute: Compute, store: RecordingStore
+    send: Send, spec: Spec, request: IdentifyRequest, compute: Compute, store: RecordingStore
 ) -> None:
     """Runs in the pool for what takes seconds; progress comes from there, of which only the newest waits."""
     table, loop, called_off = store.get(request.recording), asyncio.get_running_loop(), threading.Event()
@@ -206,14 +175,18 @@ async def _identify(
             await told.wait()
             told.clear()
             if newest and not running.done():
-                await send(progress_reply(newest.pop()))
-        await send(await running)
+                await send(_text(progress_reply(newest.pop())))
+        await send(_text(await running))
     finally:
         called_off.set()
         if not running.done():
             running.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await asyncio.gather(running, return_exceptions=True)
+
+
+def _text(value: Reply) -> str:
+    return json_bytes(value).decode()
 
 
 def _takes_a_file() -> dict[str, Any]:

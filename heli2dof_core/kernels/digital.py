@@ -60,12 +60,7 @@ def run_digital(
     Scratch: `w` of zeros, `plant` and `free` like c and m, `grid` (len(t) + 2,), `course` (len(t) + 2, 6).
     Returns the outcome, the grid points filled and the impacts.
     """
-    put(c, plant)
-    for j in range(12):
-        plant[GAIN + j] = 0.0
-    plant[LIMIT], plant[LIMIT + 1] = np.inf, np.inf
-    put(m, free)
-    free[WINDUP] = 0
+    without_controller(c, m, plant, free)
     filters, measured, held, waiting = w[16:18], w[18], w[19], w[20]
     settle_filters(y, d, filters)
     now, done, impacts, k = t[0], 0, 0, 0
@@ -116,6 +111,17 @@ def measure(angle, axis, d, noise):
     seen = angle + noise
     step = d[STEP + axis]
     return step * floor(seen / step + 0.5) if step > 0.0 else seen
+
+
+@kernel
+def without_controller(c, m, plant, free):
+    """Constants and modes of the rig alone into `plant` and `free`: held voltages go into its offset."""
+    put(c, plant)
+    for j in range(12):
+        plant[GAIN + j] = 0.0
+    plant[LIMIT], plant[LIMIT + 1] = np.inf, np.inf
+    put(m, free)
+    free[WINDUP] = 0
 
 
 @kernel

@@ -56,7 +56,7 @@ def run_nonlinear(c, m, x, t, rtol, atol, most_steps, w, raw, states, voltages):
 
 @kernel
 def run_experiments(
-    rig, trim, theta_0, law, by_reference, I, whole, driven,  # noqa: E741
+    rig, trim, theta_0, law, by_reference, integral, whole, driven,
     experiments, t, rtol, atol, most_steps, w, v, c, m, raw, zeros,
     linear, nonlinear, voltages, axes, motors, courses,
 ):  # fmt: skip
@@ -70,7 +70,7 @@ def run_experiments(
         held = run_linear(theta_0, law, by_reference, whole, driven, x, t, v, linear[n], voltages[n, 0])
         courses[n, 0, HELD], courses[n, 0, OUTCOME], courses[n, 0, IMPACTS] = held, 0, 0
         courses[n, 0, SHARE] = courses[n, 0, SHARE + 1] = 0.0
-        compose(rig, trim, theta_0, law, by_reference, I, x, c, m)
+        compose(rig, trim, theta_0, law, by_reference, integral, x, c, m)
         held, outcome, impacts = run_nonlinear(
             c, m, x, t, rtol, atol, most_steps, w, raw, nonlinear[n], voltages[n, 1]
         )

@@ -29,28 +29,44 @@ from .jit import kernel
 
 
 @kernel
-def close(K, statics, A, B, kind, gains, cross, decoupler, P, I, F, law, by_reference, whole, driven):  # noqa: E741
-    """The outer loop around u = −Kx + v: `P`, `I`, `F`, the voltages' `law` and `by_reference`, `whole`, `driven`.
+def close(
+    K,
+    statics,
+    A,
+    B,
+    kind,
+    gains,
+    cross,
+    decoupler,
+    proportional,
+    integral,
+    feedforward,
+    law,
+    by_reference,
+    whole,
+    driven,
+):
+    """The outer loop around u = −Kx + v: its gains, and the whole loop's matrices, into all from `proportional` on.
 
-    `statics` = B₂⁻¹ A₂₁; `gains` holds kp and kp/ti of pitch and of yaw. `kind` OWN finds I filled and leaves it.
+    `statics` = B₂⁻¹ A₂₁; `gains` holds kp and kp/ti of pitch and of yaw. `kind` OWN leaves `integral` as it is.
     `law` is ∂u/∂[x, z], (2, n), `by_reference` ∂u/∂r; `whole` (n, n) and `driven` (n, 2) are A and B of the loop.
     """
     for i in range(2):
         for j in range(2):
-            P[i, j] = F[i, j] = 0.0
+            proportional[i, j] = feedforward[i, j] = 0.0
             if kind == STATIC:
-                F[i, j] = K[i, j] - statics[i, j]
+                feedforward[i, j] = K[i, j] - statics[i, j]
     if kind == PI:
-        mix(K, statics, gains, cross, decoupler, P, I)
+        mix(K, statics, gains, cross, decoupler, proportional, integral)
     order = law.shape[1]
     for i in range(2):
         for j in range(4):
             law[i, j] = -K[i, j]
         for j in range(2):
-            law[i, j] -= P[i, j]
-            by_reference[i, j] = P[i, j] + F[i, j]
+            law[i, j] -= proportional[i, j]
+            by_reference[i, j] = proportional[i, j] + feedforward[i, j]
             if order == 6:
-                law[i, 4 + j] = I[i, j]
+                law[i, 4 + j] = integral[i, j]
     for i in range(order):
         for j in range(order):
             whole[i, j] = A[i, j] if i < 4 and j < 4 else 0.0
@@ -64,8 +80,8 @@ def close(K, statics, A, B, kind, gains, cross, decoupler, P, I, F, law, by_refe
 
 
 @kernel
-def mix(K, statics, gains, cross, decoupler, P, I):  # noqa: E741
-    """Which motor each PI controller drives, and with which sign: P and I, V/rad and V/(rad·s) per error."""
+def mix(K, statics, gains, cross, decoupler, proportional, integral):
+    """Which motor each PI controller drives, and with which sign: V/rad and V/(rad·s) per error."""
     a, b = K[0, 0] - statics[0, 0], K[0, 1] - statics[0, 1]
     c, d = K[1, 0] - statics[1, 0], K[1, 1] - statics[1, 1]
     determinant = a * d - b * c
@@ -83,11 +99,11 @@ def mix(K, statics, gains, cross, decoupler, P, I):  # noqa: E741
                 weight = 0.0 if i == j else (-1.0 if paired < 0.0 else 1.0)
             else:
                 weight = 1.0 if i == j else 0.0
-            P[i, j], I[i, j] = weight * gains[j, 0], weight * gains[j, 1]
+            proportional[i, j], integral[i, j] = weight * gains[j, 0], weight * gains[j, 1]
 
 
 @kernel
-def compose(rig, trim, theta_0, law, by_reference, I, x, c, m):  # noqa: E741
+def compose(rig, trim, theta_0, law, by_reference, integral, x, c, m):
     """Constants c and modes m of the loop around the nonlinear rig; its deviations become absolute angles."""
     order = law.shape[1]
     for k in range(len(rig)):
@@ -101,7 +117,7 @@ def compose(rig, trim, theta_0, law, by_reference, I, x, c, m):  # noqa: E741
         c[DISTURBANCE + i] = x[VOLTS + i]
         m[i], m[SIDE + i] = 0, 1
         # each integrator's motor is the one that it drives in the main
-        m[MOTOR_OF + i] = 1 if abs(I[1, i]) > abs(I[0, i]) else 0
+        m[MOTOR_OF + i] = 1 if abs(integral[1, i]) > abs(integral[0, i]) else 0
     if order == 4:
         m[MOTOR_OF], m[MOTOR_OF + 1] = 0, 1
     for k in range(4):

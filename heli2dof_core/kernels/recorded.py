@@ -9,21 +9,17 @@ from __future__ import annotations
 
 from math import ceil, cos, sin
 
-import numpy as np
-
 from ..layout import (
     ALPHA,
     B_P,
     B_Y,
     DELAY,
-    GAIN,
     J_Y,
     K_PP,
     K_PY,
     K_S,
     K_YP,
     K_YY,
-    LIMIT,
     MGL,
     ML2,
     OFFSET,
@@ -31,9 +27,8 @@ from ..layout import (
     TIME,
     TRAVEL,
     WANTED,
-    WINDUP,
 )
-from .digital import control, sense, settle_filters
+from .digital import control, sense, settle_filters, without_controller
 from .dormand_prince import integrate
 from .jit import kernel, put
 
@@ -153,12 +148,7 @@ def run_recorder(
     `free` like m, `grid` (2,), `course` (2, 6). Returns the outcome, the samples filled and the impacts.
     """
     put(c, own)
-    put(c, plant)
-    for j in range(12):
-        plant[GAIN + j] = 0.0
-    plant[LIMIT], plant[LIMIT + 1] = np.inf, np.inf
-    put(m, free)
-    free[WINDUP] = 0
+    without_controller(c, m, plant, free)
     filters, seen, held, waiting = w[16:18], w[18], w[19], w[20]
     settle_filters(y, d, filters)
     impacts = 0

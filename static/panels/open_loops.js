@@ -1,14 +1,11 @@
 /** Bode plots of the loop opened at each motor, the other closed, with the margins drawn where they are measured. */
 import { openLoops } from '../api.js';
 import { logSpaced } from '../compare_math.js';
-import { h, setText, symbol } from '../dom.js';
+import { symbol } from '../dom.js';
 import { decibel, DEGREE, degrees, fixed, significant } from '../format.js';
-import { Lazy } from '../lazy.js';
 import { decibels, marginPlaces } from '../margins_math.js';
-import { subtitle } from '../plot_menu.js';
-import { bodyOf } from '../store.js';
 import { say } from '../words.js';
-import { FrequencyPlot } from './frequency_plot.js';
+import { FrequencyCard } from './frequency_card.js';
 
 const FREQUENCIES = logSpaced(0.1, 1000, 241);
 const AXES = /** @type {const} */ (['pitch', 'yaw']);
@@ -47,33 +44,11 @@ function words(reply, axis) {
   return axis === 'pitch' ? say`Pitch motor: phase margin ${phase}, gain margin ${gain}${lower}.` : say`Yaw motor: phase margin ${phase}, gain margin ${gain}${lower}.`;
 }
 
-export class OpenLoopsCard {
+export class OpenLoopsCard extends FrequencyCard {
   /** @param {HTMLElement} root @param {import('../store.js').Store} store */
   constructor(root, store) {
-    this.at = h('span', { class: 'at-frequency' });
-    this.words = h('p', { class: 'claim', 'data-testid': 'margin-words' });
-    this.plots = CHARTS.map((about) => new FrequencyPlot(about, FREQUENCIES, { onHover: (i) => this.#hover(i), subtitle: () => subtitle(store) }));
-    const content = h('div', {}, h('p', { class: 'caption' }, 'The loop opened at one motor, all else closed, PI loops included; ', symbol('ω'), ' in rad/s. Values at ', this.at), h('div', { class: 'frequency-plots' }, this.plots.map((p) => p.node)), this.words);
-    root.append(content);
-    this.lazy = new Lazy(root, content, store, { wait: 'Computing the open loops…', ask: openLoops, show: (answer) => this.#show(answer), body: (d) => ({ ...bodyOf(d), frequencies: FREQUENCIES }) });
-  }
-
-  /** @param {any} reply */
-  #show(reply) {
-    for (const plot of this.plots) plot.show(reply);
-    setText(this.words, reply.stable ? AXES.map((axis) => words(reply, axis)).join(' ') : 'The whole loop is unstable: it has no margins.');
-    this.words.classList.toggle('warning', !reply.stable);
-    this.#hover(null);
-  }
-
-  /** @param {number|null} i */
-  #hover(i) {
-    setText(this.at, `${significant(FREQUENCIES[i ?? 0], 3)} rad/s${i === null ? ', the lowest' : ''}`);
-    for (const plot of this.plots) plot.valuesAt(i ?? 0);
-  }
-
-  /** @param {import('../types.js').State} state */
-  render(state) {
-    this.lazy.render(state);
+    const caption = ['The loop opened at one motor, all else closed, PI loops included; ', symbol('ω'), ' in rad/s.'];
+    const tell = (/** @type {any} */ reply) => (reply.stable ? { text: AXES.map((axis) => words(reply, axis)).join(' ') } : { text: 'The whole loop is unstable: it has no margins.', warning: true });
+    super(root, store, { charts: CHARTS, frequencies: FREQUENCIES, caption, words: tell, testid: 'margin-words', wait: 'Computing the open loops…', ask: openLoops });
   }
 }

@@ -14,13 +14,13 @@ import re
 import struct
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import AsyncExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
 
-import msgspec
 import numpy as np
 import orjson
 from websockets.asyncio.client import ClientConnection, connect
@@ -30,6 +30,7 @@ from websockets.typing import Subprotocol
 from app.encoding import BINARY_SUBPROTOCOL
 from heli2dof_core import preset
 from tests.bench.round_trip import kernels_ready, live
+from tests.scene_client import CAMERA, encode
 
 SECONDS, CLIENTS, RATE = 12.0, 40, 20.0
 SESSIONS, WAVE, PLACES = 200, 25, 100
@@ -37,20 +38,6 @@ QUIET_FILES = 8
 """The app's own; a scene holds four more."""
 ROOT = Path(__file__).parents[2]
 VISER = Subprotocol("viser-v1.1.1")
-CAMERA = msgspec.msgpack.encode(
-    {
-        "type": "ViewerCameraMessage",
-        "wxyz": [1.0, 0.0, 0.0, 0.0],
-        "position": [1, 0, 0.5],
-        "fov": 0.7,
-        "near": 0.01,
-        "far": 100,
-        "image_height": 330,
-        "image_width": 420,
-        "look_at": [0.0, 0.0, 0.3],
-        "up_direction": [0.0, 0.0, 1.0],
-    }
-)
 
 
 @dataclass(frozen=True)
@@ -158,7 +145,7 @@ def name(k: int) -> str:
     return f"session-{os.getpid()}-{k}".ljust(24, "_")
 
 
-received = 0
+received: Counter[str] = Counter()
 """Frames of scenes, counted to know when every viewer has its whole scene."""
 
 
@@ -166,8 +153,7 @@ async def viewer(stack: AsyncExitStack, server: Server, session: str) -> None:
     """A browser's view of a scene: drains it, and orbits once a second."""
 
     async def count(_: str | bytes) -> None:
-        global received  # noqa: PLW0603
-        received += 1
+        received["frames"] += 1
 
     url = server.socket(session)
     socket = await stack.enter_async_context(
@@ -180,14 +166,14 @@ async def viewer(stack: AsyncExitStack, server: Server, session: str) -> None:
 async def quiet() -> None:
     """Waits until no viewer has been sent anything for a while."""
     last = -1
-    while received != last:
-        last = received
+    while received["frames"] != last:
+        last = received["frames"]
         await asyncio.sleep(1.5)
 
 
 async def orbit(socket: ClientConnection) -> None:
     while True:
-        await socket.send(CAMERA)
+        await socket.send(encode(CAMERA))
         await asyncio.sleep(1.0)
 
 

@@ -1,0 +1,49 @@
+"""A socket on which one request is answered at a time, with progress: whatever comes next cancels it."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+import orjson
+from fastapi import WebSocket, WebSocketDisconnect
+
+from .encoding import json_bytes
+from .problems import problem_of
+
+_log = logging.getLogger(__name__)
+Send = Callable[[str], Awaitable[None]]
+
+
+async def converse(socket: WebSocket, answer: Callable[[Any, Send], Awaitable[None]]) -> None:
+    """Lets `answer` send replies to each request, until the visitor goes; what it raises becomes a problem object."""
+    await socket.accept()
+    try:
+        text = await socket.receive_text()
+        while True:
+            answering = asyncio.create_task(_answer(socket, text, answer))
+            try:
+                text = await socket.receive_text()
+            finally:
+                answering.cancel()
+                await asyncio.gather(answering, return_exceptions=True)
+    except WebSocketDisconnect:
+        pass
+
+
+async def _answer(socket: WebSocket, text: str, answer: Callable[[Any, Send], Awaitable[None]]) -> None:
+    try:
+        data = orjson.loads(text)
+        if isinstance(data, dict) and data.get("cancel"):
+            await socket.send_text(json_bytes({"cancelled": True}).decode())
+            return
+        await answer(data, socket.send_text)
+    except WebSocketDisconnect:
+        raise
+    except Exception as error:
+        body = problem_of(error)
+        if body["status"] == 500:
+            _log.exception("a request on %s failed", socket.url.path)
+        await socket.send_text(json_bytes(body).decode())
