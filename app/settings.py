@@ -1,26 +1,11 @@
-"""What can be set when the server starts."""
+"""What can be set when the server starts: by the environment, or by the options of `heli2dof serve`."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
-
-@dataclass(frozen=True)
-class Settings:
-    """Settings of one server.
-
-    Attributes:
-        scenes: most 3D scenes at once; each costs a thread and about 0.2 MB.
-        static: folder of the page's files.
-    """
-
-    scenes: int = 100
-    static: Path = Path()
-
-    def __post_init__(self) -> None:
-        if self.static == Path():
-            object.__setattr__(self, "static", static_folder())
+from pydantic import Field
+from pydantic_settings import BaseSettings, SettingsConfigDict
 
 
 def static_folder() -> Path:
@@ -30,3 +15,12 @@ def static_folder() -> Path:
         if (folder / "index.html").is_file():
             return folder
     raise RuntimeError("the page's files are missing: install the package, or run from the checkout")
+
+
+class Settings(BaseSettings):
+    """Settings of one server; the environment's names have the prefix HELI2DOF_."""
+
+    model_config = SettingsConfigDict(env_prefix="HELI2DOF_", frozen=True, extra="forbid")
+
+    scenes: int = Field(100, ge=0, description="most 3D scenes at once; each costs a thread and about 0.2 MB")
+    static: Path = Field(default_factory=static_folder, description="folder of the page's files")

@@ -66,13 +66,13 @@ def server_config(settings: Settings) -> uvicorn.Config:
 @click.option(
     "--port", type=int, default=8000, envvar="PORT", show_default="8000, or $PORT", help="TCP port."
 )
-@click.option("--scenes", type=int, default=100, show_default=True, help="Most 3D scenes at once.")
-def serve(host: str, port: int, scenes: int) -> None:
+@click.option("--scenes", type=int, help="Most 3D scenes at once, instead of $HELI2DOF_SCENES or 100.")
+def serve(host: str, port: int, scenes: int | None) -> None:
     """Start the app and print its address."""
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(name)s: %(message)s")
     logging.getLogger("websockets").setLevel(logging.WARNING)
     try:
-        status = listen(host, port, Settings(scenes=scenes))
+        status = listen(host, port, Settings() if scenes is None else Settings(scenes=scenes))
     except KeyboardInterrupt:  # uvicorn has shut down in good order and raises it again
         status = 0
     sys.exit(status)
