@@ -22,8 +22,8 @@ ROOT = Path(__file__).parents[2]
 
 FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-networking"]
 PATIENCE = 90_000
-expect.set_options(timeout=20_000)  # ms; a busy machine draws a frame now and then
 """Milliseconds; software rendering on two cores is slow."""
+expect.set_options(timeout=20_000)  # ms; a busy machine draws a frame now and then
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,8 @@ def opened(page: Page, url: str, *, tour: bool = False) -> None:
 
 
 def settled(page: Page) -> None:
-    """Waits until what is shown answers what was asked last."""
+    """Waits until what is shown answers what was asked last; the page says so in the frame after an edit."""
+    page.evaluate("() => new Promise((drawn) => requestAnimationFrame(drawn))")
     page.wait_for_function("() => JSON.parse(document.documentElement.dataset.state ?? '{}').settled")
 
 

@@ -159,6 +159,7 @@ def test_two_sessions_stay_apart(page: Page, app: App, chromium: Browser):
         page.wait_for_function(
             "() => JSON.parse(document.documentElement.dataset.state).poles[0].re === -6.5"
         )
+        settled(page)  # a new response plays from its start
         seek(page, 0.0)
         stands_at(window, 0.0, 0.0)
         panel_input(other, "p₂").fill("-4.5")
@@ -238,6 +239,7 @@ def test_window_is_rebuilt_after_the_server_was_started_anew(chromium: Browser):
         page.get_by_test_id("pole-field-2").press("Enter")
         shows(window, "p₃", -5.5)
         window.wait_for_function(f"() => Math.abs(({lifted})() - 0.295) < 1e-9")  # the Aero's, again
+        settled(page)
         seek(page, 0.0)
         stands_at(window, 0.0, 0.0)
         assert window.evaluate("() => window.kept")  # by itself, without a reload
