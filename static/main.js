@@ -10,7 +10,7 @@ import { isolated } from './isolated.js';
 import { LockedControls } from './locked_controls.js';
 import { recall } from './memory.js';
 import { PinKeeper } from './pin_keeper.js';
-import { Pace } from './pace.js';
+import { Turns } from './pace.js';
 import { Plots } from './plots.js';
 import { Projector } from './projector.js';
 import { SceneSharing } from './scene_sharing.js';
@@ -48,18 +48,18 @@ const scene = new SceneView(byId('scene'), store, { onTime: (t) => { plots.setTi
 const sharing = new SceneSharing(store, scene);
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t), onPeek: (t) => scene.peek(t) });
 const projector = new Projector();
-const moving = [new SPlane(byId('splane'), store), new PolesPanel(byId('poles'), store)]; // what the hand moves
+const moving = [new SPlane(byId('splane'), store)]; // what the hand moves
 /** @type {{render: (state: State) => void}[]} */
 const figures = [
   new HeaderPanel(byId('header'), store, address, { tour, projector }),
-  new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new ExperimentPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
+  new PolesPanel(byId('poles'), store), { render: (/** @type {State} */ state) => plots.renderValues(state) }, new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new ExperimentPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
   new PinBar(byId('pin-bar'), store), new PinsPanel(byId('pins'), store),
   new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene, new CloudFeed(store),
   new Notice(byId('notice'), store),
   new Remarks(document), new FindingsPanel(byId('strip'), store), // last, as it measures what it has written
 ];
 let views = viewsOf();
-const pace = new Pace();
+const turns = new Turns();
 const locked = new LockedControls(document.body);
 
 /** @type {Map<number, {stamp: number|undefined, design: import('./types.js').Design}>} */
@@ -109,15 +109,15 @@ function render() {
   const { state } = store;
   if (locked.release(state)) views = viewsOf(); // each says again which of its controls can be used
   for (const view of views.moving) view(state);
-  if (pace.due(state.dragging, schedule)) for (const view of views.figures) view(state);
+  const drawn = drawPlots(state);
+  turns.take(state, views.figures, schedule);
   for (const always of lookers) always(state);
-  if (drawPlots(state)) {
-    const now = performance.now();
-    const answered = state.reply?.seq ?? 0;
-    stats.drawn(now, asked.get(answered)?.stamp, now - begin);
-    for (const old of asked.keys()) if (old <= answered) asked.delete(old);
-  }
   publish();
+  if (!drawn) return;
+  const now = performance.now();
+  const answered = state.reply?.seq ?? 0;
+  stats.drawn(now, asked.get(answered)?.stamp, now - begin);
+  for (const old of asked.keys()) if (old <= answered) asked.delete(old);
 }
 
 function viewsOf() {

@@ -95,8 +95,8 @@ export function hatch(ctx, { left, right, inner, outer }, color, size) {
   ctx.restore();
 }
 
-/** @param {any} u @param {Rule} rule @returns {boolean} */
-const seen = (u, { value }) => value <= u.scales.y.max && value >= u.scales.y.min;
+/** Those within the plot's range. @param {any} u @param {Rule[]} rules */
+export const rulesSeen = (u, rules) => rules.filter(({ value }) => value <= u.scales.y.max && value >= u.scales.y.min);
 
 /** @param {any} u @param {Rule} rule */
 const heightOf = (u, { value }) => Math.round(u.valToPos(value, 'y', true));
@@ -105,7 +105,7 @@ const heightOf = (u, { value }) => Math.round(u.valToPos(value, 'y', true));
 export function drawShades(u, rules, color) {
   const { ctx, bbox } = u;
   ctx.save();
-  for (const rule of rules.filter((r) => r.danger && seen(u, r))) {
+  for (const rule of rulesSeen(u, rules).filter((r) => r.danger)) {
     const y = heightOf(u, rule);
     ctx.fillStyle = color('limit-fill');
     if (rule.value > 0) ctx.fillRect(bbox.left, bbox.top, bbox.width, y - bbox.top);
@@ -115,14 +115,10 @@ export function drawShades(u, rules, color) {
   ctx.restore();
 }
 
-/** The reference, and what the limits and it are called, after the lines are drawn. @param {any} u @param {Rule[]} rules @param {Color} color */
-export function drawLabels(u, rules, color) {
+/** The reference, after the lines are drawn. @param {any} u @param {Rule[]} rules @param {Color} color */
+export function drawReference(u, rules, color) {
   u.ctx.save();
-  for (const rule of rules.filter((r) => seen(u, r))) {
-    const y = heightOf(u, rule);
-    if (!rule.danger) drawRule(u, y, color('ink'), [1, 5]);
-    drawLabel(u, y, rule.label, rule.value > 0 ? 1 : -1, color(rule.danger ? 'danger' : 'ink'), color('panel'));
-  }
+  for (const rule of rulesSeen(u, rules)) if (!rule.danger) drawRule(u, heightOf(u, rule), color('ink'), [1, 5]);
   u.ctx.restore();
 }
 

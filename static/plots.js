@@ -13,7 +13,9 @@ import { COLORS, colorOf } from './pins.js';
 import { PlotGhosts } from './plot_ghosts.js';
 import { PlotMarks } from './plot_marks.js';
 import { plotMenu } from './plot_menu.js';
-import { drawBand, drawLabels, drawRegions, drawShades, limitOf, referenceOf, regionsOf, rulesOf } from './plot_rules.js';
+import { plainPath } from './plot_paths.js';
+import { drawBand, drawReference, drawRegions, drawShades, limitOf, referenceOf, regionsOf, rulesOf, rulesSeen } from './plot_rules.js';
+import { PlotTexts } from './plot_texts.js';
 import { extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from './traces.js';
 import { say, t as word } from './words.js';
 
@@ -25,7 +27,6 @@ const ABOUT = {
   V_y: { base: 'V', sub: 'y', title: 'yaw motor', unit: ' V' },
 };
 const Chart = /** @type {any} */ (uPlot); // its types stay in its package
-const FONT = '11px system-ui, sans-serif';
 const AXIS_WIDTH = 42;
 const PLAYED = { theta: 'pitch step', psi: 'yaw step', both: 'both steps' };
 
@@ -81,31 +82,34 @@ export class Plots {
     const ink = (/** @type {string} */ name) => this.#colors[name];
     const rules = () => rulesOf(this.store.state.reply, signal);
     const regions = () => regionsOf(this.store.state.reply, signal, this.store.state.requirements);
-    const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({ stroke: color(name), width, dash, auto: false, points: { show: false } });
+    const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({ stroke: color(name), width, dash, auto: false, paths: plainPath, points: { show: false } });
     const last = () => signal === 'V_y' || (signal === 'V_p' && this.root.classList.contains('two-columns'));
     /** @type {PlotGhosts|undefined} */ let ghosts;
     /** @type {PlotMarks|undefined} */ let marks;
+    /** @type {PlotTexts|undefined} */ let texts;
     // auto: false, as the ranges are ours: no trace is searched for its extremes a second time.
     const chart = followsPage(new Chart({
       width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [() => 6 * pictureScale().type, () => 12 * pictureScale().type, 2, 0],
-      series: [{}, { stroke: color('halo'), width: 7, auto: false, points: { show: false } }, line('pitch', 1.25, [7, 4]), line('yaw', 1.25, [2, 3]), line('yaw', 1.5), line('pitch', 2.4)],
+      series: [{}, { stroke: color('halo'), width: 7, auto: false, paths: plainPath, points: { show: false } }, line('pitch', 1.25, [7, 4]), line('yaw', 1.25, [2, 3]), line('yaw', 1.5), line('pitch', 2.4)],
       scales: { x: { time: false, range: () => this.#zoom ?? this.#time }, y: { range: () => this.#ranges[signal] ?? [0, 1] } },
       axes: [
-        { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 4, space: () => 50 * pictureScale().type, size: () => (last() ? 22 * pictureScale().type : 4),
-          values: (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => (last() ? `${Number(v.toFixed(3))}${v === splits[splits.length - 1] ? ' s' : ''}` : '')) },
-        { stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, size: () => AXIS_WIDTH * pictureScale().type, space: () => 26 * pictureScale().type,
-          values: (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => `${String(Number(v.toPrecision(6))).replace('-', '\u2212')}`) },
+        { grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 4, space: () => 50 * pictureScale().type, size: () => (last() ? 22 * pictureScale().type : 4), values: () => [] },
+        { grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, size: () => AXIS_WIDTH * pictureScale().type, space: () => 26 * pictureScale().type, values: () => [] },
       ],
       cursor: { y: false, points: { show: false }, drag: { x: true, y: false, setScale: false },
         sync: { key: 'heli2dof', filters: { pub: (/** @type {string} */ type) => type === 'mousemove' || type === 'mouseleave' } },
         bind: { dblclick: () => () => this.#zoomTo(null) } },
       hooks: {
         drawAxes: [(/** @type {any} */ u) => drawShades(u, rules(), ink), (/** @type {any} */ u) => drawRegions(u, regions(), ink), (/** @type {any} */ u) => drawBand(u, signal, this.#cloud, ink)],
-        draw: [(/** @type {any} */ u) => drawLabels(u, rules(), ink), () => ghosts?.draw(ink), () => marks?.place()],
+        draw: [(/** @type {any} */ u) => drawReference(u, rules(), ink), (/** @type {any} */ u) => texts?.draw(rulesSeen(u, rules()), pictureScale().type), () => ghosts?.draw(ink), () => marks?.place()],
         setCursor: [(/** @type {any} */ u) => this.#hovered(u)],
         setSelect: [(/** @type {any} */ u) => this.#selected(u)],
       },
     }, [[0, 1], ...Array(5).fill([null, null])], body));
+    texts = new PlotTexts(chart, {
+      time: (v, end) => (last() ? `${Number(v.toFixed(3))}${end ? ' s' : ''}` : ''),
+      axis: (v) => String(Number(v.toPrecision(6))).replace('-', '\u2212'),
+    });
     ghosts = new PlotGhosts(chart, signal);
     marks = new PlotMarks(chart, this.onSeek);
     const head = h('div', { class: 'playhead' });
@@ -151,8 +155,12 @@ export class Plots {
       marks.show(this.#marks(signal));
     }
     this.#movePlayhead();
-    this.#showValues();
     return true;
+  }
+
+  /** The figures beside the plots, at the cursor or at the scene's time. @param {State} state */
+  renderValues({ reply, motion }) {
+    if (reply && this.#data) this.#showValues(motion);
   }
 
   /** @param {Signal} signal */
@@ -217,12 +225,11 @@ export class Plots {
     }
   }
 
-  #showValues() {
-    const steps = this.store.state.reply?.axis_steps;
-    if (!this.#data || !steps) return;
+  #showValues(motion = this.store.state.motion) {
+    if (!this.#data) return;
     const i = indexAt(this.#data.t, this.#hover ?? this.#playhead);
     setText(this.at, say`at ${fixed(this.#data.t[i], 2)} s`);
-    setText(this.played, say`, ${word(PLAYED[this.store.state.motion])} played`);
+    setText(this.played, say`, ${word(PLAYED[motion])} played`);
     for (const { signal, values } of this.plots) {
       ['theta', 'psi'].forEach((axis, k) => {
         const v = this.#data?.plots[signal][k === 0 ? 4 : 3]?.[i];

@@ -7,6 +7,7 @@ import { getRigViews, putRig } from './api.js';
 import { h, setText, symbol } from './dom.js';
 import { Choice } from './fields.js';
 import { degrees, fixed } from './format.js';
+import { CALM } from './pace.js';
 import { ScenePlayer } from './scene.js';
 import { SceneControls } from './scene_controls.js';
 import { flightsOf } from './scene_ghosts.js';
@@ -30,6 +31,7 @@ export class SceneView {
   #dragging = false;
   /** Whether the drag has yet to bring its first response. */ #fresh = false;
   #rests = false;
+  /** When its figures were written last. */ #told = -Infinity;
   #slow = false;
   /** The time that is held while the plots' cursor is elsewhere; null: it is not. @type {number|null} */ #held = null;
   /** Where the plots' cursor is. @type {number|null} */ #peeked = null;
@@ -203,6 +205,9 @@ export class SceneView {
 
   /** @param {{t: number, theta: number, psi: number, V_p: number, V_y: number}} s */
   #show(s) {
+    const now = performance.now();
+    if (this.#dragging && this.player.playing && now - this.#told < CALM) return; // the figures; the rig itself moves on
+    this.#told = now;
     setText(this.hud.theta, degrees(s.theta));
     setText(this.hud.psi, degrees(s.psi));
     for (const name of MOTORS) {
