@@ -48,15 +48,16 @@ const scene = new SceneView(byId('scene'), store, { onTime: (t) => { plots.setTi
 const sharing = new SceneSharing(store, scene);
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t), onPeek: (t) => scene.peek(t) });
 const projector = new Projector();
-const moving = [new SPlane(byId('splane'), store)]; // what the hand moves
+const plane = new SPlane(byId('splane'), store); // what the hand moves
 /** @type {{render: (state: State) => void}[]} */
 const figures = [
   new HeaderPanel(byId('header'), store, address, { tour, projector }),
-  new PolesPanel(byId('poles'), store), { render: (/** @type {State} */ state) => plots.renderValues(state) }, new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new ExperimentPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
+  { render: (/** @type {State} */ state) => plane.renderReadout(state) }, { render: (/** @type {State} */ state) => plots.renderValues(state) }, new PolesPanel(byId('poles'), store), new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new ExperimentPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
   new PinBar(byId('pin-bar'), store), new PinsPanel(byId('pins'), store),
   new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene, new CloudFeed(store),
   new Notice(byId('notice'), store),
-  new Remarks(document), new FindingsPanel(byId('strip'), store), // last, as it measures what it has written
+  new Remarks(document), new FindingsPanel(byId('strip'), store), // it measures what it has written
+  { render: publish }, // last, when all is shown
 ];
 let views = viewsOf();
 const turns = new Turns();
@@ -108,11 +109,10 @@ function render() {
   const begin = performance.now();
   const { state } = store;
   if (locked.release(state)) views = viewsOf(); // each says again which of its controls can be used
-  for (const view of views.moving) view(state);
+  views.plane(state);
   const drawn = drawPlots(state);
-  turns.take(state, views.figures, schedule);
+  turns.take(state, views.figures, { busy: drawn === true, again: schedule });
   for (const always of lookers) always(state);
-  publish();
   if (!drawn) return;
   const now = performance.now();
   const answered = state.reply?.seq ?? 0;
@@ -121,7 +121,7 @@ function render() {
 }
 
 function viewsOf() {
-  return { moving: moving.map(viewOf), figures: figures.map(viewOf) };
+  return { plane: viewOf(plane), figures: figures.map(viewOf) };
 }
 
 /** @param {{render: (state: State) => void}} view */
@@ -156,14 +156,13 @@ async function furtherDown() {
   schedule();
 }
 
-/** The design and its key results in one attribute, for tests and scripts. */
-function publish() {
-  const { design, reply, problem, connection, motion, dragging, locks, notice } = store.state;
+/** The design and its key results in one attribute, for tests and scripts. @param {State} state */
+function publish({ design, reply, problem, connection, motion, dragging, locks, notice, pins: pinned }) {
   document.documentElement.dataset.state = JSON.stringify({
     ...design, connection, motion, dragging, seq, answered: reply?.seq ?? null, settled: reply?.seq === seq && !problem,
     K: reply?.gains.K ?? null, rga: reply?.rga?.rga ?? null, stable: reply?.stable ?? null, loopPoles: reply?.loop_poles ?? null,
     findings: reply?.findings?.map((f) => f.code) ?? [], problem: problem?.code ?? null,
-    locks, notice, pins: store.state.pins.map(({ name, reply: own }) => ({ name, K: own?.gains.K ?? null })),
+    locks, notice, pins: pinned.map(({ name, reply: own }) => ({ name, K: own?.gains.K ?? null })),
   });
 }
 

@@ -30,7 +30,7 @@ export class PlotGhosts {
   constructor(chart, signal) {
     this.chart = chart;
     this.signal = signal;
-    this.canvas = h('canvas', { class: 'ghosts', 'aria-hidden': 'true' });
+    this.canvas = h('canvas', { class: 'ghosts', hidden: true, 'aria-hidden': 'true' });
     chart.root.querySelector('.u-wrap').append(this.canvas);
   }
 
@@ -41,6 +41,7 @@ export class PlotGhosts {
     this.ghosts = ghostsOf(pins, this.signal);
     this.extent = extent(this.ghosts.map((g) => g.values));
     this.#key = '';
+    this.canvas.hidden = this.ghosts.length === 0; // an empty one would be laid over the others in every frame
     return true;
   }
 

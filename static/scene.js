@@ -71,6 +71,7 @@ export class ScenePlayer {
   #dark = null;
   /** The last frame's time in milliseconds; NaN where time has not run since. */
   #before = NaN;
+  #seen = true;
   #request = 0;
   /** @type {{snapshot: Snapshot, since: number} | null} What was to be followed before there was a trajectory. */
   #awaited = null;
@@ -162,6 +163,13 @@ export class ScenePlayer {
     this.#clock.apply(snapshot, elapsed);
     this.#before = NaN;
     this.#run();
+  }
+
+  /** @param {boolean} seen whether the scene is drawn at all; where it is not, nothing moves in it */
+  setSeen(seen) {
+    if (seen === this.#seen) return;
+    this.#seen = seen;
+    this.#move();
   }
 
   /** @param {boolean} dark whether the scene stands on a dark ground */
@@ -270,7 +278,7 @@ export class ScenePlayer {
   /** Sends the pose at the present time, as far as the scene does not show it already. */
   #move() {
     const trajectory = this.#trajectory;
-    if (trajectory === null) return;
+    if (trajectory === null || !this.#seen) return;
     const sample = sampleTrajectory(trajectory, this.time);
     const { pitch, yaw } = this.#angles;
     const [pitchRotor, yawRotor] = interpolate(trajectory.t, [pitch, yaw], this.time);

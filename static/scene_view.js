@@ -228,6 +228,7 @@ export class SceneView {
     if (this.webgl) {
       const seen = this.controls.seen.checked && !this.#rests;
       this.frame.hidden = !seen;
+      this.player?.setSeen(seen);
       this.controls.render(this.store.state.pins.length > 0, this.controls.seen.checked);
       this.notice.hidden = ready && seen;
       const off = this.#rests ? 'The rig rests while you drag: drawing it is slow here.' : 'The rig is switched off. All else works.';

@@ -41,7 +41,7 @@ export class SPlane {
     this.readout = new Readout();
     this.spread = h('select', { 'data-testid': 'spread', 'aria-label': 'Uncertainty of the rig', title: 'The same controller on rigs whose parameters differ by so much: their poles as dots, their responses as bands',
       onchange: () => store.set({ spread: Number(this.spread.value) }) }, SPREADS.map((v) => h('option', { value: v }, v ? `± ${100 * v} %` : 'exact rig')));
-    this.cloud = h('canvas', { class: 'cloud', 'aria-hidden': 'true' });
+    this.cloud = h('canvas', { class: 'cloud', hidden: true, 'aria-hidden': 'true' });
     this.cloudText = h('div', { class: 'cloud-words', 'data-testid': 'cloud-words', role: 'status' });
     const button = (/** @type {string} */ text, /** @type {string} */ name, /** @type {string} */ key, /** @type {string} */ id, /** @type {() => void} */ act) =>
       h('button', { type: 'button', title: `${name} (${key}, on a pole)`, 'aria-label': name, 'data-testid': id, onclick: act }, text);
@@ -102,6 +102,11 @@ export class SPlane {
     const watched = [...design.poles, ...(reply?.loop_poles ?? []).filter((p) => p.re >= 0)];
     if (!dragging && (fresh || (!this.#manual && outgrown(this.view, watched)))) this.fit(state);
     else this.#draw(state);
+  }
+
+  /** What is read beside the pole in question. @param {State} state */
+  renderReadout({ design, requirements }) {
+    this.readout.write({ design, requirements }, this.#active);
   }
 
   /** @param {State} state */

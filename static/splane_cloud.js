@@ -10,6 +10,7 @@ export function drawCloud(canvas, view, unit, cloud) {
   if (canvas.dataset.view === key && drawn === cloud) return;
   canvas.dataset.view = key;
   drawn = cloud;
+  canvas.hidden = !cloud;
   const ratio = devicePixelRatio * unit;
   const [width, height] = [Math.round(view.width * ratio), Math.round(view.height * ratio)];
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });

@@ -25,6 +25,7 @@ export function readoutLines(poles, index, requirements) {
 
 export class Readout {
   #width = 190;
+  /** @type {number|null} whose lines they are */ #told = null;
 
   constructor() {
     this.lines = [0, 1, 2, 3, 4].map(() => h('div'));
@@ -35,18 +36,25 @@ export class Readout {
   }
 
   /** @param {import('./types.js').State} state @param {number|null} index of the pole in question @param {import('./splane_math.js').View} view @param {number} unit CSS pixels to one of the view's */
-  draw({ design, requirements }, index, view, unit) {
+  draw({ design, requirements, dragging }, index, view, unit) {
     this.node.hidden = index === null || !design;
     if (index === null || !design) return;
-    const lines = readoutLines(design.poles, index, requirements);
-    lines.forEach((line, k) => setText(this.lines[k], line));
-    const name = `readout ${NAMES[pairOf(index)]}${lines[4].startsWith('✕') ? ' missed' : ''}`;
-    if (this.node.className !== name) this.node.className = name;
+    if (!dragging || index !== this.#told) this.write({ design, requirements }, index);
     const p = design.poles[index];
     const [x, y] = toPixel(view, p).map((v) => v * unit);
     const b = bounds(view);
     const low = p.im > (b.top + b.bottom) / 2 + (b.top - b.bottom) / 4;
     const column = Math.max(4, Math.min(x + 24 * unit, view.width * unit - this.#width - 4));
     this.node.style.transform = `translate(${column}px, ${y + (low ? 26 : -26) * unit}px) translateY(${low ? '0' : '-100%'})`;
+  }
+
+  /** What is read, which changes oftener in a drag than it can be read. @param {Pick<import('./types.js').State, 'design'|'requirements'>} state @param {number|null} index */
+  write({ design, requirements }, index) {
+    if (index === null || !design) return;
+    this.#told = index;
+    const lines = readoutLines(design.poles, index, requirements);
+    lines.forEach((line, k) => setText(this.lines[k], line));
+    const name = `readout ${NAMES[pairOf(index)]}${lines[4].startsWith('✕') ? ' missed' : ''}`;
+    if (this.node.className !== name) this.node.className = name;
   }
 }
