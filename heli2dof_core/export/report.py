@@ -133,7 +133,7 @@ def _formulas(spec: Spec) -> Iterator[str]:
     from ..symbolic.render import symbolic_report  # SymPy: on first use
 
     symbols = symbolic_report(spec.structure.family)
-    yield paragraph("Linear model ẋ = Ax + Bu about rest at θ₀:")
+    yield paragraph("Linear model ẋ = Ax + Bu about rest at θ₀:", "before")
     for name in ("A", "B"):
         yield formula(f"<mi>{name}</mi>", symbols.formulas[name].mathml)
     if spec.method == "full-rank":
@@ -141,16 +141,16 @@ def _formulas(spec: Spec) -> Iterator[str]:
         gains, relative = symbols.entries["K"], symbols.entries["RGA"]["lambda_11"]
         if shift is not None:
             gains, relative = _shifted(spec.structure.family)
-            yield paragraph(f"Gain of the state feedback, with the basis' shift c = {number(shift, 6)}:")
+            yield paragraph(f"Gain of the state feedback, with the basis' shift c = {number(shift, 6)}:", "before")
         else:
-            yield paragraph("Gain of the state feedback:")
+            yield paragraph("Gain of the state feedback:", "before")
         for name, entry in gains.items():
             yield formula(indexed("k", name.removeprefix("k_")), entry.mathml)
-        yield paragraph("Relative gain at s = 0:")
+        yield paragraph("Relative gain at s = 0:", "before")
         yield formula(indexed("λ", "11"), relative.mathml)
     else:
         yield paragraph(f"K is computed in numbers by the method {METHODS[spec.method].title}.")
-    yield paragraph("With the abbreviations")
+    yield paragraph("With the abbreviations", "before")
     for name, definition in symbols.definitions.items():
         if name in symbols.notation:
             yield formula(_inner(symbols.notation[name].mathml), definition.mathml)

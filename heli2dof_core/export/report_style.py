@@ -25,6 +25,12 @@ svg .grid { stroke: #e4e4e4; }
 svg .axis { fill: none; stroke: #555; }
 .formula { margin: .5rem 0; overflow-x: auto; overflow-y: hidden; }
 math { font-size: 1.05em; }
+/* Brackets as tall as their matrix, also where no font for mathematics is installed. */
+math mo:has(+ mtable), math mtable + mo { display: none; }
+mtable { margin-left: .2em; padding: .1em .25em; border: solid #111; border-width: 0 1.3px;
+  background: linear-gradient(#111, #111) left top, linear-gradient(#111, #111) left bottom,
+    linear-gradient(#111, #111) right top, linear-gradient(#111, #111) right bottom;
+  background-size: .35em 1.3px; background-repeat: no-repeat; print-color-adjust: exact; }
 pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8rem; }
 a { color: #0b5ea8; overflow-wrap: anywhere; }
 @media (max-width: 560px) { .plots { grid-template-columns: minmax(0, 1fr); } }
@@ -32,7 +38,7 @@ a { color: #0b5ea8; overflow-wrap: anywhere; }
 @media print {
   body { max-width: none; margin: 0; padding: 0; font-size: 10pt; }
   a { color: inherit; }
-  h2 { break-after: avoid; }
+  h2, .before { break-after: avoid; }
   table, .formula, li { break-inside: avoid; }
   .wide, .formula { overflow: visible; }
 }

@@ -100,7 +100,7 @@ def pole_map(title: str, groups: Iterable[Marks]) -> str:
     zero = frame.x(0.0)
     axis = f'<line class="mark" x1="{zero:.1f}" x2="{zero:.1f}" y1="{TOP}" y2="{HEIGHT - BOTTOM}"/>'
     shapes = [shape for group in groups for shape in _shapes(frame, group)]
-    return _svg(title, [*frame.axes("Re, 1/s", "Im, rad/s"), axis, *shapes])
+    return _svg(title, [*frame.axes("Re, rad/s", "Im, rad/s"), axis, *shapes])
 
 
 @dataclass(frozen=True)
