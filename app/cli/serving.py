@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import errno
+import faulthandler
 import logging
 import math
 import os
@@ -65,6 +66,8 @@ class Server(uvicorn.Server):
         self.should_exit = True
         self._until = monotonic() + self._drain
         threading.Thread(target=self._end, name="end", daemon=True).start()
+        # Should something hold Python's lock, that thread never runs; this one needs none.
+        faulthandler.dump_traceback_later(self._drain + _IN_ALL + 0.3, exit=True)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Says goodbye to sockets before uvicorn, which would cut them off, sees to the rest."""

@@ -65,7 +65,7 @@ class Requests:
             seconds, route = perf_counter() - began, route_of(scope)
             if status:  # none where the client has gone before
                 self._metrics.request(scope["method"], route, status, seconds)
-            quiet = route in _QUIET and status < 400
+            quiet = route in _QUIET and (status < 400 or status == 503)
             self._log(scope, route, status, seconds, logging.DEBUG if quiet else logging.INFO)
 
     def _log(self, scope: Scope, route: str, status: int, seconds: float, level: int) -> None:
