@@ -17,7 +17,7 @@ from heli2dof_core.design import FULL_RANK
 from .compute import Compute
 from .encoding import BINARY_SUBPROTOCOL, binary_frame, json_bytes
 from .metrics import Metrics
-from .problems import problem_of
+from .problems import TEXT_START, problem_of
 from .replies import report_reply
 from .requests import LiveRequest
 from .visits import visit_of
@@ -103,7 +103,8 @@ async def _answer(
         else:
             await socket.send_bytes(answer)
         metrics.update.observe(perf_counter() - since)
-        metrics.evaluations.inc()
+        refused = isinstance(answer, str) and answer.startswith(TEXT_START)
+        (metrics.refusals if refused else metrics.evaluations).inc()
         if newest.empty:
             await visit.rest()
         await asyncio.sleep(0)  # others' turn, even where nothing above had to wait

@@ -41,7 +41,7 @@ class App(FastAPI):
     """FastAPI with what surrounds it: outside of starlette's own stack, so that its 500s pass there, too."""
 
     def __init__(self, settings: Settings, metrics: Metrics, visits: Visits, **options: Any) -> None:
-        super().__init__(root_path=settings.root_path, **options)
+        super().__init__(**options)
         self._surroundings = (settings, metrics, visits)
 
     def build_middleware_stack(self) -> ASGIApp:

@@ -35,6 +35,10 @@ _TITLES = {
 }
 
 
+TEXT_START = '{"type":"urn:heli2dof:problem:'
+"""How a problem object begins as text."""
+
+
 class Problem(BaseModel):
     """What every error reply holds (RFC 9457), with code, field, value and hint added."""
 

@@ -42,10 +42,11 @@ class Server(uvicorn.Server):
     requests are answered. A second signal ends it at once.
     """
 
-    def __init__(self, config: uvicorn.Config, visits: Visits, drain: float) -> None:
+    def __init__(self, config: uvicorn.Config, visits: Visits, settings: Settings) -> None:
         super().__init__(config)
         self._visits = visits
-        self._drain = drain
+        self._drain = settings.drain
+        self._prefix = settings.root_path
         self._until = math.inf
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
@@ -54,8 +55,7 @@ class Server(uvicorn.Server):
         if self.started and sockets:
             host, port = sockets[0].getsockname()[:2]
             shown = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, host)
-            prefix = self.config.app.root_path  # pyright: ignore[reportAttributeAccessIssue, reportFunctionMemberAccess]
-            print(f"heli2dof {package_version()} is ready: http://{shown}:{port}{prefix}", flush=True)
+            print(f"heli2dof {package_version()} is ready: http://{shown}:{port}{self._prefix}", flush=True)
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         """Ends in good order; at the second signal at once, by that signal."""
@@ -106,7 +106,7 @@ def listen(settings: Settings) -> int:
         print(f"heli2dof: cannot listen on {settings.host} port {port}: {why}. {other}", file=sys.stderr)
         return 1
     app = create_app(settings)
-    Server(server_config(app), app.state.visits, settings.drain).run([listener])
+    Server(server_config(app), app.state.visits, settings).run([listener])
     return 0
 
 
