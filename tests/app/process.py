@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import httpx2
+
 from tests.scene_server import until
 
 ROOT = Path(__file__).parents[2]

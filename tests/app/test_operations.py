@@ -107,7 +107,9 @@ def test_a_sane_request_id_is_taken_over(client: TestClient, given: str):
     assert client.get("/livez", headers={"X-Request-ID": given}).headers["x-request-id"] == given
 
 
-@pytest.mark.parametrize("given", ["", "short", "x" * 65, "with space in it", "line%0abreak", "ümlaut-and-more"])
+@pytest.mark.parametrize(
+    "given", ["", "short", "x" * 65, "with space in it", "line%0abreak", "ümlaut-and-more"]
+)
 def test_any_other_is_replaced(client: TestClient, given: str):
     reply = client.get("/livez", headers={"X-Request-ID": given.encode()})
     assert re.fullmatch(r"[0-9a-f]{32}", reply.headers["x-request-id"])
@@ -196,7 +198,11 @@ def test_a_servers_log_says_what_was_done_and_not_by_whom(tmp_path: Path):
         ("HELI2DOF_CORS_ORIGINS", "tools.example", "HELI2DOF_CORS_ORIGINS: 'tools.example' is no origin"),
         ("HELI2DOF_FRAME_ANCESTORS", "https://a;b", "HELI2DOF_FRAME_ANCESTORS: 'https://a;b' is no source"),
         ("HELI2DOF_ROOT_PATH", "lab", "HELI2DOF_ROOT_PATH: string should match"),
-        ("HELI2DOF_TRUSTED_PROXIES", "10.0.0.0/99", "HELI2DOF_TRUSTED_PROXIES: '10.0.0.0/99' does not appear"),
+        (
+            "HELI2DOF_TRUSTED_PROXIES",
+            "10.0.0.0/99",
+            "HELI2DOF_TRUSTED_PROXIES: '10.0.0.0/99' does not appear",
+        ),
         ("HELI2DOF_DRAIN", "nan", "HELI2DOF_DRAIN: input should be"),
     ],
 )

@@ -123,14 +123,24 @@ def test_viser_with_another_page_is_noticed_at_the_start(monkeypatch: pytest.Mon
 @pytest.mark.parametrize("path", SOCKETS)
 def test_foreign_pages_open_no_socket(path: str):
     with app_with() as client:
-        for origin in ("https://evil.example", "null", "http://lab.example.evil.example", "http://lab.example:81"):
-            with pytest.raises(WebSocketDenialResponse) as refused, client.websocket_connect(path, headers={"Origin": origin}):
+        for origin in (
+            "https://evil.example",
+            "null",
+            "http://lab.example.evil.example",
+            "http://lab.example:81",
+        ):
+            with (
+                pytest.raises(WebSocketDenialResponse) as refused,
+                client.websocket_connect(path, headers={"Origin": origin}),
+            ):
                 pass
             assert refused.value.status_code == 403
             assert refused.value.json()["code"] == "foreign_origin"
 
 
-@pytest.mark.parametrize("origin", [None, "http://lab.example", "http://LAB.example:80", "https://lab.example"])
+@pytest.mark.parametrize(
+    "origin", [None, "http://lab.example", "http://LAB.example:80", "https://lab.example"]
+)
 def test_own_pages_and_tools_open_sockets(client, origin: str | None):
     """Over TLS at a proxy that says nothing the server sees ws and the page https."""
     headers = {"Host": "lab.example"} | ({"Origin": origin} if origin else {})
@@ -145,7 +155,11 @@ def test_listed_origins_open_sockets_and_call_the_api():
         with client.websocket_connect("/api/v1/recordings/identify", headers=origin) as socket:
             socket.send_json({"cancel": True})
             assert socket.receive_json() == {"cancelled": True}
-        asked = {**origin, "Access-Control-Request-Method": "POST", "Access-Control-Request-Headers": "content-type"}
+        asked = {
+            **origin,
+            "Access-Control-Request-Method": "POST",
+            "Access-Control-Request-Headers": "content-type",
+        }
         allowed = client.options("/api/v1/gains", headers=asked)
         assert allowed.headers["access-control-allow-origin"] == "https://tools.example"
         assert "access-control-allow-credentials" not in allowed.headers
@@ -193,11 +207,16 @@ PROXIED = {"X-Forwarded-Host": "lab.example", "X-Forwarded-Proto": "https", "Ori
 
 
 def test_behind_a_known_proxy_the_origin_is_compared_with_what_the_client_asked_for():
-    with forwarded("10.0.0.7", trusted_proxies=("10.0.0.0/8",)).websocket_connect("/api/v1/live", headers=PROXIED):
+    with forwarded("10.0.0.7", trusted_proxies=("10.0.0.0/8",)).websocket_connect(
+        "/api/v1/live", headers=PROXIED
+    ):
         pass
     unencrypted = PROXIED | {"Origin": "http://lab.example"}
     client = forwarded("10.0.0.7", trusted_proxies=("10.0.0.0/8",))
-    with pytest.raises(WebSocketDenialResponse), client.websocket_connect("/api/v1/live", headers=unencrypted):
+    with (
+        pytest.raises(WebSocketDenialResponse),
+        client.websocket_connect("/api/v1/live", headers=unencrypted),
+    ):
         pass
 
 
@@ -209,7 +228,12 @@ def test_what_strangers_say_of_proxies_is_not_believed():
 
 def test_known_hosts_alone_are_answered_where_they_are_listed():
     with app_with(allowed_hosts=("lab.example", "*.uni.example")) as client:
-        for host, status in [("lab.example:8000", 200), ("a.uni.example", 200), ("uni.example", 421), ("evil", 421)]:
+        for host, status in [
+            ("lab.example:8000", 200),
+            ("a.uni.example", 200),
+            ("uni.example", 421),
+            ("evil", 421),
+        ]:
             assert client.get("/livez", headers={"Host": host}).status_code == status
 
 
@@ -219,7 +243,14 @@ def test_known_hosts_alone_are_answered_where_they_are_listed():
 @pytest.mark.parametrize("stripped", [False, True])
 def test_everything_is_found_below_a_prefix_whether_the_proxy_strips_it_or_not(stripped: bool):
     with app_with(root_path="/lab/one") as client:
-        for path in ("/", "/docs", "/static/main.js", "/api/v1/presets", f"/scene/{session_id('a')}/", "/livez"):
+        for path in (
+            "/",
+            "/docs",
+            "/static/main.js",
+            "/api/v1/presets",
+            f"/scene/{session_id('a')}/",
+            "/livez",
+        ):
             assert client.get(path if stripped else f"/lab/one{path}").status_code == 200, path
         assert client.get("/static/no.js").status_code == 404
 
@@ -252,7 +283,9 @@ def test_readiness_is_open(guarded: TestClient):
     assert guarded.get("/healthz").json()["code"] == "starting"
 
 
-@pytest.mark.parametrize("path", ["/static/../api/v1/presets", "/livez/", "//livez", "/static/login.css/../main.js"])
+@pytest.mark.parametrize(
+    "path", ["/static/../api/v1/presets", "/livez/", "//livez", "/static/login.css/../main.js"]
+)
 def test_open_addresses_open_no_others(guarded: TestClient, path: str):
     guarded.headers["Accept"] = "*/*"
     assert guarded.get(path).status_code == 401
@@ -261,12 +294,16 @@ def test_open_addresses_open_no_others(guarded: TestClient, path: str):
 @pytest.mark.parametrize("header", [f"Bearer {TOKEN}", f"bearer {TOKEN}"])
 def test_tools_send_the_token_in_a_header(guarded: TestClient, header: str):
     assert guarded.get("/api/v1/presets", headers={"Authorization": header}).status_code == 200
-    with guarded.websocket_connect("/api/v1/recordings/identify", headers={"Authorization": header}) as socket:
+    with guarded.websocket_connect(
+        "/api/v1/recordings/identify", headers={"Authorization": header}
+    ) as socket:
         socket.send_json({"cancel": True})
         assert socket.receive_json() == {"cancelled": True}
 
 
-@pytest.mark.parametrize("wrong", ["Bearer x", f"Bearer {TOKEN}x", f"Basic {TOKEN}", f"{TOKEN}", "Bearer ", "Bearer \xff"])
+@pytest.mark.parametrize(
+    "wrong", ["Bearer x", f"Bearer {TOKEN}x", f"Basic {TOKEN}", f"{TOKEN}", "Bearer ", "Bearer \xff"]
+)
 def test_wrong_tokens_are_refused(guarded: TestClient, wrong: str):
     header = {"Authorization": wrong.encode("latin-1")}
     assert guarded.get("/api/v1/presets", headers=header).status_code == 401
@@ -275,7 +312,10 @@ def test_wrong_tokens_are_refused(guarded: TestClient, wrong: str):
 @pytest.mark.parametrize("path", SOCKETS)
 def test_sockets_want_the_token_too(guarded: TestClient, path: str):
     for cookie in ("", f"{COOKIE}=", f"{COOKIE}={TOKEN}"):
-        with pytest.raises(WebSocketDenialResponse) as refused, guarded.websocket_connect(path, headers={"Cookie": cookie}):
+        with (
+            pytest.raises(WebSocketDenialResponse) as refused,
+            guarded.websocket_connect(path, headers={"Cookie": cookie}),
+        ):
             pass
         assert refused.value.status_code == 401
 
@@ -348,6 +388,9 @@ def test_the_token_is_told_by_no_representation():
 
 
 def test_sockets_that_the_server_does_not_know_are_refused():
-    with app_with() as client:
-        with pytest.raises(WebSocketDisconnect), client.websocket_connect("/api/v1/nothing"):
-            pass
+    with (
+        app_with() as client,
+        pytest.raises(WebSocketDisconnect),
+        client.websocket_connect("/api/v1/nothing"),
+    ):
+        pass

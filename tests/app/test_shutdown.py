@@ -47,7 +47,10 @@ def farewell(socket: Connection) -> tuple[list[str | bytes], int | None]:
 def test_answers_in_flight_arrive_and_sockets_close_with_1001(server: Server):
     live = [open_socket(server, "/api/v1/live") for _ in range(20)]
     cloud = open_socket(server, "/api/v1/robustness")
-    idle = [open_socket(server, "/api/v1/live"), open_socket(server, f"/scene/{session_id('ends')}/hub?page=true")]
+    idle = [
+        open_socket(server, "/api/v1/live"),
+        open_socket(server, f"/scene/{session_id('ends')}/hub?page=true"),
+    ]
     scene = open_socket(server, f"/scene/{session_id('ends')}", subprotocols=[VISER], max_size=None)
     replies = []
 
@@ -108,7 +111,8 @@ def test_second_signal_ends_it_at_once(tmp_path: Path, first: signal.Signals):
 
 
 def test_while_it_drains_it_is_alive_and_not_ready_and_still_serves(tmp_path: Path):
-    with served(tmp_path, drain="1.5") as server:
+    with served(tmp_path, drain="4") as server:
+        until(lambda: "kernels ready" in server.log.read_text(), "the kernels are compiled", 120)
         socket = open_socket(server, "/api/v1/live")
         began = time.monotonic()
         server.process.send_signal(signal.SIGTERM)
@@ -120,7 +124,7 @@ def test_while_it_drains_it_is_alive_and_not_ready_and_still_serves(tmp_path: Pa
         with open_socket(server, "/api/v1/live") as other:
             other.send('{"seq": 2}')
             assert json.loads(other.recv(timeout=20))["seq"] == 2
-        assert time.monotonic() - began < 1.5
+        assert time.monotonic() - began < 4
         assert farewell(socket)[1] == 1001
         assert server.process.wait(10) == 0
 
