@@ -51,8 +51,17 @@ def directives(policy: str) -> dict[str, set[str]]:
 
 @pytest.mark.parametrize(
     ("path", "status"),
-    [("/", 200), ("/docs", 200), ("/api/v1/presets", 200), ("/static/main.js", 200), ("/livez", 200)]
-    + [("/nothing", 404), ("/scene/short/", 404), (f"/scene/{session_id('a')}/", 200), ("/metrics", 200)],
+    [
+        ("/", 200),
+        ("/docs", 200),
+        ("/api/v1/presets", 200),
+        ("/static/main.js", 200),
+        ("/livez", 200),
+        ("/metrics", 200),
+        (f"/scene/{session_id('a')}/", 200),
+        ("/scene/short/", 404),
+        ("/nothing", 404),
+    ],
 )
 def test_every_answer_carries_the_safe_headers(client, path: str, status: int):
     reply = client.get(path)

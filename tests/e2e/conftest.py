@@ -38,7 +38,10 @@ class App:
 
 @contextmanager
 def running_app(port: int = 0, **environment: str) -> Iterator[App]:
-    """The app as `heli2dof serve` starts it, in a process of its own, ready to compute; HELI2DOF_… of these names are set."""
+    """The app as `heli2dof serve` starts it, in a process of its own, ready to compute.
+
+    Its environment has HELI2DOF_… of these names.
+    """
     variables = {f"HELI2DOF_{name.upper()}": value for name, value in environment.items()}
     command = [sys.executable, "-m", "app", "serve", "--port", str(port)]
     process = subprocess.Popen(

@@ -8,14 +8,14 @@ import httpx2
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.scene_server import until
-
 from .conftest import SEEN, App, running_app, settled
 
 TOKEN = "a-token-of-a-class-2026"
 LISTEN = """
 window.violations = [];
-document.addEventListener('securitypolicyviolation', (e) => window.violations.push(`${e.effectiveDirective} ${e.blockedURI}`));
+document.addEventListener('securitypolicyviolation', (e) => {
+  window.violations.push(`${e.effectiveDirective} ${e.blockedURI}`);
+});
 """
 
 
@@ -45,7 +45,7 @@ def test_page_and_scene_violate_nothing(listening: Page, app: App):
     settled(listening)
     expect(listening.get_by_test_id("scene-notice")).to_be_hidden(timeout=60_000)
     for name in ("Compare", "Formulas", "Paper"):
-        listening.get_by_role("button", name=name, exact=True).first.click()
+        listening.locator("#header").get_by_text(name, exact=True).click()
     expect(listening.locator("#formulas math").first).to_be_visible()
     expect(listening.locator("#paper math").first).to_be_visible()
     assert len(listening.frames) == 2
@@ -94,15 +94,13 @@ def test_what_is_inline_or_foreign_does_not_run(listening: Page, app: App, path:
 
 def test_other_sites_may_not_frame_the_page(listening: Page, app: App):
     other = app.url.replace("127.0.0.1", "localhost")
-    listening.goto(f"{other}livez")
-    listening.evaluate(
-        "(url) => { const f = document.createElement('iframe'); f.src = url; document.body.append(f); }",
-        app.url,
+    listening.route(
+        f"{other}other",
+        lambda route: route.fulfill(content_type="text/html", body=f'<iframe src="{app.url}"></iframe>'),
     )
-    until(
-        lambda: any("violates" in error or "frame" in error for error in listening.errors),
-        "the frame is refused",
-    )
+    with listening.expect_event("requestfailed", lambda request: request.url == app.url) as refused:
+        listening.goto(f"{other}other")
+    assert "BLOCKED_BY_RESPONSE" in str(refused.value.failure)
     listening.errors.clear()
 
 
