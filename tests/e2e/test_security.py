@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from threading import Thread
 
 import httpx2
 import pytest
@@ -93,13 +95,25 @@ def test_what_is_inline_or_foreign_does_not_run(listening: Page, app: App, path:
 
 
 def test_other_sites_may_not_frame_the_page(listening: Page, app: App):
-    other = app.url.replace("127.0.0.1", "localhost")
-    listening.route(
-        f"{other}other",
-        lambda route: route.fulfill(content_type="text/html", body=f'<iframe src="{app.url}"></iframe>'),
-    )
-    with listening.expect_event("requestfailed", lambda request: request.url == app.url) as refused:
-        listening.goto(f"{other}other")
+    """The other one is another port: that is another origin, and as local as ours."""
+
+    class Other(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            body = f'<iframe src="{app.url}"></iframe>'.encode() if self.path == "/" else b""
+            self.send_response(200)
+            self.send_header("Content-Type", "text/html")
+            self.send_header("Content-Length", str(len(body)))
+            self.end_headers()
+            self.wfile.write(body)
+
+        def log_message(self, *_) -> None:
+            pass
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), Other) as server:
+        Thread(target=server.serve_forever, daemon=True).start()
+        with listening.expect_event("requestfailed", lambda request: request.url == app.url) as refused:
+            listening.goto(f"http://127.0.0.1:{server.server_port}/")
+        server.shutdown()
     assert "BLOCKED_BY_RESPONSE" in str(refused.value.failure)
     listening.errors.clear()
 
