@@ -49,6 +49,11 @@ class Compute:
         """Whether all is derived and compiled: a common update then takes a millisecond or two."""
         return self._settled
 
+    def waiting(self) -> dict[str, int]:
+        """How much work waits for a thread, by pool."""
+        pools = {"compute": self._pool, "slow": self._slow}
+        return {name: pool._work_queue.qsize() for name, pool in pools.items()}  # pyright: ignore[reportPrivateUsage]
+
     def start(self) -> None:
         """Begins the derivation in the background.
 

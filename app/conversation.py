@@ -12,6 +12,7 @@ from fastapi import WebSocket, WebSocketDisconnect
 
 from .encoding import json_bytes
 from .problems import problem_of
+from .visits import visit_of
 
 _log = logging.getLogger(__name__)
 Send = Callable[[str], Awaitable[None]]
@@ -19,11 +20,18 @@ Send = Callable[[str], Awaitable[None]]
 
 async def converse(socket: WebSocket, answer: Callable[[Any, Send], Awaitable[None]]) -> None:
     """Lets `answer` send replies to each request, until the visitor goes; what it raises becomes a problem object."""
+    visit = visit_of(socket)
+
+    async def answered(text: str) -> None:
+        await _answer(socket, text, answer)
+        await visit.rest()
+
     await socket.accept()
     try:
         text = await socket.receive_text()
         while True:
-            answering = asyncio.create_task(_answer(socket, text, answer))
+            visit.busy = True
+            answering = asyncio.create_task(answered(text))
             try:
                 text = await socket.receive_text()
             finally:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from time import perf_counter
 from typing import Any
 
 import orjson
@@ -15,9 +16,11 @@ from heli2dof_core.design import FULL_RANK
 
 from .compute import Compute
 from .encoding import BINARY_SUBPROTOCOL, binary_frame, json_bytes
-from .problems import problem_of
+from .metrics import Metrics
+from .problems import TEXT_START, problem_of
 from .replies import report_reply
 from .requests import LiveRequest
+from .visits import visit_of
 
 _log = logging.getLogger(__name__)
 QUICK = 4000
@@ -33,11 +36,18 @@ class Newest:
     def __init__(self) -> None:
         self._item: str | bytes | None = None
         self._arrived = asyncio.Event()
+        self.since = 0.0
 
     def put(self, item: str | bytes) -> None:
         """Leaves an item, in place of one that waits."""
         self._item = item
+        self.since = perf_counter()
         self._arrived.set()
+
+    @property
+    def empty(self) -> bool:
+        """Whether nothing waits."""
+        return self._item is None
 
     async def take(self) -> str | bytes:
         """Waits for an item and takes it."""
@@ -48,7 +58,7 @@ class Newest:
         return item
 
 
-def build_router(compute: Compute) -> APIRouter:
+def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
     """The live socket's route."""
     router = APIRouter()
 
@@ -56,13 +66,14 @@ def build_router(compute: Compute) -> APIRouter:
     async def live(socket: WebSocket) -> None:
         binary = BINARY_SUBPROTOCOL in socket.scope["subprotocols"]
         await socket.accept(subprotocol=BINARY_SUBPROTOCOL if binary else None)
-        newest = Newest()
-        answers = asyncio.create_task(_answer(socket, newest, compute, binary=binary))
+        newest, visit = Newest(), visit_of(socket)
+        answers = asyncio.create_task(_answer(socket, newest, compute, metrics, binary=binary))
         try:
             while True:
                 message = await socket.receive()
                 if message["type"] == "websocket.disconnect":
                     break
+                visit.busy = True
                 newest.put(message.get("text") or message.get("bytes") or "")
         except WebSocketDisconnect:
             pass
@@ -73,9 +84,13 @@ def build_router(compute: Compute) -> APIRouter:
     return router
 
 
-async def _answer(socket: WebSocket, newest: Newest, compute: Compute, *, binary: bool) -> None:
+async def _answer(
+    socket: WebSocket, newest: Newest, compute: Compute, metrics: Metrics, *, binary: bool
+) -> None:
+    visit = visit_of(socket)
     while True:
         text = await newest.take()
+        since = newest.since
         try:
             answer = _at_once(text, binary) if compute.settled else None
             if answer is None:
@@ -87,6 +102,11 @@ async def _answer(socket: WebSocket, newest: Newest, compute: Compute, *, binary
             await socket.send_text(answer)
         else:
             await socket.send_bytes(answer)
+        metrics.update.observe(perf_counter() - since)
+        refused = isinstance(answer, str) and answer.startswith(TEXT_START)
+        (metrics.refusals if refused else metrics.evaluations).inc()
+        if newest.empty:
+            await visit.rest()
         await asyncio.sleep(0)  # others' turn, even where nothing above had to wait
 
 

@@ -7,16 +7,29 @@ from collections.abc import AsyncIterator
 from typing import Any
 
 from fastapi import FastAPI, Response
-from fastapi.openapi.docs import get_swagger_ui_html
 from fastapi.responses import FileResponse
 from fastapi.staticfiles import StaticFiles
+from starlette.types import ASGIApp
 
 from heli2dof_core.version import package_version
 
-from . import examples, live, problems, robustness, scene
+from . import examples, live, policies, problems, robustness, scene
 from .compute import Compute
-from .routes import catalogue, comparison, derivation, design, exports, frequency, recording, recordings
+from .metrics import Metrics
+from .middleware import surrounded
+from .routes import (
+    catalogue,
+    comparison,
+    derivation,
+    design,
+    exports,
+    frequency,
+    health,
+    recording,
+    recordings,
+)
 from .settings import Settings
+from .visits import Visits
 
 _DESCRIPTION = (
     "Pole placement for a two-degree-of-freedom laboratory helicopter. SI units: radians, volts, seconds. "
@@ -24,11 +37,25 @@ _DESCRIPTION = (
 )
 
 
+class App(FastAPI):
+    """FastAPI with what surrounds it: outside of starlette's own stack, so that its 500s pass there, too."""
+
+    def __init__(self, settings: Settings, metrics: Metrics, visits: Visits, **options: Any) -> None:
+        super().__init__(**options)
+        self._surroundings = (settings, metrics, visits)
+
+    def build_middleware_stack(self) -> ASGIApp:
+        """Starlette's stack, surrounded."""
+        return surrounded(super().build_middleware_stack(), *self._surroundings)
+
+
 def create_app(settings: Settings | None = None) -> FastAPI:
     """Builds the application; all state hangs on it, nothing is global."""
     settings = settings or Settings()
-    compute = Compute()
+    compute, metrics, visits = Compute(), Metrics(), Visits()
     sessions = scene.SceneSessions(capacity=settings.scenes)
+    metrics.watch_sessions(lambda: len(sessions))
+    metrics.watch_pools(compute.waiting)
 
     @contextlib.asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
@@ -37,7 +64,10 @@ def create_app(settings: Settings | None = None) -> FastAPI:
             yield
         compute.close()
 
-    app = FastAPI(
+    app = App(
+        settings,
+        metrics,
+        visits,
         title="heli2dof",
         version=package_version(),
         description=_DESCRIPTION,
@@ -45,8 +75,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         docs_url=None,
         redoc_url=None,
     )
-    app.state.compute = compute
-    app.include_router(catalogue.build_router(compute))
+    app.state.compute, app.state.metrics, app.state.visits = compute, metrics, visits
+    app.include_router(health.build_router(compute, visits, metrics if settings.metrics else None))
+    app.include_router(catalogue.build_router())
     app.include_router(design.build_router(compute))
     app.include_router(frequency.build_router(compute))
     app.include_router(derivation.build_router(compute))
@@ -54,34 +85,36 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(recording.build_router(compute))
     app.include_router(recordings.build_router(compute))
     app.include_router(exports.build_router(compute))
-    app.include_router(live.build_router(compute))
-    app.include_router(robustness.build_router(compute))
+    app.include_router(live.build_router(compute, metrics))
+    app.include_router(robustness.build_router(compute, metrics))
     app.include_router(scene.build_views_router())
-    app.include_router(scene.build_router(sessions))
+    app.include_router(scene.build_router(sessions, metrics, settings.frame_ancestors))
     app.mount("/static", RevalidatedFiles(directory=settings.static), name="static")
     problems.install(app)
     examples.install(app)
 
+    _add_pages(app, settings)
+    return app
+
+
+def _add_pages(app: FastAPI, settings: Settings) -> None:
+    """The page, that of the API, and the icon; each with its policy."""
+
+    def page_of(name: str, policy: str) -> FileResponse:
+        headers = {"Cache-Control": "no-cache", "Content-Security-Policy": policy}
+        return FileResponse(settings.static / name, headers=headers)
+
     @app.get("/", include_in_schema=False)
     async def page() -> FileResponse:
-        return FileResponse(settings.static / "index.html", headers={"Cache-Control": "no-cache"})
+        return page_of("index.html", policies.page(settings.frame_ancestors))
 
     @app.get("/docs", include_in_schema=False)
-    async def docs() -> Response:
-        swagger = "static/vendor/swagger-ui-dist"
-        return get_swagger_ui_html(
-            openapi_url="openapi.json",
-            title="heli2dof: REST API",
-            swagger_js_url=f"{swagger}/swagger-ui-bundle.js",
-            swagger_css_url=f"{swagger}/swagger-ui.css",
-            swagger_favicon_url="static/favicon.svg",
-        )
+    async def docs() -> FileResponse:
+        return page_of("api_docs.html", policies.api_docs(settings.frame_ancestors))
 
     @app.get("/favicon.ico", include_in_schema=False)
     async def favicon() -> FileResponse:
         return FileResponse(settings.static / "favicon.svg", media_type="image/svg+xml")
-
-    return app
 
 
 class RevalidatedFiles(StaticFiles):

@@ -16,6 +16,7 @@ from starlette.exceptions import HTTPException
 from heli2dof_core import Heli2DofError
 
 from .encoding import json_bytes
+from .logs import request_id
 
 _log = logging.getLogger(__name__)
 
@@ -24,7 +25,18 @@ _CODES = {
     "missing": ("missing_field", "Give this field."),
     "json_invalid": ("invalid_json", "Send one JSON object."),
 }
-_TITLES = {404: "Not found", 405: "Method not allowed", 422: "Invalid input", 503: "Not available now"}
+_TITLES = {
+    401: "Not allowed without the token",
+    403: "Not allowed",
+    404: "Not found",
+    405: "Method not allowed",
+    422: "Invalid input",
+    503: "Not available now",
+}
+
+
+TEXT_START = '{"type":"urn:heli2dof:problem:'
+"""How a problem object begins as text."""
 
 
 class Problem(BaseModel):
@@ -38,10 +50,11 @@ class Problem(BaseModel):
     field: str = Field("", description="JSON path of the offending input")
     value: Any = Field(None, description="the offending value")
     hint: str = Field("", description="what to do")
+    request_id: str = Field("", description="of the request, where the server failed: its log tells more")
 
 
 def problem(status: int, detail: str, code: str, **more: Any) -> dict[str, Any]:
-    """A problem object; `more` may give field, value and hint, and nothing empty is kept."""
+    """A problem object; `more` may give field, value, hint and request_id, and nothing empty is kept."""
     known = {"type": f"urn:heli2dof:problem:{code}", "title": _TITLES.get(status, "Error"), "status": status}
     extra = {name: _finite(value) for name, value in more.items() if value not in (None, "")}
     return {**known, "detail": detail, "code": code, **extra}
@@ -61,7 +74,8 @@ def problem_of(error: Exception) -> dict[str, Any]:
         case HTTPException():
             return problem(error.status_code, str(error.detail), f"http_{error.status_code}")
         case _:
-            return problem(500, "The server failed to answer; this is a bug.", "internal_error")
+            known = {"request_id": request_id.get()} if request_id.get() else {}
+            return problem(500, "The server failed to answer; this is a bug.", "internal_error", **known)
 
 
 def problem_response(body: Mapping[str, Any], headers: Mapping[str, str] | None = None) -> Response:
@@ -75,7 +89,9 @@ def install(app: FastAPI) -> None:
     async def answer(request: Request, error: Exception) -> Response:
         body = problem_of(error)
         if body["status"] == 500:
-            _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
+            # The template, since a scene's path is the secret of its session.
+            route = getattr(request.scope.get("route"), "path", "(none)")
+            _log.error("%s %s failed", request.method, route, exc_info=error)
         headers = error.headers if isinstance(error, HTTPException) else None
         return problem_response(body, headers)
 

@@ -12,12 +12,13 @@ from heli2dof_core.robustness import Cloud, cloud, cloud_in_parts
 from .compute import Compute
 from .conversation import Send, converse
 from .encoding import json_bytes, json_response
+from .metrics import Metrics
 from .models import described
 from .replies import Reply
 from .robustness_requests import RobustnessReply, RobustnessRequest, cloud_reply
 
 
-def build_router(compute: Compute) -> APIRouter:
+def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
     """POST and WebSocket /api/v1/robustness."""
     router = APIRouter(prefix="/api/v1", tags=["robustness"])
 
@@ -25,6 +26,8 @@ def build_router(compute: Compute) -> APIRouter:
         "/robustness", **described(RobustnessReply, "Poles and responses of many rigs under one controller")
     )
     async def robustness(request: RobustnessRequest) -> Response:
+        metrics.clouds.inc()
+
         def work() -> Reply:
             return cloud_reply(cloud(request.to_spec(), request.to_uncertainty()))
 
@@ -36,6 +39,7 @@ def build_router(compute: Compute) -> APIRouter:
 
         async def answer(data: Any, send: Send) -> None:
             request = RobustnessRequest.model_validate(data)
+            metrics.clouds.inc()
             parts = await compute.run(lambda: cloud_in_parts(request.to_spec(), request.to_uncertainty()))
             while (part := await compute.run(_following, parts)) is not None:
                 await send(part)

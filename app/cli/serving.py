@@ -1,25 +1,53 @@
-"""`heli2dof serve`: the app on a port."""
+"""`heli2dof serve`: the app on a port, until a signal ends it in good order."""
 
 from __future__ import annotations
 
+import asyncio
 import errno
+import faulthandler
 import logging
+import math
+import os
+import signal
 import socket
 import sys
+import threading
+from time import monotonic
+from types import FrameType
+from typing import Any
 
 import click
 import uvicorn
+from pydantic import ValidationError
 
 from heli2dof_core.version import package_version
 
+from .. import logs
 from ..main import create_app
-from ..settings import Settings
+from ..settings import Settings, complaint
+from ..visits import Visits
 
+_log = logging.getLogger(__name__)
 _LARGEST_MESSAGE = 1 << 20
+_FOR_SOCKETS, _FOR_REQUESTS, _IN_ALL = 6.0, 8.0, 9.5
+"""Seconds after the signal (and after `drain`) by which sockets are closed, requests are answered or given
+up, and the process has ended, whatever still computes."""
 
 
-class AnnouncingServer(uvicorn.Server):
-    """Prints the address once the server answers."""
+class Server(uvicorn.Server):
+    """Prints the address once the server answers, and ends in good order.
+
+    After SIGTERM or SIGINT it is not ready any more (`/healthz`), but serves on for `drain` seconds, so that
+    a proxy sees it. Then it listens no more; sockets get the answer that they wait for and a close with 1001,
+    requests are answered. A second signal ends it at once.
+    """
+
+    def __init__(self, config: uvicorn.Config, visits: Visits, settings: Settings) -> None:
+        super().__init__(config)
+        self._visits = visits
+        self._drain = settings.drain
+        self._prefix = settings.root_path
+        self._until = math.inf
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Starts, then says where."""
@@ -27,31 +55,70 @@ class AnnouncingServer(uvicorn.Server):
         if self.started and sockets:
             host, port = sockets[0].getsockname()[:2]
             shown = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, host)
-            print(f"heli2dof {package_version()} is ready: http://{shown}:{port}", flush=True)
+            print(f"heli2dof {package_version()} is ready: http://{shown}:{port}{self._prefix}", flush=True)
+
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        """Ends in good order; at the second signal at once, by that signal."""
+        if self.should_exit:
+            signal.signal(sig, signal.SIG_DFL)
+            signal.raise_signal(sig)
+        # Not kept in uvicorn's list of signals, which it would raise again: this is a good end, with status 0.
+        self.should_exit = True
+        self._until = monotonic() + self._drain
+        threading.Thread(target=self._end, name="end", daemon=True).start()
+        # Should something hold Python's lock, that thread never runs; this one needs none.
+        faulthandler.dump_traceback_later(self._drain + _IN_ALL + 0.3, exit=True)
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """Says goodbye to sockets before uvicorn, which would cut them off, sees to the rest."""
+        began = min(self._until, monotonic() + self._drain)  # infinite where no signal came, as in tests
+        self._visits.closing = True
+        _log.info("ending: %d sockets are open", len(self._visits))
+        await asyncio.sleep(max(began - monotonic(), 0.0))
+        for server in self.servers:
+            server.close()
+        await self._visits.farewell(_FOR_SOCKETS)
+        left = began + _FOR_REQUESTS - monotonic()
+        self.config.timeout_graceful_shutdown = max(math.ceil(left), 1)
+        await super().shutdown(sockets)
+        _log.info("ended after %.1f s", monotonic() - began)
+
+    def _end(self) -> None:
+        """Ends the process when its time is up: Python waits for threads that compute, however long."""
+        threading.Event().wait(self._drain + _IN_ALL)
+        _log.warning("ending while something still computes")
+        logging.shutdown()
+        os._exit(0)
 
 
-def listen(host: str, port: int, settings: Settings) -> int:
+def listen(settings: Settings) -> int:
     """Serves until interrupted; returns the exit status."""
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
-        listener.bind((host, port))
+        listener.bind((settings.host, settings.port))
     except OSError as error:
         listener.close()
         why = "it is in use" if error.errno == errno.EADDRINUSE else error.strerror
+        port = settings.port
         other = f"Try another one, as with --port {port + 1} (make serve: PORT={port + 1})."
-        print(f"heli2dof: cannot listen on {host} port {port}: {why}. {other}", file=sys.stderr)
+        print(f"heli2dof: cannot listen on {settings.host} port {port}: {why}. {other}", file=sys.stderr)
         return 1
-    AnnouncingServer(server_config(settings)).run([listener])
+    app = create_app(settings)
+    Server(server_config(app), app.state.visits, settings).run([listener])
     return 0
 
 
-def server_config(settings: Settings) -> uvicorn.Config:
+def server_config(app: Any) -> uvicorn.Config:
     """How uvicorn serves the app; the scene's relay relies on the socket settings."""
     return uvicorn.Config(
-        create_app(settings),
+        app,
+        log_config=None,
         log_level="warning",
+        access_log=False,  # its lines hold addresses and queries; ours do not
+        proxy_headers=False,  # see middleware.proxies
+        server_header=False,
         ws="websockets-sansio",
         ws_max_size=_LARGEST_MESSAGE,
         ws_per_message_deflate=False,  # five times slower, and the frames are small
@@ -62,17 +129,15 @@ def server_config(settings: Settings) -> uvicorn.Config:
 
 
 @click.command()
-@click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on.")
-@click.option(
-    "--port", type=int, default=8000, envvar="PORT", show_default="8000, or $PORT", help="TCP port."
-)
+@click.option("--host", help="Address to listen on, instead of $HELI2DOF_HOST or 127.0.0.1.")
+@click.option("--port", type=int, help="TCP port, instead of $HELI2DOF_PORT, $PORT or 8000.")
 @click.option("--scenes", type=int, help="Most 3D scenes at once, instead of $HELI2DOF_SCENES or 100.")
-def serve(host: str, port: int, scenes: int | None) -> None:
-    """Start the app and print its address."""
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(name)s: %(message)s")
-    logging.getLogger("websockets").setLevel(logging.WARNING)
+def serve(**options: Any) -> None:
+    """Start the app and print its address; the README lists what the environment can set."""
     try:
-        status = listen(host, port, Settings() if scenes is None else Settings(scenes=scenes))
-    except KeyboardInterrupt:  # uvicorn has shut down in good order and raises it again
-        status = 0
-    sys.exit(status)
+        settings = Settings(**{name: value for name, value in options.items() if value is not None})
+    except ValidationError as error:
+        print(f"heli2dof: {complaint(error)}", file=sys.stderr)
+        sys.exit(2)
+    logs.configure(settings.log_format, settings.log_level)
+    sys.exit(listen(settings))

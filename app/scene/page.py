@@ -9,11 +9,15 @@ from __future__ import annotations
 import gzip
 import hashlib
 import html
+from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
 from fastapi import Request, Response
+
+from .. import policies
+from .viser_scripts import inline_scripts
 
 _MARKER = "<title>Viser</title>"
 
@@ -46,15 +50,19 @@ _INJECTED = (
 
 @dataclass(frozen=True, slots=True)
 class ViewerPage:
-    """Viser's page with our additions, plain and compressed, and its entity tag."""
+    """Viser's page with our additions, plain and compressed, its entity tag and its policy."""
 
     body: bytes
     compressed: bytes
     etag: str
+    policy: str
 
     @classmethod
-    def load(cls) -> ViewerPage:
+    def load(cls, ancestors: Iterable[str] = ("'self'",)) -> ViewerPage:
         """Read the installed viser's page, without importing viser, and add to it.
+
+        Args:
+            ancestors: who may show it in a frame, besides the page.
 
         Raises:
             RuntimeError: if the page is missing or has changed so that the shim has no place.
@@ -68,17 +76,16 @@ class ViewerPage:
             raise RuntimeError(f"{path} does not hold {_MARKER} once: is this viser 1.1.1?")
         body = page.replace(_MARKER, _INJECTED).encode()
         etag = f'"{hashlib.sha256(body).hexdigest()[:32]}"'
-        return cls(body, gzip.compress(body, compresslevel=6, mtime=0), etag)
+        policy = policies.viewer(ancestors, inline_scripts(page))
+        return cls(body, gzip.compress(body, compresslevel=6, mtime=0), etag, policy)
 
     def response(self, request: Request) -> Response:
         """Answer a request for the page, with 304 where the browser has it already."""
         headers = {
             "Cache-Control": "private, no-cache",
-            "Content-Security-Policy": "frame-ancestors 'self'",
+            "Content-Security-Policy": self.policy,
             "ETag": self.etag,
-            "Referrer-Policy": "no-referrer",
             "Vary": "Accept-Encoding",
-            "X-Content-Type-Options": "nosniff",
         }
         if self.etag in request.headers.get("if-none-match", ""):
             return Response(status_code=304, headers=headers)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 from collections.abc import Callable
+from time import monotonic
 from typing import Any
 
 import msgspec
@@ -17,11 +18,15 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
+from ..metrics import Metrics
+
 LARGEST_MESSAGE = 64 * 1024
 """Bytes; a viewer's own messages take a few hundred."""
 
 _UNSUPPORTED_DATA, _TOO_BIG, _TRY_LATER = 1003, 1009, 1013
 _QUEUED_FRAMES = 4
+RATE, BURST = 120.0, 240.0
+"""Messages a second that a visitor may send, and how many at once; a viewer that is turned sends thirty."""
 _Quaternion = tuple[float, float, float, float]
 _Vector = tuple[float, float, float]
 
@@ -78,14 +83,42 @@ def viser_subprotocol(offered: list[str]) -> str | None:
     return next((name for name in offered if name.startswith("viser-v")), None)
 
 
-async def relay(visitor: WebSocket, port: int, admit: Admit = lambda _id, _updates: None) -> None:
+class Pace:
+    """Lets so many a second pass, and a few at once.
+
+    Whoever comes too fast waits, so that the network's own buffers fill and the sender waits, too.
+    """
+
+    def __init__(self, rate: float = RATE, burst: float = BURST) -> None:
+        self._rate = rate
+        self._burst = burst
+        self._left = burst
+        self._since = monotonic()
+
+    async def take(self) -> None:
+        """Wait for a place."""
+        now = monotonic()
+        self._left = min(self._burst, self._left + (now - self._since) * self._rate) - 1.0
+        self._since = now
+        if self._left < 0.0:
+            await asyncio.sleep(-self._left / self._rate)
+
+
+async def relay(
+    visitor: WebSocket,
+    port: int,
+    admit: Admit = lambda _id, _updates: None,
+    metrics: Metrics | None = None,
+) -> None:
     """Carry frames both ways until either side closes, then close the other.
 
     Args:
         visitor: an accepted WebSocket.
         port: of the viser server on the loopback.
         admit: says what may be set at the panel.
+        metrics: counts what passes and what does not.
     """
+    metrics = metrics or Metrics()
     protocol = viser_subprotocol(visitor.scope["subprotocols"])
     try:
         upstream = await connect(
@@ -102,8 +135,8 @@ async def relay(visitor: WebSocket, port: int, admit: Admit = lambda _id, _updat
         return
     async with upstream:
         tasks = [
-            asyncio.create_task(_down(upstream, visitor)),
-            asyncio.create_task(_up(visitor, upstream, admit)),
+            asyncio.create_task(_down(upstream, visitor, metrics)),
+            asyncio.create_task(_up(visitor, upstream, admit, metrics)),
         ]
         try:
             done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
@@ -115,12 +148,13 @@ async def relay(visitor: WebSocket, port: int, admit: Admit = lambda _id, _updat
     await _close(visitor, code, reason)
 
 
-async def _down(upstream: ClientConnection, visitor: WebSocket) -> tuple[int, str]:
+async def _down(upstream: ClientConnection, visitor: WebSocket, metrics: Metrics) -> tuple[int, str]:
     """Carry viser's frames to the visitor; return how to close the visitor."""
     try:
         async for frame in upstream:
             if isinstance(frame, bytes):
                 await visitor.send_bytes(frame)
+                metrics.scene_down.inc()
     except (ConnectionClosed, WebSocketDisconnect, RuntimeError):
         pass
     # 1005 and 1006 describe a missing close frame and may not be sent in one.
@@ -130,8 +164,11 @@ async def _down(upstream: ClientConnection, visitor: WebSocket) -> tuple[int, st
     return code, upstream.close_reason or "the scene was stopped"
 
 
-async def _up(visitor: WebSocket, upstream: ClientConnection, admit: Admit) -> tuple[int, str]:
+async def _up(
+    visitor: WebSocket, upstream: ClientConnection, admit: Admit, metrics: Metrics
+) -> tuple[int, str]:
     """Carry the visitor's admissible frames to viser; return how to close the visitor."""
+    pace = Pace()
     while True:
         message = await visitor.receive()
         if message["type"] == "websocket.disconnect":
@@ -141,7 +178,9 @@ async def _up(visitor: WebSocket, upstream: ClientConnection, admit: Admit) -> t
             return _UNSUPPORTED_DATA, "binary frames only"
         if len(frame) >= LARGEST_MESSAGE:
             return _TOO_BIG, f"messages of {LARGEST_MESSAGE} bytes or more are refused"
+        await pace.take()
         passed = admissible(frame, admit)
+        (metrics.scene_refused if passed is None else metrics.scene_up).inc()
         if passed is not None:
             try:
                 await upstream.send(passed)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 from fastapi import APIRouter, HTTPException, Request, Response, WebSocket
 from fastapi.responses import RedirectResponse
@@ -10,6 +11,7 @@ from pydantic import BaseModel, ConfigDict
 
 from heli2dof_core.geometry import RigName
 
+from ..metrics import Metrics
 from .hub import MOST_WINDOWS, Window, attend
 from .page import ViewerPage
 from .relay import relay, viser_subprotocol
@@ -27,13 +29,20 @@ class RigChoice(BaseModel):
     rig: RigName
 
 
-def build_router(sessions: SceneSessions) -> APIRouter:
+def build_router(
+    sessions: SceneSessions, metrics: Metrics | None = None, ancestors: Iterable[str] = ("'self'",)
+) -> APIRouter:
     """Return the scene's routes: the page, its socket and the choice of the rig.
+
+    Args:
+        sessions: the running scenes.
+        metrics: counts the relay's messages.
+        ancestors: who may show the scene's page in a frame.
 
     Raises:
         RuntimeError: if viser's page is not the one that the shim was written for.
     """
-    page = ViewerPage.load()
+    page = ViewerPage.load(ancestors)
     router = APIRouter(prefix="/scene", include_in_schema=False)
 
     @router.get("/{session}")
@@ -55,11 +64,11 @@ def build_router(sessions: SceneSessions) -> APIRouter:
             raise HTTPException(503, str(full), {"Retry-After": "30"}) from full
         return Response(status_code=204)
 
-    _add_sockets(router, sessions)
+    _add_sockets(router, sessions, metrics or Metrics())
     return router
 
 
-def _add_sockets(router: APIRouter, sessions: SceneSessions) -> None:
+def _add_sockets(router: APIRouter, sessions: SceneSessions, metrics: Metrics) -> None:
     """Add viser's socket, relayed, and the one on which a session's windows talk."""
 
     @router.websocket("/{session}")
@@ -71,7 +80,7 @@ def _add_sockets(router: APIRouter, sessions: SceneSessions) -> None:
         await visitor.accept(subprotocol=viser_subprotocol(visitor.scope["subprotocols"]))
         try:
             async with sessions.watched(session) as scene:
-                await relay(visitor, scene.port, scene.admit)
+                await relay(visitor, scene.port, scene.admit, metrics)
         except SessionsFullError as full:
             await visitor.close(_TRY_LATER, str(full)[:120])
 

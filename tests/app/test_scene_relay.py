@@ -5,13 +5,15 @@ import urllib.error
 import urllib.parse
 import urllib.request
 from collections.abc import Iterator
+from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from app.scene.relay import LARGEST_MESSAGE, admissible
+from app.scene.relay import BURST, LARGEST_MESSAGE, RATE, admissible
 from tests.scene_client import (
     CAMERA,
     VISER,
@@ -176,3 +178,95 @@ def test_everything_works_under_a_path_prefix():
         assert put_rig(mounted, "prefix", '{"rig": "aero"}')[0] == 204
         with watch(mounted, "prefix") as socket:
             assert replay(socket)
+
+
+HOSTILE = [
+    {"type": "ShareUrlRequest"},
+    {"type": "ShareUrlDisconnect"},
+    {
+        "type": "FileTransferStartUpload",
+        "transfer_uuid": "x",
+        "filename": "x",
+        "mime_type": "x",
+        "part_count": 1,
+    },
+    {"type": "FileTransferPart", "transfer_uuid": "x", "part": 0, "content": b"x" * 1000},
+    {"type": "GuiFormDirtyMessage", "uuid": "x"},
+    {"type": "ScenePointerMessage", "event_type": "click"},
+    {"type": "RunJavascriptMessage", "source": "alert(1)"},
+    {"type": "GuiUpdateMessage", "uuid": "made-up", "updates": {"value": 1.0}},
+    {"type": "GuiUpdateMessage", "uuid": "made-up", "updates": {"__class__": "x"}},
+]
+
+
+def viser_types() -> dict[str, type]:
+    """Every message that viser knows, by its name on the wire."""
+    from viser import _messages
+
+    return {
+        name: kind
+        for name, kind in vars(_messages).items()
+        if isinstance(kind, type) and issubclass(kind, _messages.Message) and kind is not _messages.Message
+    }
+
+
+def heard_by(server: SceneServer, name: str) -> list[tuple[str, float]]:
+    """What a session's viser takes in from now on, and when."""
+    viser = server.sessions.server(session_id(name))
+    assert viser is not None
+    heard: list[tuple[str, float]] = []
+    for kind in viser_types().values():
+        viser._websock_server.register_handler(
+            kind, lambda _id, told: heard.append((type(told).__name__, monotonic()))
+        )
+    return heard
+
+
+def test_of_all_of_visers_messages_two_pass():
+    told = sorted(viser_types())
+    assert "ShareUrlRequest" in told and len(told) > 80
+    allowed = [name for name in told if admissible(encode(CAMERA | {"type": name}))]
+    assert allowed == ["ViewerCameraMessage"]
+    update = {"uuid": "x", "updates": {"value": 1}}
+    by_panel = [name for name in told if admissible(encode({"type": name, **update}), lambda _id, u: u)]
+    assert by_panel == ["GuiUpdateMessage"]
+
+
+@pytest.mark.parametrize("message", HOSTILE, ids=lambda message: message["type"])
+def test_hostile_messages_do_not_reach_viser(server: SceneServer, message: dict[str, Any]):
+    with watch(server, "hostile") as socket:
+        replay(socket)
+        heard = heard_by(server, "hostile")
+        socket.send(encode(message))
+        socket.send(encode(CAMERA))
+        until(lambda: heard, "the camera arrives")
+        assert {kind for kind, _ in heard} == {"ViewerCameraMessage"}
+
+
+def test_floods_are_slowed_and_others_are_not(server: SceneServer):
+    """Of a thousand messages at once a burst passes, the rest at the pace of a viewer."""
+    with watch(server, "flood") as flood, watch(server, "calm") as calm:
+        replay(flood)
+        replay(calm)
+        heard, other = heard_by(server, "flood"), heard_by(server, "calm")
+        began = monotonic()
+        sent = int(BURST) + 120
+        for _ in range(sent):
+            flood.send(encode(CAMERA))
+        calm.send(encode(CAMERA))
+        until(lambda: other, "the calm one is heard at once")
+        assert monotonic() - began < 0.9
+        until(lambda: len(heard) == sent, "all arrive in the end")
+        assert heard[-1][1] - began >= 120 / RATE * 0.9
+
+
+def test_viser_listens_on_the_loopback_alone(server: SceneServer):
+    assert put_rig(server, "loopback", '{"rig": "aero"}')[0] == 204
+    viser = server.sessions.server(session_id("loopback"))
+    assert viser is not None
+    suffix = f":{viser.get_port():04X}"
+    listening = []
+    for table in ("tcp", "tcp6"):
+        rows = [line.split() for line in Path(f"/proc/net/{table}").read_text().splitlines()[1:]]
+        listening += [row[1] for row in rows if row[3] == "0A" and row[1].endswith(suffix)]
+    assert listening == [f"0100007F{suffix}"]

@@ -1,0 +1,37 @@
+"""What stands between the network and the routes: plain ASGI, so that sockets pass at full speed."""
+
+from __future__ import annotations
+
+from starlette.middleware.cors import CORSMiddleware
+from starlette.types import ASGIApp
+
+from ..metrics import Metrics
+from ..settings import Settings
+from ..visits import Visits
+from .access import Access
+from .headers import SafeHeaders
+from .origins import Origins
+from .proxies import Proxies
+from .requests import Requests
+from .sockets import Sockets
+
+__all__ = ["surrounded"]
+
+
+def surrounded(app: ASGIApp, settings: Settings, metrics: Metrics, visits: Visits) -> ASGIApp:
+    """The routes with all that surrounds them; what is written last comes first."""
+    app = Sockets(app, metrics, visits)
+    if settings.access_token is not None:
+        app = Access(app, settings.access_token.get_secret_value(), settings.frame_ancestors)
+    app = Origins(app, settings.cors_origins, settings.allowed_hosts, metrics)
+    if settings.cors_origins:
+        app = CORSMiddleware(
+            app,
+            allow_origins=settings.cors_origins,
+            allow_methods=["GET", "POST", "PUT"],
+            allow_headers=["Authorization", "Content-Type", "X-Request-ID"],
+            expose_headers=["Content-Disposition", "Retry-After", "X-Request-ID"],
+        )
+    app = SafeHeaders(app)
+    app = Requests(app, metrics)
+    return Proxies(app, settings.trusted_proxies, settings.root_path)

@@ -1,0 +1,130 @@
+"""One token for the whole server: asked of pages by a form, of tools in a header."""
+
+from __future__ import annotations
+
+import hashlib
+import hmac
+from urllib.parse import parse_qsl, urlencode
+
+from starlette.datastructures import Headers
+from starlette.requests import Request, cookie_parser
+from starlette.responses import RedirectResponse, Response
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from .. import policies
+from ..problems import problem
+from .login_form import login_form
+from .refusals import refuse
+
+COOKIE = "heli2dof-access"
+_OPEN = frozenset(("/livez", "/healthz", "/favicon.ico", "/static/favicon.svg", "/static/login.css"))
+_LONGEST_FORM = 4096
+_LIFE = 180 * 24 * 3600
+"""Seconds that a browser keeps the cookie: a term."""
+
+
+class Access:
+    """Lets in who knows the token.
+
+    A browser gets a cookie for it, which holds not the token but what only the token yields, and is the
+    same on every replica. It goes to this server alone and no script can read it.
+
+    Args:
+        app: what comes next.
+        token: the secret.
+        ancestors: who may show the form in a frame; where that is another site, the cookie must be one
+            that browsers send from there.
+    """
+
+    def __init__(self, app: ASGIApp, token: str, ancestors: tuple[str, ...]) -> None:
+        self._next = app
+        self._token = token.encode()
+        self._pass = hmac.new(self._token, b"heli2dof cookie", hashlib.sha256).hexdigest().encode()
+        self._ancestors = ancestors
+        self._framed = any(not ancestor.startswith("'") for ancestor in ancestors)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Passes on what may come in."""
+        if scope["type"] not in ("http", "websocket") or self._may_enter(scope):
+            await self._next(scope, receive, send)
+            return
+        if scope["type"] == "http" and (reply := await self._page(Request(scope, receive))) is not None:
+            await reply(scope, receive, send)
+            return
+        body = problem(
+            401,
+            "This server asks for its access token.",
+            "unauthorized",
+            hint="Send Authorization: Bearer <token>.",
+        )
+        await refuse(scope, receive, send, body, {"WWW-Authenticate": 'Bearer realm="heli2dof"'})
+
+    def _may_enter(self, scope: Scope) -> bool:
+        path = scope["path"].removeprefix(scope.get("root_path", ""))
+        if path in _OPEN:
+            return True
+        headers = Headers(scope=scope)
+        kind, _, given = headers.get("authorization", "").partition(" ")
+        if kind.lower() == "bearer" and self._is_token(given.strip()):
+            # A link with the token in it still ends at an address without.
+            return True
+        cookie = cookie_parser(headers.get("cookie", "")).get(COOKIE, "")
+        known = hmac.compare_digest(cookie.encode("utf-8", "replace"), self._pass)
+        return known and not (scope["type"] == "http" and _token_of(scope["query_string"]))
+
+    def _is_token(self, given: str) -> bool:
+        return hmac.compare_digest(given.encode("utf-8", "replace"), self._token)
+
+    async def _page(self, request: Request) -> Response | None:
+        """What a person gets: the way in, or the form; None where a tool asks."""
+        given = _token_of(request.scope["query_string"])
+        form = request.headers.get("content-type", "").startswith("application/x-www-form-urlencoded")
+        if request.method == "POST" and form:
+            body = b""
+            async for part in request.stream():
+                body += part
+                if len(body) > _LONGEST_FORM:
+                    return None
+            given = dict(parse_qsl(body.decode("utf-8", "replace"))).get("token", "").strip() or " "
+        elif request.method not in ("GET", "HEAD") or "text/html" not in request.headers.get("accept", ""):
+            return None
+        if given and self._is_token(given):
+            return self._welcome(request)
+        text = login_form(
+            wrong=bool(given), root=request.scope.get("root_path", ""), path=request.scope["path"]
+        )
+        headers = {
+            "Cache-Control": "no-store",
+            "Content-Security-Policy": policies.login(self._ancestors),
+            "WWW-Authenticate": 'Bearer realm="heli2dof"',
+        }
+        return Response(text, 401, headers, media_type="text/html")
+
+    def _welcome(self, request: Request) -> Response:
+        """Back to the same address, without the token; relative, since a proxy's prefix may be unknown."""
+        query = urlencode([pair for pair in _pairs(request.scope["query_string"]) if pair[0] != "token"])
+        last = request.scope["path"].rpartition("/")[2]
+        reply = RedirectResponse(f"./{last}{'?' if query else ''}{query}", 303, {"Cache-Control": "no-store"})
+        secure = request.scope["scheme"] == "https"
+        elsewhere = secure and self._framed
+        reply.set_cookie(
+            COOKIE,
+            self._pass.decode(),
+            max_age=_LIFE,
+            path=request.scope.get("root_path", "") or "/",
+            secure=secure,
+            httponly=True,
+            samesite="none" if elsewhere else "lax",
+        )
+        if elsewhere:
+            # Of the site that frames this one: browsers drop other cookies there.
+            reply.headers["set-cookie"] += "; Partitioned"
+        return reply
+
+
+def _pairs(query: bytes) -> list[tuple[str, str]]:
+    return parse_qsl(query.decode("latin-1"), keep_blank_values=True)
+
+
+def _token_of(query: bytes) -> str:
+    return dict(_pairs(query)).get("token", "") if b"token=" in query else ""

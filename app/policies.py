@@ -1,0 +1,87 @@
+"""Content security policies: what the pages of this server may load and run."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from collections.abc import Iterable
+
+NOTHING = "default-src 'none'; frame-ancestors 'none'"
+"""Of what is no page, as JSON: shown by itself it loads nothing."""
+
+
+def _joined(ancestors: Iterable[str], **sources: str) -> str:
+    directives = [f"{name.replace('_', '-')} {value}" for name, value in sources.items()]
+    return "; ".join([*directives, f"frame-ancestors {' '.join(ancestors)}"])
+
+
+def hash_source(text: bytes) -> str:
+    """The source that allows an inline script or style of exactly this content."""
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text).digest()).decode()}'"
+
+
+def page(ancestors: Iterable[str]) -> str:
+    """Of the page: everything from its own origin, nothing inline."""
+    return _joined(
+        ancestors,
+        default_src="'none'",
+        script_src="'self'",
+        style_src="'self'",
+        img_src="'self'",
+        connect_src="'self'",
+        frame_src="'self'",
+        base_uri="'none'",
+        form_action="'none'",
+    )
+
+
+def api_docs(ancestors: Iterable[str]) -> str:
+    """Of /docs: Swagger UI shows its icons as data."""
+    return _joined(
+        ancestors,
+        default_src="'none'",
+        script_src="'self'",
+        style_src="'self'",
+        img_src="'self' data:",
+        connect_src="'self'",
+        base_uri="'none'",
+        form_action="'none'",
+    )
+
+
+def login(ancestors: Iterable[str]) -> str:
+    """Of the form that asks for the access token."""
+    return _joined(
+        ancestors,
+        default_src="'none'",
+        style_src="'self'",
+        img_src="'self'",
+        base_uri="'none'",
+        form_action="'self'",
+    )
+
+
+def viewer(ancestors: Iterable[str], scripts: Iterable[bytes]) -> str:
+    """Of viser's page.
+
+    Its scripts stand in the page itself, so each is allowed by its content's hash. It decompresses by
+    WebAssembly and talks in workers that it makes from blobs; its panel's library makes style elements
+    while it runs, whose content is not known before.
+
+    Args:
+        ancestors: who may show it in a frame.
+        scripts: what is inline.
+    """
+    hashes = " ".join(hash_source(script) for script in scripts)
+    return _joined(
+        ancestors,
+        default_src="'none'",
+        script_src=f"'self' {hashes} 'wasm-unsafe-eval'",
+        worker_src="blob:",
+        style_src="'self' 'unsafe-inline'",
+        img_src="'self' data: blob:",
+        connect_src="'self' data: blob:",
+        font_src="data:",
+        base_uri="'none'",
+        form_action="'none'",
+    )

@@ -1,0 +1,43 @@
+"""Whether the server lives, whether it is ready, and how it does."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request, Response
+
+from ..compute import Compute
+from ..encoding import json_response
+from ..metrics import Metrics
+from ..problems import problem, problem_response
+from ..visits import Visits
+
+
+def build_router(compute: Compute, visits: Visits, metrics: Metrics | None) -> APIRouter:
+    """The routes livez, healthz and, where there are any, metrics."""
+    router = APIRouter(tags=["health"])
+
+    @router.get("/livez", summary="200 while the process answers at all")
+    async def livez() -> Response:
+        return json_response({"status": "ok"})
+
+    @router.get("/healthz", summary="200 once ready to serve, 503 before and when it goes away")
+    async def healthz() -> Response:
+        if visits.closing:
+            gone = problem(503, "The server goes away.", "going_away", hint="Ask another one.")
+            return problem_response(gone, {"Retry-After": "5"})
+        if compute.ready:
+            return json_response({"status": "ok"})
+        return problem_response(
+            problem(503, "The derivation is not ready yet.", "starting", hint="Ask again in a second."),
+            {"Retry-After": "1"},
+        )
+
+    if metrics is not None:
+
+        @router.get("/metrics", include_in_schema=False)
+        def told(
+            request: Request,
+        ) -> Response:  # in a thread: the process's own figures are read from the disk
+            content, kind = metrics.text(request.headers.get("accept", ""))
+            return Response(content, headers={"Content-Type": kind, "Cache-Control": "no-store"})
+
+    return router
