@@ -24,7 +24,15 @@ _CODES = {
     "missing": ("missing_field", "Give this field."),
     "json_invalid": ("invalid_json", "Send one JSON object."),
 }
-_TITLES = {404: "Not found", 405: "Method not allowed", 422: "Invalid input", 503: "Not available now"}
+_TITLES = {
+    404: "Not found",
+    405: "Method not allowed",
+    413: "Too large",
+    422: "Invalid input",
+    429: "Too many requests",
+    503: "Not available now",
+}
+MEDIA_TYPE = "application/problem+json"
 
 
 class Problem(BaseModel):
@@ -58,6 +66,9 @@ def problem_of(error: Exception) -> dict[str, Any]:
             return _of_validation(error.errors()[0])
         case JSONDecodeError():
             return problem(422, f"Not JSON: {error}.", "invalid_json", hint="Send one JSON object.")
+        case HTTPException(status_code=400):  # FastAPI's own, for a body that its parser gives up on
+            hint = "Send one JSON object in UTF-8, not nested a thousand deep."
+            return problem(422, "The body is not JSON.", "invalid_json", hint=hint)
         case HTTPException():
             return problem(error.status_code, str(error.detail), f"http_{error.status_code}")
         case _:
@@ -66,7 +77,7 @@ def problem_of(error: Exception) -> dict[str, Any]:
 
 def problem_response(body: Mapping[str, Any], headers: Mapping[str, str] | None = None) -> Response:
     """A problem object as an HTTP response."""
-    return Response(json_bytes(body), body["status"], headers=headers, media_type="application/problem+json")
+    return Response(json_bytes(body), body["status"], headers=headers, media_type=MEDIA_TYPE)
 
 
 def install(app: FastAPI) -> None:
@@ -81,6 +92,36 @@ def install(app: FastAPI) -> None:
 
     for kind in (Heli2DofError, RequestValidationError, HTTPException, Exception):
         app.add_exception_handler(kind, answer)
+    _describe(app)
+
+
+def _describe(app: FastAPI) -> None:
+    """Puts into the OpenAPI document what each call may be refused with."""
+    plain = app.openapi
+
+    def openapi() -> dict[str, Any]:
+        document = plain()
+        schemas = document["components"]["schemas"]
+        if "Problem" in schemas:
+            return document
+        schemas["Problem"] = Problem.model_json_schema()
+        for name in ("HTTPValidationError", "ValidationError"):
+            schemas.pop(name, None)
+        content = {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
+        for operations in document["paths"].values():
+            for operation in operations.values():
+                takes_body = "requestBody" in operation
+                takes_input = takes_body or operation.get("parameters")
+                refusals = {413: takes_body, 422: takes_input, 429: True, 503: True}
+                for status, may_be in refusals.items():
+                    if may_be:
+                        about = {"description": _TITLES[status], "content": content}
+                        if status in (429, 503):
+                            about["headers"] = {"Retry-After": {"schema": {"type": "integer"}, "description": "s"}}
+                        operation["responses"][str(status)] = about
+        return document
+
+    app.openapi = openapi
 
 
 def _of_validation(error: Mapping[str, Any]) -> dict[str, Any]:

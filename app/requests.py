@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from itertools import permutations
 from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, create_model
@@ -17,9 +18,12 @@ from heli2dof_core.design import FULL_RANK
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.placement.method import Weights
 from heli2dof_core.placement.registry import METHODS
-from heli2dof_core.presets import DEFAULT
+from heli2dof_core.plant import STEEPEST
+from heli2dof_core.presets import DEFAULT, PRESETS
 from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
 from heli2dof_core.spec import (
+    LONGEST,
+    MOST_SAMPLES,
     AntiWindup,
     Digital,
     Disturbance,
@@ -37,6 +41,16 @@ class Strict(BaseModel):
     """Unknown fields, text for numbers, NaN and infinity are refused."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+
+
+def within(low: float, high: float) -> Any:
+    """A range for the schema alone: the core checks it too, and its message names the unit."""
+    return Field(json_schema_extra={"minimum": low, "maximum": high})
+
+
+PresetName = Annotated[str, Field(json_schema_extra={"enum": [*PRESETS]})]
+Seconds = Annotated[float, within(1e-3, LONGEST)]
+Angle = Annotated[float, within(-100.0, 100.0)]
 
 
 def _complex(value: Any) -> complex:
@@ -78,7 +92,10 @@ ParameterChanges = create_model(
     "ParameterChanges",
     __base__=Strict,
     **{  # pyright: ignore[reportArgumentType, reportCallIssue]
-        name: (float | None, Field(default=None, description=f"{info['meaning']}, {info['unit']}"))
+        name: (
+            Annotated[float, within(info["low"], info["high"])] | None,
+            Field(default=None, description=f"{info['meaning']}, {info['unit']}"),
+        )
         for name, info in PARAMETER_INFO.items()
     },
 )
@@ -87,22 +104,22 @@ ParameterChanges = create_model(
 class LimitChanges(Strict):
     """Limits that differ from the preset's."""
 
-    V_p: float | None = Field(default=None, description="limit of |V_p|, V")
-    V_y: float | None = Field(default=None, description="limit of |V_y|, V")
-    theta: float | None = Field(default=None, description="pitch travel ±theta, rad; null where it is free")
+    V_p: Annotated[float, within(1e-3, 1e6)] | None = Field(default=None, description="limit of |V_p|, V")
+    V_y: Annotated[float, within(1e-3, 1e6)] | None = Field(default=None, description="limit of |V_y|, V")
+    theta: Annotated[float, within(1e-3, 3.2)] | None = Field(default=None, description="pitch travel ±theta, rad; null where it is free")
 
 
 class OperatingPoint(Strict):
     """Where the rig rests and the model is linearized."""
 
-    theta: float = Field(default=0.0, description="pitch angle θ₀, rad")
+    theta: Annotated[float, within(-STEEPEST, STEEPEST)] = Field(default=0.0, description="pitch angle θ₀, rad")
 
 
 class LoopChanges(Strict):
     """PI(s) = kp (1 + 1/(ti s)) of one axis."""
 
-    kp: float | None = Field(default=None, description="V/rad")
-    ti: float | None = Field(default=None, description="s")
+    kp: Annotated[float, within(-1e6, 1e6)] | None = Field(default=None, description="V/rad")
+    ti: Annotated[float, within(1e-6, 1e6)] | None = Field(default=None, description="s")
 
 
 class LoopsChanges(Strict):
@@ -112,6 +129,7 @@ class LoopsChanges(Strict):
     yaw: LoopChanges = LoopChanges()
 
 
+Pair = Annotated[list[Annotated[int, Field(ge=0, le=3)]], Field(min_length=2, max_length=2)]
 Weight = Annotated[float, Field(ge=0, le=1e12)]
 PositiveWeight = Annotated[float, Field(gt=0, le=1e12)]
 
@@ -154,7 +172,7 @@ class WeightChanges(Strict):
 class DesignRequest(Strict):
     """A design: what differs from the preset."""
 
-    preset: str = Field(default=DEFAULT, description="name of a preset, see GET /api/v1/presets")
+    preset: PresetName = Field(default=DEFAULT, description="name of a preset, see GET /api/v1/presets")
     parameters: ParameterChanges = ParameterChanges()  # pyright: ignore[reportInvalidTypeForm]
     limits: LimitChanges = LimitChanges()
     operating_point: OperatingPoint | None = None
@@ -166,10 +184,12 @@ class DesignRequest(Strict):
     )
     coupling: Coupling | None = None
     lead: Lead | None = Field(default=None, description="axis that leads where the coupling is triangular")
-    split: list[list[Annotated[int, Field(ge=0, le=3)]]] | None = Field(
-        default=None, description="which poles, by position from 0, form pitch's pair and which yaw's"
+    split: list[Pair] | None = Field(
+        default=None,
+        min_length=2,
+        max_length=2, description="which poles, by position from 0, form pitch's pair and which yaw's"
     )
-    shift: float | None = Field(
+    shift: Annotated[float, within(-1e6, 1e6)] | None = Field(
         default=None,
         description="shift c of Luenberger's basis, q₁ → q₁ + c q₂ (yaw leading: q₂ → q₂ + c q₁)",
     )
@@ -245,7 +265,7 @@ class RgaRequest(DesignRequest):
 class LoopsRequest(DesignRequest):
     """A design with its outer loop, and frequencies at which L(jω) is wanted."""
 
-    frequencies: list[Annotated[float, Field(gt=0, le=1e6)]] = Field(
+    frequencies: list[Annotated[float, Field(ge=1e-9, le=1e6)]] = Field(
         min_length=1, max_length=2000, description="rad/s"
     )
 
@@ -253,43 +273,45 @@ class LoopsRequest(DesignRequest):
 class Reference(Strict):
     """Reference angles after t = 0, absolute."""
 
-    theta: float | None = Field(default=None, description="rad")
-    psi: float | None = Field(default=None, description="rad")
+    theta: Angle | None = Field(default=None, description="rad")
+    psi: Angle | None = Field(default=None, description="rad")
 
 
 class Initial(Strict):
     """State at t = 0; angles are absolute, and at rest where left out."""
 
-    theta: float | None = Field(default=None, description="rad")
-    psi: float | None = Field(default=None, description="rad")
-    theta_dot: float = Field(default=0.0, description="rad/s")
-    psi_dot: float = Field(default=0.0, description="rad/s")
+    theta: Angle | None = Field(default=None, description="rad")
+    psi: Angle | None = Field(default=None, description="rad")
+    theta_dot: Angle = Field(default=0.0, description="rad/s")
+    psi_dot: Angle = Field(default=0.0, description="rad/s")
 
 
 class EncoderCounts(Strict):
     """Counts per revolution; 0 measures exactly."""
 
-    theta: int = Field(default=4096, ge=0, description="of pitch")
-    psi: int = Field(default=8192, ge=0, description="of yaw")
+    theta: int = Field(default=4096, ge=0, le=10**7, description="of pitch")
+    psi: int = Field(default=8192, ge=0, le=10**7, description="of yaw")
 
 
 class DigitalController(Strict):
     """The rig's own controller: sampled, quantized, filtered, late, noisy."""
 
-    sample_time: float = Field(default=0.002, description="s; voltages are held between samples")
+    sample_time: Annotated[float, within(1e-4, 1.0)] = Field(default=0.002, description="s; voltages are held between samples")
     delay: bool = Field(default=False, description="voltages reach the motors one sample late")
     encoders: EncoderCounts | None = Field(default=None, description="the preset's where left out")
     rates: Rates = Field(default="filtered", description="filtered: from the angles, 20 Hz, damping 0.85")
-    noise: float = Field(default=0.0, description="standard deviation on the measured angles, rad")
+    noise: Annotated[float, within(0.0, 1.0)] = Field(
+        default=0.0, description="standard deviation on the measured angles, rad"
+    )
     seed: int = Field(default=0, ge=0, le=2**32 - 1, description="of the noise")
 
 
 class InputDisturbance(Strict):
     """Volts that act on the motors besides the controller's, from `time` on."""
 
-    V_p: float = Field(0.0, description="pitch motor, V")
-    V_y: float = Field(0.0, description="yaw motor, V")
-    time: float = Field(default=0.0, description="s")
+    V_p: Annotated[float, within(-1e3, 1e3)] = Field(0.0, description="pitch motor, V")
+    V_y: Annotated[float, within(-1e3, 1e3)] = Field(0.0, description="yaw motor, V")
+    time: Annotated[float, within(0.0, LONGEST)] = Field(default=0.0, description="s")
 
 
 class ScenarioChanges(Strict):
@@ -297,18 +319,18 @@ class ScenarioChanges(Strict):
 
     model: Model = Field(default="nonlinear", description="ignored by evaluate, which computes both")
     reference: Reference | None = None
-    duration: float | None = Field(default=None, description="s")
-    samples: int | None = Field(default=None, description="t = linspace(0, duration, samples)")
+    duration: Seconds | None = Field(default=None, description="s")
+    samples: Annotated[int, within(2, MOST_SAMPLES)] | None = Field(default=None, description="t = linspace(0, duration, samples)")
     initial: Initial = Initial()
     saturation: bool = True
     anti_windup: AntiWindup = "clamping"
-    tracking_time: float | None = Field(
+    tracking_time: Annotated[float, within(1e-4, 1e4)] | None = Field(
         default=None,
         description="of back-calculation, s, 1e-4 to 1e4; each loop's integral time where left out",
     )
     travel_stops: bool = True
     trim_feedforward: bool = True
-    rtol: float = Field(default=1e-8, description="tolerance of the nonlinear integration")
+    rtol: Annotated[float, within(1e-12, 1e-2)] = Field(default=1e-8, description="tolerance of the nonlinear integration")
     digital: DigitalController | None = Field(default=None, description="nonlinear model; null is continuous")
     disturbance: InputDisturbance | None = Field(default=None, description="nonlinear model")
 

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Annotated, Any
 
 from pydantic import Field
 
+from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.robustness import Cloud, Distribution, Uncertainty
 
 from .models import Complex, Model
 from .replies import Reply, poles_reply
-from .requests import StepRequest
+from .requests import StepRequest, within
 
 MOST_POLES = 2000
 """Rigs whose poles are sent; more make no other picture."""
@@ -20,8 +21,11 @@ MOST_POLES = 2000
 class RobustnessRequest(StepRequest):
     """A design, an experiment, and how far the rigs may differ from the nominal one."""
 
-    uncertainty: dict[str, float] | None = Field(
-        default=None, description="relative, per parameter; by default 0.1 for all but g"
+    uncertainty: dict[str, Annotated[float, within(0.0, 0.95)]] | None = Field(
+        default=None,
+        max_length=len(PARAMETER_INFO),
+        json_schema_extra={"propertyNames": {"enum": [*PARAMETER_INFO]}},
+        description="relative, per parameter; by default 0.1 for all but g"
     )
     distribution: Distribution = "uniform"
     samples: int = Field(default=200, ge=1, le=20_000, description="how many rigs")

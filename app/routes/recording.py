@@ -80,5 +80,4 @@ def _described() -> dict[str, Any]:
     content = {kind.partition(";")[0]: {"schema": {"type": "string"}} for kind in _TYPES.values()}
     del options["responses"][200]["model"]
     options["responses"][200]["content"] = content
-    options["responses"][503] = {"description": "Too many are being made"}
     return {**options, "response_class": Response}

@@ -200,5 +200,4 @@ def _makes_a_file() -> dict[str, Any]:
     options = described(None, "A recording of the design's digital rig, CSV")
     del options["responses"][200]["model"]
     options["responses"][200]["content"] = {"text/csv": {"schema": {"type": "string"}}}
-    options["responses"][503] = {"description": "Still compiling"}
     return {**options, "response_class": Response}
