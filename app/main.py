@@ -15,6 +15,7 @@ from heli2dof_core.version import package_version
 
 from . import examples, live, problems, robustness, scene
 from .compute import Compute
+from .limits import Limits
 from .routes import catalogue, comparison, derivation, design, exports, frequency, recording, recordings
 from .settings import Settings
 
@@ -27,7 +28,12 @@ _DESCRIPTION = (
 def create_app(settings: Settings | None = None) -> FastAPI:
     """Builds the application; all state hangs on it, nothing is global."""
     settings = settings or Settings()
-    compute = Compute()
+    compute = Compute(
+        slow_threads=settings.slow_threads,
+        most_waiting=settings.slow_waiting,
+        most_each=settings.slow_each,
+        seconds=settings.slow_seconds,
+    )
     sessions = scene.SceneSessions(capacity=settings.scenes)
 
     @contextlib.asynccontextmanager
@@ -52,7 +58,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(derivation.build_router(compute))
     app.include_router(comparison.build_router(compute))
     app.include_router(recording.build_router(compute))
-    app.include_router(recordings.build_router(compute))
+    app.include_router(recordings.build_router(compute, settings))
     app.include_router(exports.build_router(compute))
     app.include_router(live.build_router(compute))
     app.include_router(robustness.build_router(compute))
@@ -61,6 +67,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.mount("/static", RevalidatedFiles(directory=settings.static), name="static")
     problems.install(app)
     examples.install(app)
+    app.add_middleware(Limits, settings=settings)
 
     @app.get("/", include_in_schema=False)
     async def page() -> FileResponse:

@@ -11,7 +11,6 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 
 
-
 class Model(BaseModel):
     """A reply's part: all numbers are finite, and nothing is said that is not described here."""
 

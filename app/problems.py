@@ -16,6 +16,7 @@ from starlette.exceptions import HTTPException
 from heli2dof_core import Heli2DofError
 
 from .encoding import json_bytes
+from .queue import BusyError, OverdueError
 
 _log = logging.getLogger(__name__)
 
@@ -26,6 +27,7 @@ _CODES = {
 }
 _TITLES = {
     404: "Not found",
+    408: "Too slow",
     405: "Method not allowed",
     413: "Too large",
     422: "Invalid input",
@@ -55,7 +57,7 @@ def problem(status: int, detail: str, code: str, **more: Any) -> dict[str, Any]:
     return {**known, "detail": detail, "code": code, **extra}
 
 
-def problem_of(error: Exception) -> dict[str, Any]:
+def problem_of(error: Exception) -> dict[str, Any]:  # noqa: PLR0911
     """The problem object of whatever a request may raise."""
     match error:
         case Heli2DofError():
@@ -66,6 +68,15 @@ def problem_of(error: Exception) -> dict[str, Any]:
             return _of_validation(error.errors()[0])
         case JSONDecodeError():
             return problem(422, f"Not JSON: {error}.", "invalid_json", hint="Send one JSON object.")
+        case BusyError():
+            return problem(503, str(error), "busy", hint=f"Ask again in {error.retry_after} s.")
+        case OverdueError():
+            return problem(
+                503,
+                str(error),
+                "overdue",
+                hint="Ask for less: fewer rigs, a shorter or less exact experiment.",
+            )
         case HTTPException(status_code=400):  # FastAPI's own, for a body that its parser gives up on
             hint = "Send one JSON object in UTF-8, not nested a thousand deep."
             return problem(422, "The body is not JSON.", "invalid_json", hint=hint)
@@ -88,9 +99,11 @@ def install(app: FastAPI) -> None:
         if body["status"] == 500:
             _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
         headers = error.headers if isinstance(error, HTTPException) else None
+        if body["status"] == 503 and not headers:
+            headers = {"Retry-After": str(getattr(error, "retry_after", 30))}
         return problem_response(body, headers)
 
-    for kind in (Heli2DofError, RequestValidationError, HTTPException, Exception):
+    for kind in (Heli2DofError, RequestValidationError, HTTPException, BusyError, OverdueError, Exception):
         app.add_exception_handler(kind, answer)
     _describe(app)
 
@@ -117,7 +130,9 @@ def _describe(app: FastAPI) -> None:
                     if may_be:
                         about = {"description": _TITLES[status], "content": content}
                         if status in (429, 503):
-                            about["headers"] = {"Retry-After": {"schema": {"type": "integer"}, "description": "s"}}
+                            about["headers"] = {
+                                "Retry-After": {"schema": {"type": "integer"}, "description": "s"}
+                            }
                         operation["responses"][str(status)] = about
         return document
 

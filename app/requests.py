@@ -48,6 +48,17 @@ def within(low: float, high: float) -> Any:
     return Field(json_schema_extra={"minimum": low, "maximum": high})
 
 
+def _optional(low: float, high: float) -> Any:
+    number: Any = Annotated[float, within(low, high)]
+    return number | None
+
+
+def _whole(value: Any) -> Any:
+    """2.0 is an integer in JSON Schema's sense, and so here."""
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+Whole = Annotated[int, BeforeValidator(_whole)]
 PresetName = Annotated[str, Field(json_schema_extra={"enum": [*PRESETS]})]
 Seconds = Annotated[float, within(1e-3, LONGEST)]
 Angle = Annotated[float, within(-100.0, 100.0)]
@@ -93,7 +104,7 @@ ParameterChanges = create_model(
     __base__=Strict,
     **{  # pyright: ignore[reportArgumentType, reportCallIssue]
         name: (
-            Annotated[float, within(info["low"], info["high"])] | None,
+            _optional(info["low"], info["high"]),
             Field(default=None, description=f"{info['meaning']}, {info['unit']}"),
         )
         for name, info in PARAMETER_INFO.items()
@@ -106,13 +117,17 @@ class LimitChanges(Strict):
 
     V_p: Annotated[float, within(1e-3, 1e6)] | None = Field(default=None, description="limit of |V_p|, V")
     V_y: Annotated[float, within(1e-3, 1e6)] | None = Field(default=None, description="limit of |V_y|, V")
-    theta: Annotated[float, within(1e-3, 3.2)] | None = Field(default=None, description="pitch travel ±theta, rad; null where it is free")
+    theta: Annotated[float, within(1e-3, 3.2)] | None = Field(
+        default=None, description="pitch travel ±theta, rad; null where it is free"
+    )
 
 
 class OperatingPoint(Strict):
     """Where the rig rests and the model is linearized."""
 
-    theta: Annotated[float, within(-STEEPEST, STEEPEST)] = Field(default=0.0, description="pitch angle θ₀, rad")
+    theta: Annotated[float, within(-STEEPEST, STEEPEST)] = Field(
+        default=0.0, description="pitch angle θ₀, rad"
+    )
 
 
 class LoopChanges(Strict):
@@ -129,7 +144,15 @@ class LoopsChanges(Strict):
     yaw: LoopChanges = LoopChanges()
 
 
-Pair = Annotated[list[Annotated[int, Field(ge=0, le=3)]], Field(min_length=2, max_length=2)]
+Pair = Annotated[list[Annotated[Whole, Field(ge=0, le=3)]], Field(min_length=2, max_length=2)]
+Split = Annotated[
+    list[Pair],
+    Field(
+        min_length=2,
+        max_length=2,
+        json_schema_extra={"enum": [[[a, b], [c, d]] for a, b, c, d in permutations(range(4))]},
+    ),
+]
 Weight = Annotated[float, Field(ge=0, le=1e12)]
 PositiveWeight = Annotated[float, Field(gt=0, le=1e12)]
 
@@ -184,10 +207,11 @@ class DesignRequest(Strict):
     )
     coupling: Coupling | None = None
     lead: Lead | None = Field(default=None, description="axis that leads where the coupling is triangular")
-    split: list[Pair] | None = Field(
+    split: Split | None = Field(
         default=None,
         min_length=2,
-        max_length=2, description="which poles, by position from 0, form pitch's pair and which yaw's"
+        max_length=2,
+        description="which poles, by position from 0, form pitch's pair and which yaw's",
     )
     shift: Annotated[float, within(-1e6, 1e6)] | None = Field(
         default=None,
@@ -289,21 +313,23 @@ class Initial(Strict):
 class EncoderCounts(Strict):
     """Counts per revolution; 0 measures exactly."""
 
-    theta: int = Field(default=4096, ge=0, le=10**7, description="of pitch")
-    psi: int = Field(default=8192, ge=0, le=10**7, description="of yaw")
+    theta: Whole = Field(default=4096, ge=0, le=10**7, description="of pitch")
+    psi: Whole = Field(default=8192, ge=0, le=10**7, description="of yaw")
 
 
 class DigitalController(Strict):
     """The rig's own controller: sampled, quantized, filtered, late, noisy."""
 
-    sample_time: Annotated[float, within(1e-4, 1.0)] = Field(default=0.002, description="s; voltages are held between samples")
+    sample_time: Annotated[float, within(1e-4, 1.0)] = Field(
+        default=0.002, description="s; voltages are held between samples"
+    )
     delay: bool = Field(default=False, description="voltages reach the motors one sample late")
     encoders: EncoderCounts | None = Field(default=None, description="the preset's where left out")
     rates: Rates = Field(default="filtered", description="filtered: from the angles, 20 Hz, damping 0.85")
     noise: Annotated[float, within(0.0, 1.0)] = Field(
         default=0.0, description="standard deviation on the measured angles, rad"
     )
-    seed: int = Field(default=0, ge=0, le=2**32 - 1, description="of the noise")
+    seed: Whole = Field(default=0, ge=0, le=2**32 - 1, description="of the noise")
 
 
 class InputDisturbance(Strict):
@@ -320,7 +346,9 @@ class ScenarioChanges(Strict):
     model: Model = Field(default="nonlinear", description="ignored by evaluate, which computes both")
     reference: Reference | None = None
     duration: Seconds | None = Field(default=None, description="s")
-    samples: Annotated[int, within(2, MOST_SAMPLES)] | None = Field(default=None, description="t = linspace(0, duration, samples)")
+    samples: Annotated[Whole, within(2, MOST_SAMPLES)] | None = Field(
+        default=None, description="t = linspace(0, duration, samples)"
+    )
     initial: Initial = Initial()
     saturation: bool = True
     anti_windup: AntiWindup = "clamping"
@@ -330,7 +358,9 @@ class ScenarioChanges(Strict):
     )
     travel_stops: bool = True
     trim_feedforward: bool = True
-    rtol: Annotated[float, within(1e-12, 1e-2)] = Field(default=1e-8, description="tolerance of the nonlinear integration")
+    rtol: Annotated[float, within(1e-12, 1e-2)] = Field(
+        default=1e-8, description="tolerance of the nonlinear integration"
+    )
     digital: DigitalController | None = Field(default=None, description="nonlinear model; null is continuous")
     disturbance: InputDisturbance | None = Field(default=None, description="nonlinear model")
 
@@ -399,4 +429,4 @@ class CompareRequest(StepRequest):
 class LiveRequest(EvaluateRequest):
     """An evaluate request with the number that its answer will carry."""
 
-    seq: int = Field(ge=0, le=2**53)
+    seq: Whole = Field(ge=0, le=2**53)

@@ -12,7 +12,7 @@ from heli2dof_core.robustness import Cloud, Distribution, Uncertainty
 
 from .models import Complex, Model
 from .replies import Reply, poles_reply
-from .requests import StepRequest, within
+from .requests import StepRequest, Whole, within
 
 MOST_POLES = 2000
 """Rigs whose poles are sent; more make no other picture."""
@@ -25,11 +25,11 @@ class RobustnessRequest(StepRequest):
         default=None,
         max_length=len(PARAMETER_INFO),
         json_schema_extra={"propertyNames": {"enum": [*PARAMETER_INFO]}},
-        description="relative, per parameter; by default 0.1 for all but g"
+        description="relative, per parameter; by default 0.1 for all but g",
     )
     distribution: Distribution = "uniform"
-    samples: int = Field(default=200, ge=1, le=20_000, description="how many rigs")
-    seed: int = Field(default=0, ge=0, le=2**32 - 1, description="of the random rigs")
+    samples: Whole = Field(default=200, ge=1, le=20_000, description="how many rigs")
+    seed: Whole = Field(default=0, ge=0, le=2**32 - 1, description="of the random rigs")
 
     def to_uncertainty(self) -> Uncertainty:
         """The core's uncertainty."""
@@ -48,7 +48,7 @@ class RobustnessReply(Model):
     """After `done` of `samples` rigs; poles of the whole loop of the first of them, rad/s."""
 
     done: int = Field(description="rigs so far")
-    samples: int = Field(description="rigs in all")
+    samples: Whole = Field(description="rigs in all")
     loop_poles: list[list[Complex]]
     t: list[float] = Field(description="s")
     percentiles: list[float] = Field(description="%, of `envelopes`")

@@ -32,7 +32,7 @@ def build_router(compute: Compute) -> APIRouter:
     @router.post("/export/{format}", **_described())
     async def export(request: StepRequest, name: FormatName, link: Link = None) -> Response:
         chosen = require_known(name, FORMATS, "format")
-        content = await compute.run(lambda: chosen.content(request.to_spec(), link or ""))
+        content = await compute.run_slow(lambda: chosen.content(request.to_spec(), link or ""))
         headers = {"Content-Disposition": f'attachment; filename="{chosen.filename}"'}
         return Response(content, media_type=chosen.media_type, headers=headers)
 

@@ -40,7 +40,7 @@ def build_router(compute: Compute) -> APIRouter:
         spec = request.to_spec()
         waiting += 1
         try:
-            motion = await compute.run(_motion, spec, request.scenario.model)
+            motion = await compute.run_slow(_motion, spec, request.scenario.model)
             async with free:  # one at a time leaves a processor to the designs
                 content = await asyncio.to_thread(record, rig, motion, kind, _title(title, spec))
         finally:

@@ -85,7 +85,7 @@ PLACE_PROBLEMS = [
 def test_bad_systems_are_problems_that_name_their_field(client, change, code, field):
     reply = post(client, "place", {**SYSTEM, "poles": WANTED, **change}, status=422)
     assert (reply["code"], reply["field"]) == (code, field)
-    models.Problem.model_validate(reply)
+    Problem.model_validate(reply)
 
 
 def test_a_dyadic_method_on_the_helicopter_explains_why_it_cannot_be(client):

@@ -130,7 +130,7 @@ def test_refused_identifications(client, sent, body, field):
 
 
 def test_the_store_forgets_the_longest_unused():
-    store = RecordingStore(most_bytes=2500)
+    store = RecordingStore(most=100, most_bytes=2500)
     keys = [store.put(Table(("x",), np.zeros((100, 1)))) for _ in range(3)]
     assert store.get(keys[0]).names == ("x",)
     store.put(Table(("x",), np.zeros((100, 1))))
