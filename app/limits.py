@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 from collections import Counter, OrderedDict
+from collections.abc import Iterator
 from ipaddress import IPv6Address, ip_address
 from time import monotonic
 from typing import Any
@@ -54,18 +55,35 @@ class Buckets:
         return wait
 
 
-class Limits:
-    """Refuses what goes beyond the settings, each with its clear answer; tells the core's threads who asks."""
+class OpenSockets:
+    """How many WebSockets are open, by address."""
 
-    def __init__(self, app: ASGIApp, settings: Settings) -> None:
-        self._app, self._settings = app, settings
-        self._buckets = Buckets(settings.request_rate, settings.request_burst)
-        self._sockets: Counter[str] = Counter()
+    def __init__(self) -> None:
+        self.by_address: Counter[str] = Counter()
 
     @property
     def sockets(self) -> int:
-        """How many are open."""
-        return self._sockets.total()
+        """All of them."""
+        return self.by_address.total()
+
+    @contextlib.contextmanager
+    def one_more(self, address: str) -> Iterator[None]:
+        """Counts one while the context lasts."""
+        self.by_address[address] += 1
+        try:
+            yield
+        finally:
+            self.by_address[address] -= 1
+            if not self.by_address[address]:
+                del self.by_address[address]
+
+
+class Limits:
+    """Refuses what goes beyond the settings, each with its clear answer; tells the core's threads who asks."""
+
+    def __init__(self, app: ASGIApp, settings: Settings, sockets: OpenSockets) -> None:
+        self._app, self._settings, self._open = app, settings, sockets
+        self._buckets = Buckets(settings.request_rate, settings.request_burst)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Passes on what is within the limits."""
@@ -106,21 +124,18 @@ class Limits:
 
     async def _websocket(self, scope: Scope, receive: Receive, send: Send) -> None:
         address, settings = address_of(scope), self._settings
-        if self.sockets >= settings.sockets:
+        if self._open.sockets >= settings.sockets:
             return await _turn_away(receive, send, f"the server has {settings.sockets} sockets open")
-        if self._sockets[address] >= settings.sockets_per_address:
+        if self._open.by_address[address] >= settings.sockets_per_address:
             return await _turn_away(
                 receive, send, f"this address has {settings.sockets_per_address} sockets open"
             )
-        self._sockets[address] += 1
         token = asking.set(Asking((address, _connection(scope))))
         try:
-            await self._app(scope, receive, send)
+            with self._open.one_more(address):
+                await self._app(scope, receive, send)
         finally:
             asking.reset(token)
-            self._sockets[address] -= 1
-            if not self._sockets[address]:
-                del self._sockets[address]
         return None
 
 

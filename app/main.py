@@ -15,7 +15,7 @@ from heli2dof_core.version import package_version
 
 from . import examples, live, problems, robustness, scene
 from .compute import Compute
-from .limits import Limits
+from .limits import Limits, OpenSockets
 from .routes import catalogue, comparison, derivation, design, exports, frequency, recording, recordings
 from .settings import Settings
 
@@ -67,7 +67,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.mount("/static", RevalidatedFiles(directory=settings.static), name="static")
     problems.install(app)
     examples.install(app)
-    app.add_middleware(Limits, settings=settings)
+    app.state.limits = OpenSockets()
+    app.add_middleware(Limits, settings=settings, sockets=app.state.limits)
 
     @app.get("/", include_in_schema=False)
     async def page() -> FileResponse:

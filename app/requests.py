@@ -144,14 +144,9 @@ class LoopsChanges(Strict):
     yaw: LoopChanges = LoopChanges()
 
 
-Pair = Annotated[list[Annotated[Whole, Field(ge=0, le=3)]], Field(min_length=2, max_length=2)]
 Split = Annotated[
-    list[Pair],
-    Field(
-        min_length=2,
-        max_length=2,
-        json_schema_extra={"enum": [[[a, b], [c, d]] for a, b, c, d in permutations(range(4))]},
-    ),
+    list[list[Annotated[Whole, Field(ge=0, le=3)]]],
+    Field(json_schema_extra={"enum": [[[a, b], [c, d]] for a, b, c, d in permutations(range(4))]}),
 ]
 Weight = Annotated[float, Field(ge=0, le=1e12)]
 PositiveWeight = Annotated[float, Field(gt=0, le=1e12)]

@@ -63,7 +63,7 @@ def test_problems_name_row_and_column(client, sample):
     assert problem["code"] == "unusable_recording"
     assert "row 11, column 'theta'" in problem["detail"]
     assert upload(client, b"", status=422)["field"] == "file"
-    upload(client, b"1" * (33 * 2**20), status=422)
+    upload(client, b"1" * (33 * 2**20), status=413)
 
 
 @pytest.mark.parametrize(
