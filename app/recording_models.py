@@ -13,7 +13,8 @@ from heli2dof_core.recordings import ROLES, AngleUnit, Columns, Recording, Table
 from heli2dof_core.signals import Floats
 
 from .models import Finding, Model
-from .requests import DesignRequest, StepRequest, Strict, Whole, within
+from .request_fields import Strict, Whole, within
+from .requests import DesignRequest, StepRequest
 
 PREVIEWED = 5
 MOST_POINTS = 1500

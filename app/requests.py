@@ -7,10 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from itertools import permutations
 from typing import Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, create_model
+from pydantic import BaseModel, Field, create_model
 
 from heli2dof_core import OuterLoop, PIGains, PoleSet, Preset, Spec, Structure, preset
 from heli2dof_core.couplings import Coupling, Lead
@@ -19,7 +18,7 @@ from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.placement.method import Weights
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.plant import STEEPEST
-from heli2dof_core.presets import DEFAULT, PRESETS
+from heli2dof_core.presets import DEFAULT
 from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
 from heli2dof_core.spec import (
     LONGEST,
@@ -36,75 +35,26 @@ from heli2dof_core.spec import (
 )
 from heli2dof_core.weights import bryson_weights
 
-
-class Strict(BaseModel):
-    """Unknown fields, text for numbers, NaN and infinity are refused."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
-
-
-def within(low: float, high: float) -> Any:
-    """A range for the schema alone: the core checks it too, and its message names the unit."""
-    return Field(json_schema_extra={"minimum": low, "maximum": high})
-
-
-def _optional(low: float, high: float) -> Any:
-    number: Any = Annotated[float, within(low, high)]
-    return number | None
-
-
-def _whole(value: Any) -> Any:
-    """2.0 is an integer in JSON Schema's sense, and so here."""
-    return int(value) if isinstance(value, float) and value.is_integer() else value
-
-
-Whole = Annotated[int, BeforeValidator(_whole)]
-PresetName = Annotated[str, Field(json_schema_extra={"enum": [*PRESETS]})]
-Seconds = Annotated[float, within(1e-3, LONGEST)]
-Angle = Annotated[float, within(-100.0, 100.0)]
-
-
-def _complex(value: Any) -> complex:
-    """A plain number, or ``{"re": …, "im": …}``; ranges are the core's business."""
-    parts = (value, 0.0)
-    if isinstance(value, dict):
-        if set(value) != {"re", "im"}:
-            raise ValueError('a complex number is {"re": -3.0, "im": 4.0}')
-        parts = (value["re"], value["im"])
-    if any(isinstance(part, bool) or not isinstance(part, (int, float)) for part in parts):
-        raise ValueError('a pole is a number, or {"re": -3.0, "im": 4.0}')
-    try:
-        return complex(*parts)
-    except OverflowError as error:
-        raise ValueError("a pole's parts must be finite numbers") from error
-
-
-_NUMBER = {"type": "number", "minimum": -1e5, "maximum": 1e5}
-Pole = Annotated[
-    complex,
-    BeforeValidator(_complex),
-    WithJsonSchema(
-        {
-            "anyOf": [
-                _NUMBER,
-                {
-                    "type": "object",
-                    "properties": {"re": _NUMBER, "im": _NUMBER},
-                    "required": ["re", "im"],
-                    "additionalProperties": False,
-                },
-            ],
-            "description": "rad/s; a real pole may be a plain number",
-        }
-    ),
-]
+from .request_fields import (
+    Angle,
+    Pole,
+    PositiveWeight,
+    PresetName,
+    Seconds,
+    Split,
+    Strict,
+    Weight,
+    Whole,
+    optional,
+    within,
+)
 
 ParameterChanges = create_model(
     "ParameterChanges",
     __base__=Strict,
     **{  # pyright: ignore[reportArgumentType, reportCallIssue]
         name: (
-            _optional(info["low"], info["high"]),
+            optional(info["low"], info["high"]),
             Field(default=None, description=f"{info['meaning']}, {info['unit']}"),
         )
         for name, info in PARAMETER_INFO.items()
@@ -142,14 +92,6 @@ class LoopsChanges(Strict):
 
     pitch: LoopChanges = LoopChanges()
     yaw: LoopChanges = LoopChanges()
-
-
-Split = Annotated[
-    list[list[Annotated[Whole, Field(ge=0, le=3)]]],
-    Field(json_schema_extra={"enum": [[[a, b], [c, d]] for a, b, c, d in permutations(range(4))]}),
-]
-Weight = Annotated[float, Field(ge=0, le=1e12)]
-PositiveWeight = Annotated[float, Field(gt=0, le=1e12)]
 
 
 def _weights_of(name: str, signals: Iterable[Signal], kind: Any, meaning: str) -> type[Strict]:

@@ -12,7 +12,8 @@ from heli2dof_core.robustness import Cloud, Distribution, Uncertainty
 
 from .models import Complex, Model
 from .replies import Reply, poles_reply
-from .requests import StepRequest, Whole, within
+from .request_fields import Whole, within
+from .requests import StepRequest
 
 MOST_POLES = 2000
 """Rigs whose poles are sent; more make no other picture."""

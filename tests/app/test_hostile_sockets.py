@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import json
 import os
@@ -47,33 +48,11 @@ scalars = (
     | st.text()
     | st.sampled_from(["\x00", "__import__('os')", "1/0", "NaN", "é" * 100, "\ud7ff"])
 )
-names = st.sampled_from(
-    [
-        "seq",
-        "poles",
-        "preset",
-        "scenario",
-        "samples",
-        "parameters",
-        "method",
-        "split",
-        "weights",
-        "loops",
-        "outer",
-    ]
-    + [
-        "uncertainty",
-        "recording",
-        "columns",
-        "free",
-        "segment",
-        "cancel",
-        "duration",
-        "rtol",
-        "digital",
-        "type",
-    ]
+NAMES = (
+    "seq poles preset scenario samples parameters method split weights loops outer uncertainty",
+    "recording columns free segment cancel duration rtol digital type",
 )
+names = st.sampled_from(" ".join(NAMES).split())
 values = st.recursive(
     scalars,
     lambda inner: (
@@ -109,7 +88,12 @@ def resources(server: WholeServer) -> Resources:
     compute = server.app.state.compute
     jobs = sum(compute.waiting.values()) + sum(compute.running.values())
     return Resources(
-        (server.app.state.limits.sockets, jobs, threading.active_count(), len(os.listdir("/proc/self/fd")))
+        (
+            server.app.state.limits.sockets,
+            jobs,
+            threading.active_count(),
+            len(list(Path("/proc/self/fd").iterdir())),
+        )
     )
 
 
