@@ -104,7 +104,7 @@ def test_what_is_described_is_what_is_answered(case, base):
     response = case.call(base_url=base, timeout=60)
     excepted = [positive_data_acceptance] if refusal(case, response) else []
     case.validate_response(response, excluded_checks=excepted, transport_kwargs={"base_url": base})
-    kind = response.headers.get("content-type", "")
+    (kind,) = response.headers.get("content-type", [""])
     if response.status_code >= 400:
         assert kind == "application/problem+json"
         problem = response.json()
