@@ -79,4 +79,4 @@ Split = Annotated[
     Field(json_schema_extra={"enum": [[[a, b], [c, d]] for a, b, c, d in permutations(range(4))]}),
 ]
 Weight = Annotated[float, Field(ge=0, le=1e12)]
-PositiveWeight = Annotated[float, Field(gt=0, le=1e12)]
+PositiveWeight = Annotated[float, Field(ge=1e-12, le=1e12)]

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, Field, create_model
 
 from heli2dof_core import OuterLoop, PIGains, PoleSet, Preset, Spec, Structure, preset
+from heli2dof_core.checks import require_known
 from heli2dof_core.couplings import Coupling, Lead
 from heli2dof_core.design import FULL_RANK
 from heli2dof_core.parameters import PARAMETER_INFO
@@ -171,6 +172,7 @@ class DesignRequest(Strict):
             Heli2DofError: a value is out of its range or unknown; its field is the JSON path.
         """
         base = preset(self.preset)
+        require_known(self.method, METHODS, "method")  # also where another is used
         point = base.theta_0 if self.operating_point is None else self.operating_point.theta
         return Spec(
             parameters=base.parameters.replaced(self.parameters.model_dump(exclude_none=True)),

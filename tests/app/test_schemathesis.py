@@ -28,7 +28,7 @@ DESIGN = {
     "uncontrollable": "K_pp K_yy = K_py K_yp: a product of four fields",
     "structure_unavailable": "a coupling needs K_pp or K_yy other than 0; only some have a shift",
     "method_unavailable": "a method may not solve the task: multiple poles, a Riccati equation without solution",
-    "invalid_input poles": "the numbers of the method's own poles depend on one another",
+    "invalid_input shift": "the axis-decoupled structure has none",
 }
 EXPERIMENT = DESIGN | {
     "invalid_input scenario.digital.sample_time": "the duration may hold at most 100,000 samples of the controller",
@@ -38,8 +38,13 @@ RIGS = EXPERIMENT | {
     "invalid_input scenario.(digital|disturbance)": "the cloud is continuous and undisturbed",
 }
 RULES: dict[str, dict[str, str]] = {
+    "POST /api/v1/suggest": DESIGN
+    | {
+        "invalid_input poles": "PI values are suggested for stable poles only",
+        "invalid_input loops.*": "there may be none in the range of gains that keep the whole loop stable",
+    },
     **dict.fromkeys(
-        [f"POST /api/v1/{name}" for name in ("gains", "rga", "loops", "suggest", "splits", "walkthrough")],
+        [f"POST /api/v1/{name}" for name in ("gains", "rga", "loops", "splits", "walkthrough")],
         DESIGN,
     ),
     **dict.fromkeys(
