@@ -1,26 +1,101 @@
-"""The core's work off the event loop, in a small pool of threads."""
+"""The core's work off the event loop: quick and slow work in threads of their own, each client in turn."""
 
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import gc
 import logging
+import os
+import sys
 import threading
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from time import perf_counter
-from typing import TypeVar
+from collections.abc import Awaitable, Callable
+from concurrent.futures import InvalidStateError
+from contextvars import ContextVar
+from dataclasses import dataclass
+from functools import partial
+from time import monotonic, perf_counter
+from typing import Any, TypeVar
 
 from threadpoolctl import threadpool_limits
 
 from heli2dof_core.comparison import STRUCTURES
 from heli2dof_core.compiled import warm_up
 from heli2dof_core.engine import engine
+from heli2dof_core.errors import CancelledError
 
 from .kernels import KernelCompiler
+from .queue import BusyError, Client, FairQueue, Job, OverdueError
 
 _log = logging.getLogger(__name__)
 T = TypeVar("T")
+SWITCH = 0.0005
+"""Seconds for which a computing thread keeps Python's lock while the event loop wants it; Python's own 5 ms
+would be most of a drag's answer."""
+NICENESS = 10
+"""Of the slow threads: where processors are short, the event loop goes first."""
+
+
+@dataclass(frozen=True)
+class Asking:
+    """For whom the present task works; `gone` returns once an HTTP client has left."""
+
+    client: Client = ("", "")
+    gone: Callable[[], Awaitable[None]] | None = None
+
+
+NOBODY = Asking()
+asking: ContextVar[Asking] = ContextVar("asking", default=NOBODY)
+"""Set by the server for every request and socket."""
+_doing: ContextVar[tuple[Job, float] | None] = ContextVar("doing", default=None)
+
+
+def still_wanted() -> None:
+    """Long work calls this now and then.
+
+    Raises:
+        CancelledError: nobody waits for its outcome any more, or it has taken too long.
+    """
+    doing = _doing.get()
+    if doing is not None and (doing[0].called_off.is_set() or monotonic() > doing[1]):
+        raise CancelledError("called off")
+
+
+class _Pool:
+    """Threads that take jobs from a fair queue."""
+
+    def __init__(self, name: str, threads: int, queue: FairQueue, seconds: float, *, nice: bool) -> None:
+        self.queue, self.seconds, self._nice = queue, seconds, nice
+        self.running = 0
+        for i in range(threads):
+            threading.Thread(target=self._serve, name=f"{name}-{i}", daemon=True).start()
+
+    def _serve(self) -> None:
+        if self._nice and sys.platform == "linux":  # where a thread has a niceness of its own
+            with contextlib.suppress(OSError):
+                os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICENESS)
+        while (job := self.queue.take()) is not None:
+            if job.future.set_running_or_notify_cancel():
+                self.running += 1
+                self._do(job)
+                self.running -= 1
+            del job  # nothing of it is kept until the next one comes
+
+    def _do(self, job: Job) -> None:
+        token = _doing.set((job, monotonic() + self.seconds))
+        try:
+            outcome = job.work()
+        except BaseException as error:
+            self._settle(job.future.set_exception, error)
+        else:
+            self._settle(job.future.set_result, outcome)
+        finally:
+            _doing.reset(token)
+
+    @staticmethod
+    def _settle(how: Callable[[Any], None], outcome: Any) -> None:
+        with contextlib.suppress(InvalidStateError, RuntimeError):  # the event loop may be closed by now
+            how(outcome)
 
 
 class Compute:
@@ -29,15 +104,30 @@ class Compute:
     The first derivation imports SymPy and takes a second or two; `start` runs it in the background,
     so that the page is served meanwhile, and `run` waits for it. It does not wait for the compiled
     kernels, which come later (see `kernels`).
+
+    Args:
+        threads: for quick work.
+        slow_threads: for what takes seconds; they yield to all others where processors are short.
+        most_waiting, most_each: jobs that may wait in each of the two queues, in all and for one connection.
+        seconds: after which slow work is given up.
     """
 
-    def __init__(self, threads: int = 2) -> None:
-        self._pool = ThreadPoolExecutor(threads, thread_name_prefix="compute")
-        self._slow = ThreadPoolExecutor(1, thread_name_prefix="slow")
+    def __init__(
+        self,
+        threads: int = 2,
+        slow_threads: int = 2,
+        *,
+        most_waiting: int = 256,
+        most_each: int = 8,
+        seconds: float = 60.0,
+    ) -> None:
+        self._quick = _Pool("compute", threads, FairQueue(most_waiting, most_each), seconds, nice=False)
+        self._slow = _Pool("slow", slow_threads, FairQueue(most_waiting, most_each), seconds, nice=True)
         self._warm = threading.Event()
         self._failure: BaseException | None = None
         self._kernels = KernelCompiler()
         self._settled = False
+        self._once: dict[Any, asyncio.Task[Any]] = {}
 
     @property
     def ready(self) -> bool:
@@ -49,10 +139,15 @@ class Compute:
         """Whether all is derived and compiled: a common update then takes a millisecond or two."""
         return self._settled
 
+    @property
     def waiting(self) -> dict[str, int]:
-        """How much work waits for a thread, by pool."""
-        pools = {"compute": self._pool, "slow": self._slow}
-        return {name: pool._work_queue.qsize() for name, pool in pools.items()}  # pyright: ignore[reportPrivateUsage]
+        """Jobs that wait, quick and slow."""
+        return {"quick": len(self._quick.queue), "slow": len(self._slow.queue)}
+
+    @property
+    def running(self) -> dict[str, int]:
+        """Jobs that are being done, quick and slow."""
+        return {"quick": self._quick.running, "slow": self._slow.running}
 
     def start(self) -> None:
         """Begins the derivation in the background.
@@ -61,30 +156,77 @@ class Compute:
         another, which costs three times the processor time of the work itself.
         """
         threadpool_limits(limits=1, user_api="blas")
+        sys.setswitchinterval(SWITCH)
         threading.Thread(target=self._warm_up, name="derivation", daemon=True).start()
 
     async def run(self, function: Callable[..., T], *args: object) -> T:
-        """`function(*args)` in the pool, after the derivation."""
-        return await self._run(self._pool, function, args)
+        """`function(*args)` in a thread, after the derivation.
+
+        Raises:
+            BusyError: too much waits already.
+            OverdueError: it took too long.
+        """
+        return await self._run(self._quick, function, args)
 
     async def run_slow(self, function: Callable[..., T], *args: object) -> T:
-        """As `run`, for what takes seconds: in a thread of its own, so that no design waits for it."""
+        """As `run`, for what takes seconds: in threads of its own, so that no design waits for it."""
         return await self._run(self._slow, function, args)
 
-    async def _run(self, pool: ThreadPoolExecutor, function: Callable[..., T], args: tuple[object, ...]) -> T:
+    async def run_once(self, key: object, function: Callable[..., T], *args: object) -> T:
+        """As `run_slow`, for what is always the same: derived by the first who asks, and kept."""
+        task: asyncio.Task[T] | None = self._once.get(key)
+        if task is None:
+            task = self._once[key] = asyncio.create_task(self._for_all(function, args))
+            task.add_done_callback(partial(self._forget, key))
+        # Shielded: who leaves meanwhile leaves the others their answer.
+        return await asyncio.shield(task)
+
+    async def _for_all(self, function: Callable[..., T], args: tuple[object, ...]) -> T:
+        asking.set(NOBODY)
+        return await self._run(self._slow, function, args)
+
+    def _forget(self, key: object, task: asyncio.Task[Any]) -> None:
+        if task.cancelled() or task.exception() is not None:
+            self._once.pop(key, None)
+
+    async def _run(self, pool: _Pool, function: Callable[..., T], args: tuple[object, ...]) -> T:
         def work() -> T:
             self._warm.wait()
             if self._failure is not None:
                 raise RuntimeError("the derivation failed at start") from self._failure
             return function(*args)
 
-        return await asyncio.get_running_loop().run_in_executor(pool, work)
+        who = asking.get()
+        job = Job(who.client, work)
+        pool.queue.put(job)
+        outcome = asyncio.wrap_future(job.future)
+        leaving = asyncio.ensure_future(who.gone()) if who.gone else None
+        try:
+            either = {outcome} if leaving is None else {outcome, leaving}
+            await asyncio.wait(either, timeout=2 * pool.seconds, return_when=asyncio.FIRST_COMPLETED)
+            if not outcome.done():
+                raise OverdueError(f"This took longer than the {pool.seconds:g} s that the server gives it.")
+            try:
+                return outcome.result()
+            except CancelledError as error:
+                raise OverdueError(f"This took longer than {pool.seconds:g} s and was given up.") from error
+        finally:
+            if not outcome.done():
+                job.called_off.set()
+                pool.queue.drop(job)
+                outcome.cancel()
+            if leaving is not None:
+                leaving.cancel()
 
     def close(self) -> None:
-        """Drops what waits and stops the pool's threads."""
+        """Drops what waits and stops the threads."""
         self._kernels.close()
-        for pool in (self._pool, self._slow):
-            pool.shutdown(wait=False, cancel_futures=True)
+        for task in self._once.values():
+            task.cancel()
+        for pool in (self._quick, self._slow):
+            for job in pool.queue.close():
+                job.called_off.set()
+                job.future.cancel()
 
     def _warm_up(self) -> None:
         began = perf_counter()
@@ -104,3 +246,6 @@ class Compute:
             gc.collect()
             gc.freeze()
             self._settled = True
+
+
+__all__ = ["Asking", "BusyError", "Compute", "OverdueError", "asking", "still_wanted"]

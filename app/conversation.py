@@ -22,18 +22,18 @@ async def converse(socket: WebSocket, answer: Callable[[Any, Send], Awaitable[No
     """Lets `answer` send replies to each request, until the visitor goes; what it raises becomes a problem object."""
     visit = visit_of(socket)
 
-    async def answered(text: str) -> None:
+    async def answered(text: str | bytes) -> None:
         await _answer(socket, text, answer)
         await visit.rest()
 
     await socket.accept()
     try:
-        text = await socket.receive_text()
+        text = await _received(socket)
         while True:
             visit.busy = True
             answering = asyncio.create_task(answered(text))
             try:
-                text = await socket.receive_text()
+                text = await _received(socket)
             finally:
                 answering.cancel()
                 await asyncio.gather(answering, return_exceptions=True)
@@ -41,7 +41,17 @@ async def converse(socket: WebSocket, answer: Callable[[Any, Send], Awaitable[No
         pass
 
 
-async def _answer(socket: WebSocket, text: str, answer: Callable[[Any, Send], Awaitable[None]]) -> None:
+async def _received(socket: WebSocket) -> str | bytes:
+    """The next message; JSON may come in binary frames too."""
+    message = await socket.receive()
+    if message["type"] == "websocket.disconnect":
+        raise WebSocketDisconnect(message.get("code", 1000))
+    return message.get("text") or message.get("bytes") or ""
+
+
+async def _answer(
+    socket: WebSocket, text: str | bytes, answer: Callable[[Any, Send], Awaitable[None]]
+) -> None:
     try:
         data = orjson.loads(text)
         if isinstance(data, dict) and data.get("cancel"):

@@ -15,6 +15,7 @@ from heli2dof_core.version import package_version
 
 from . import examples, live, policies, problems, robustness, scene
 from .compute import Compute
+from .limits import OpenSockets
 from .metrics import Metrics
 from .middleware import surrounded
 from .routes import (
@@ -40,9 +41,11 @@ _DESCRIPTION = (
 class App(FastAPI):
     """FastAPI with what surrounds it: outside of starlette's own stack, so that its 500s pass there, too."""
 
-    def __init__(self, settings: Settings, metrics: Metrics, visits: Visits, **options: Any) -> None:
+    def __init__(
+        self, settings: Settings, metrics: Metrics, visits: Visits, sockets: OpenSockets, **options: Any
+    ) -> None:
         super().__init__(**options)
-        self._surroundings = (settings, metrics, visits)
+        self._surroundings = (settings, metrics, visits, sockets)
 
     def build_middleware_stack(self) -> ASGIApp:
         """Starlette's stack, surrounded."""
@@ -52,10 +55,16 @@ class App(FastAPI):
 def create_app(settings: Settings | None = None) -> FastAPI:
     """Builds the application; all state hangs on it, nothing is global."""
     settings = settings or Settings()
-    compute, metrics, visits = Compute(), Metrics(), Visits()
+    metrics, visits, sockets = Metrics(), Visits(), OpenSockets()
+    compute = Compute(
+        slow_threads=settings.slow_threads,
+        most_waiting=settings.slow_waiting,
+        most_each=settings.slow_each,
+        seconds=settings.slow_seconds,
+    )
     sessions = scene.SceneSessions(capacity=settings.scenes)
     metrics.watch_sessions(lambda: len(sessions))
-    metrics.watch_pools(compute.waiting)
+    metrics.watch_pools(lambda: compute.waiting)
 
     @contextlib.asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
@@ -68,6 +77,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         settings,
         metrics,
         visits,
+        sockets,
         title="heli2dof",
         version=package_version(),
         description=_DESCRIPTION,
@@ -76,6 +86,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redoc_url=None,
     )
     app.state.compute, app.state.metrics, app.state.visits = compute, metrics, visits
+    app.state.limits = sockets
     app.include_router(health.build_router(compute, visits, metrics if settings.metrics else None))
     app.include_router(catalogue.build_router())
     app.include_router(design.build_router(compute))
@@ -83,7 +94,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(derivation.build_router(compute))
     app.include_router(comparison.build_router(compute))
     app.include_router(recording.build_router(compute))
-    app.include_router(recordings.build_router(compute))
+    app.include_router(recordings.build_router(compute, settings))
     app.include_router(exports.build_router(compute))
     app.include_router(live.build_router(compute, metrics))
     app.include_router(robustness.build_router(compute, metrics))

@@ -10,8 +10,6 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from .problems import Problem
-
 
 class Model(BaseModel):
     """A reply's part: all numbers are finite, and nothing is said that is not described here."""
@@ -358,9 +356,5 @@ class Symbolic(Model):
 
 
 def described(model: Any, summary: str) -> dict[str, Any]:
-    """Route options that put a reply's model, and that of its errors, into the schema."""
-    problem = {"model": Problem, "description": "Invalid input", "content": {"application/problem+json": {}}}
-    return {
-        "summary": summary,
-        "responses": {200: {"model": model, "description": summary}, 422: problem},
-    }
+    """Route options that put a reply's model into the schema; its errors are put there for all routes at once."""
+    return {"summary": summary, "responses": {200: {"model": model, "description": summary}}}

@@ -17,11 +17,11 @@ from heli2dof_core.placement.method import MOST_STATES, Weights, require_system
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.signals import Floats
 
-from .requests import Pole, PositiveWeight, Strict, Weight
+from .request_fields import Pole, PositiveWeight, Strict, Weight, Whole
 
 Row = Annotated[list[float], Field(min_length=1, max_length=MOST_STATES)]
 Matrix = Annotated[list[Row], Field(min_length=1, max_length=MOST_STATES)]
-Position = Annotated[int, Field(ge=0, lt=MOST_STATES)]
+Position = Annotated[Whole, Field(ge=0, lt=MOST_STATES)]
 
 
 class PoleGroup(Strict):

@@ -17,6 +17,7 @@ from heli2dof_core import Heli2DofError
 
 from .encoding import json_bytes
 from .logs import request_id
+from .queue import BusyError, OverdueError
 
 _log = logging.getLogger(__name__)
 
@@ -30,11 +31,13 @@ _TITLES = {
     403: "Not allowed",
     404: "Not found",
     405: "Method not allowed",
+    408: "Too slow",
+    413: "Too large",
     422: "Invalid input",
+    429: "Too many requests",
     503: "Not available now",
 }
-
-
+MEDIA_TYPE = "application/problem+json"
 TEXT_START = '{"type":"urn:heli2dof:problem:'
 """How a problem object begins as text."""
 
@@ -60,7 +63,7 @@ def problem(status: int, detail: str, code: str, **more: Any) -> dict[str, Any]:
     return {**known, "detail": detail, "code": code, **extra}
 
 
-def problem_of(error: Exception) -> dict[str, Any]:
+def problem_of(error: Exception) -> dict[str, Any]:  # noqa: PLR0911
     """The problem object of whatever a request may raise."""
     match error:
         case Heli2DofError():
@@ -71,6 +74,18 @@ def problem_of(error: Exception) -> dict[str, Any]:
             return _of_validation(error.errors()[0])
         case JSONDecodeError():
             return problem(422, f"Not JSON: {error}.", "invalid_json", hint="Send one JSON object.")
+        case BusyError():
+            return problem(503, str(error), "busy", hint=f"Ask again in {error.retry_after} s.")
+        case OverdueError():
+            return problem(
+                503,
+                str(error),
+                "overdue",
+                hint="Ask for less: fewer rigs, a shorter or less exact experiment.",
+            )
+        case HTTPException(status_code=400):  # FastAPI's own, for a body that its parser gives up on
+            hint = "Send one JSON object in UTF-8, not nested a thousand deep."
+            return problem(422, "The body is not JSON.", "invalid_json", hint=hint)
         case HTTPException():
             return problem(error.status_code, str(error.detail), f"http_{error.status_code}")
         case _:
@@ -80,7 +95,7 @@ def problem_of(error: Exception) -> dict[str, Any]:
 
 def problem_response(body: Mapping[str, Any], headers: Mapping[str, str] | None = None) -> Response:
     """A problem object as an HTTP response."""
-    return Response(json_bytes(body), body["status"], headers=headers, media_type="application/problem+json")
+    return Response(json_bytes(body), body["status"], headers=headers, media_type=MEDIA_TYPE)
 
 
 def install(app: FastAPI) -> None:
@@ -93,10 +108,44 @@ def install(app: FastAPI) -> None:
             route = getattr(request.scope.get("route"), "path", "(none)")
             _log.error("%s %s failed", request.method, route, exc_info=error)
         headers = error.headers if isinstance(error, HTTPException) else None
+        if body["status"] == 503 and not headers:
+            headers = {"Retry-After": str(getattr(error, "retry_after", 30))}
         return problem_response(body, headers)
 
-    for kind in (Heli2DofError, RequestValidationError, HTTPException, Exception):
+    for kind in (Heli2DofError, RequestValidationError, HTTPException, BusyError, OverdueError, Exception):
         app.add_exception_handler(kind, answer)
+    _describe(app)
+
+
+def _describe(app: FastAPI) -> None:
+    """Puts into the OpenAPI document what each call may be refused with."""
+    plain = app.openapi
+
+    def openapi() -> dict[str, Any]:
+        document = plain()
+        schemas = document["components"]["schemas"]
+        if "Problem" in schemas:
+            return document
+        schemas["Problem"] = Problem.model_json_schema()
+        for name in ("HTTPValidationError", "ValidationError"):
+            schemas.pop(name, None)
+        content = {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
+        for operations in document["paths"].values():
+            for operation in operations.values():
+                takes_body = "requestBody" in operation
+                takes_input = takes_body or operation.get("parameters")
+                refusals = {413: takes_body, 422: takes_input, 429: True, 503: True}
+                for status, may_be in refusals.items():
+                    if may_be:
+                        about = {"description": _TITLES[status], "content": content}
+                        if status in (429, 503):
+                            about["headers"] = {
+                                "Retry-After": {"schema": {"type": "integer"}, "description": "s"}
+                            }
+                        operation["responses"][str(status)] = about
+        return document
+
+    app.openapi = openapi
 
 
 def _of_validation(error: Mapping[str, Any]) -> dict[str, Any]:

@@ -13,7 +13,8 @@ from heli2dof_core.recordings import ROLES, AngleUnit, Columns, Recording, Table
 from heli2dof_core.signals import Floats
 
 from .models import Finding, Model
-from .requests import DesignRequest, StepRequest, Strict
+from .request_fields import Strict, Whole, within
+from .requests import DesignRequest, StepRequest
 
 PREVIEWED = 5
 MOST_POINTS = 1500
@@ -49,7 +50,9 @@ class Mapping(Strict):
     unit: AngleUnit = Field(default="rad", description="of the file's angles")
     signs: Signs = Signs()
     offsets: Offsets = Offsets()
-    sample_time: float | None = Field(default=None, description="s, where no column is the time")
+    sample_time: Annotated[float, within(1e-5, 10.0)] | None = Field(
+        default=None, description="s, where no column is the time"
+    )
 
     def to_columns(self) -> Columns:
         """The core's mapping."""
@@ -66,7 +69,7 @@ class SampleRequest(StepRequest):
         default=0.15, ge=0, le=0.5, description="largest deviation of the recorded rig's parameters, relative"
     )
     noise: float = Field(default=1e-3, ge=0, le=0.1, description="standard deviation on the angles, rad")
-    seed: int = Field(default=0, ge=0, le=2**32 - 1, description="of steps, deviations and noise")
+    seed: Whole = Field(default=0, ge=0, le=2**32 - 1, description="of steps, deviations and noise")
 
 
 class OverlayRequest(StepRequest):
@@ -140,7 +143,7 @@ class OverlayReply(Model):
     """Measured and simulated, at no more than 1500 of the recording's times."""
 
     driver: str
-    samples: int = Field(description="of the recording")
+    samples: Whole = Field(description="of the recording")
     sample_time: float = Field(description="s")
     duration: float = Field(description="s")
     fit: PerAxis

@@ -3,28 +3,51 @@
 from __future__ import annotations
 
 import secrets
-from collections import OrderedDict
+from collections import Counter, OrderedDict
+from dataclasses import dataclass
 from time import monotonic
 
 from heli2dof_core.errors import RecordingError
 from heli2dof_core.recordings import Table
 
-MOST_BYTES = 256 * 2**20
 KEPT_SECONDS = 1800.0
 
 
+@dataclass
+class _Kept:
+    """A table, who sent it, and when it was last used."""
+
+    table: Table
+    owner: str
+    used: float
+
+    @property
+    def size(self) -> int:
+        return self.table.values.nbytes
+
+
 class RecordingStore:
-    """Tables by unguessable names; the longest unused go first."""
+    """Tables by unguessable names. Where there are too many, the owner who holds most loses the longest unused.
 
-    def __init__(self, most_bytes: int = MOST_BYTES) -> None:
-        self._tables: OrderedDict[str, tuple[float, Table]] = OrderedDict()
-        self._most = most_bytes
+    Args:
+        most: tables.
+        most_bytes: of all their numbers.
+    """
 
-    def put(self, table: Table) -> str:
+    def __init__(self, most: int, most_bytes: int) -> None:
+        self._kept: OrderedDict[str, _Kept] = OrderedDict()
+        self._most, self._most_bytes = most, most_bytes
+
+    def __len__(self) -> int:
+        return len(self._kept)
+
+    def put(self, table: Table, owner: str = "") -> str:
         """Keeps a table under a new name."""
         key = secrets.token_urlsafe(18)
-        self._tables[key] = (monotonic(), table)
-        self._drop()
+        self._drop_old()
+        self._kept[key] = _Kept(table, owner, monotonic())
+        while len(self._kept) > 1 and (len(self._kept) > self._most or self._bytes() > self._most_bytes):
+            self._drop_one(key)
         return key
 
     def get(self, key: str) -> Table:
@@ -33,24 +56,32 @@ class RecordingStore:
         Raises:
             RecordingError: it is not, or not any more, there.
         """
-        self._drop()
-        if key not in self._tables:
+        self._drop_old()
+        if key not in self._kept:
             raise RecordingError(
                 "the server does not hold this recording any more",
                 field="recording",
                 value=key,
                 hint="Send the file again.",
             )
-        _, table = self._tables.pop(key)
-        self._tables[key] = (monotonic(), table)
-        return table
+        kept = self._kept[key]
+        kept.used = monotonic()
+        self._kept.move_to_end(key)
+        return kept.table
 
-    def _drop(self) -> None:
-        total = sum(table.values.nbytes for _, table in self._tables.values())
-        while self._tables:
-            key, (used, table) = next(iter(self._tables.items()))
-            old = monotonic() - used > KEPT_SECONDS
-            if not old and (total <= self._most or len(self._tables) == 1):
-                return
-            del self._tables[key]
-            total -= table.values.nbytes
+    def _bytes(self) -> int:
+        return sum(kept.size for kept in self._kept.values())
+
+    def _drop_old(self) -> None:
+        now = monotonic()
+        while self._kept and now - next(iter(self._kept.values())).used > KEPT_SECONDS:
+            self._kept.popitem(last=False)
+
+    def _drop_one(self, newest: str) -> None:
+        """Drops the longest unused of the owner who holds most bytes, but not what has just come."""
+        held: Counter[str] = Counter()
+        for kept in self._kept.values():
+            held[kept.owner] += kept.size
+        greedy = max(held, key=lambda owner: held[owner])
+        old = [key for key, kept in self._kept.items() if key != newest]
+        del self._kept[next((key for key in old if self._kept[key].owner == greedy), old[0])]

@@ -9,17 +9,21 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, create_model
+from pydantic import BaseModel, Field, create_model
 
 from heli2dof_core import OuterLoop, PIGains, PoleSet, Preset, Spec, Structure, preset
+from heli2dof_core.checks import require_known
 from heli2dof_core.couplings import Coupling, Lead
 from heli2dof_core.design import FULL_RANK
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.placement.method import Weights
 from heli2dof_core.placement.registry import METHODS
+from heli2dof_core.plant import STEEPEST
 from heli2dof_core.presets import DEFAULT
 from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
 from heli2dof_core.spec import (
+    LONGEST,
+    MOST_SAMPLES,
     AntiWindup,
     Digital,
     Disturbance,
@@ -32,53 +36,28 @@ from heli2dof_core.spec import (
 )
 from heli2dof_core.weights import bryson_weights
 
-
-class Strict(BaseModel):
-    """Unknown fields, text for numbers, NaN and infinity are refused."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
-
-
-def _complex(value: Any) -> complex:
-    """A plain number, or ``{"re": …, "im": …}``; ranges are the core's business."""
-    parts = (value, 0.0)
-    if isinstance(value, dict):
-        if set(value) != {"re", "im"}:
-            raise ValueError('a complex number is {"re": -3.0, "im": 4.0}')
-        parts = (value["re"], value["im"])
-    if any(isinstance(part, bool) or not isinstance(part, (int, float)) for part in parts):
-        raise ValueError('a pole is a number, or {"re": -3.0, "im": 4.0}')
-    try:
-        return complex(*parts)
-    except OverflowError as error:
-        raise ValueError("a pole's parts must be finite numbers") from error
-
-
-_NUMBER = {"type": "number", "minimum": -1e5, "maximum": 1e5}
-Pole = Annotated[
-    complex,
-    BeforeValidator(_complex),
-    WithJsonSchema(
-        {
-            "anyOf": [
-                _NUMBER,
-                {
-                    "type": "object",
-                    "properties": {"re": _NUMBER, "im": _NUMBER},
-                    "required": ["re", "im"],
-                    "additionalProperties": False,
-                },
-            ],
-            "description": "rad/s; a real pole may be a plain number",
-        }
-    ),
-]
+from .request_fields import (
+    Angle,
+    Pole,
+    PositiveWeight,
+    PresetName,
+    Seconds,
+    Split,
+    Strict,
+    Weight,
+    Whole,
+    optional,
+    within,
+)
 
 ParameterChanges = create_model(
     "ParameterChanges",
     __base__=Strict,
     **{  # pyright: ignore[reportArgumentType, reportCallIssue]
-        name: (float | None, Field(default=None, description=f"{info['meaning']}, {info['unit']}"))
+        name: (
+            optional(info["low"], info["high"]),
+            Field(default=None, description=f"{info['meaning']}, {info['unit']}"),
+        )
         for name, info in PARAMETER_INFO.items()
     },
 )
@@ -87,22 +66,26 @@ ParameterChanges = create_model(
 class LimitChanges(Strict):
     """Limits that differ from the preset's."""
 
-    V_p: float | None = Field(default=None, description="limit of |V_p|, V")
-    V_y: float | None = Field(default=None, description="limit of |V_y|, V")
-    theta: float | None = Field(default=None, description="pitch travel ±theta, rad; null where it is free")
+    V_p: Annotated[float, within(1e-3, 1e6)] | None = Field(default=None, description="limit of |V_p|, V")
+    V_y: Annotated[float, within(1e-3, 1e6)] | None = Field(default=None, description="limit of |V_y|, V")
+    theta: Annotated[float, within(1e-3, 3.2)] | None = Field(
+        default=None, description="pitch travel ±theta, rad; null where it is free"
+    )
 
 
 class OperatingPoint(Strict):
     """Where the rig rests and the model is linearized."""
 
-    theta: float = Field(default=0.0, description="pitch angle θ₀, rad")
+    theta: Annotated[float, within(-STEEPEST, STEEPEST)] = Field(
+        default=0.0, description="pitch angle θ₀, rad"
+    )
 
 
 class LoopChanges(Strict):
     """PI(s) = kp (1 + 1/(ti s)) of one axis."""
 
-    kp: float | None = Field(default=None, description="V/rad")
-    ti: float | None = Field(default=None, description="s")
+    kp: Annotated[float, within(-1e6, 1e6)] | None = Field(default=None, description="V/rad")
+    ti: Annotated[float, within(1e-6, 1e6)] | None = Field(default=None, description="s")
 
 
 class LoopsChanges(Strict):
@@ -110,10 +93,6 @@ class LoopsChanges(Strict):
 
     pitch: LoopChanges = LoopChanges()
     yaw: LoopChanges = LoopChanges()
-
-
-Weight = Annotated[float, Field(ge=0, le=1e12)]
-PositiveWeight = Annotated[float, Field(gt=0, le=1e12)]
 
 
 def _weights_of(name: str, signals: Iterable[Signal], kind: Any, meaning: str) -> type[Strict]:
@@ -154,7 +133,7 @@ class WeightChanges(Strict):
 class DesignRequest(Strict):
     """A design: what differs from the preset."""
 
-    preset: str = Field(default=DEFAULT, description="name of a preset, see GET /api/v1/presets")
+    preset: PresetName = Field(default=DEFAULT, description="name of a preset, see GET /api/v1/presets")
     parameters: ParameterChanges = ParameterChanges()  # pyright: ignore[reportInvalidTypeForm]
     limits: LimitChanges = LimitChanges()
     operating_point: OperatingPoint | None = None
@@ -166,10 +145,13 @@ class DesignRequest(Strict):
     )
     coupling: Coupling | None = None
     lead: Lead | None = Field(default=None, description="axis that leads where the coupling is triangular")
-    split: list[list[Annotated[int, Field(ge=0, le=3)]]] | None = Field(
-        default=None, description="which poles, by position from 0, form pitch's pair and which yaw's"
+    split: Split | None = Field(
+        default=None,
+        min_length=2,
+        max_length=2,
+        description="which poles, by position from 0, form pitch's pair and which yaw's",
     )
-    shift: float | None = Field(
+    shift: Annotated[float, within(-1e6, 1e6)] | None = Field(
         default=None,
         description="shift c of Luenberger's basis, q₁ → q₁ + c q₂ (yaw leading: q₂ → q₂ + c q₁)",
     )
@@ -190,6 +172,7 @@ class DesignRequest(Strict):
             Heli2DofError: a value is out of its range or unknown; its field is the JSON path.
         """
         base = preset(self.preset)
+        require_known(self.method, METHODS, "method")  # also where another is used
         point = base.theta_0 if self.operating_point is None else self.operating_point.theta
         return Spec(
             parameters=base.parameters.replaced(self.parameters.model_dump(exclude_none=True)),
@@ -245,7 +228,7 @@ class RgaRequest(DesignRequest):
 class LoopsRequest(DesignRequest):
     """A design with its outer loop, and frequencies at which L(jω) is wanted."""
 
-    frequencies: list[Annotated[float, Field(gt=0, le=1e6)]] = Field(
+    frequencies: list[Annotated[float, Field(ge=1e-9, le=1e6)]] = Field(
         min_length=1, max_length=2000, description="rad/s"
     )
 
@@ -253,43 +236,47 @@ class LoopsRequest(DesignRequest):
 class Reference(Strict):
     """Reference angles after t = 0, absolute."""
 
-    theta: float | None = Field(default=None, description="rad")
-    psi: float | None = Field(default=None, description="rad")
+    theta: Angle | None = Field(default=None, description="rad")
+    psi: Angle | None = Field(default=None, description="rad")
 
 
 class Initial(Strict):
     """State at t = 0; angles are absolute, and at rest where left out."""
 
-    theta: float | None = Field(default=None, description="rad")
-    psi: float | None = Field(default=None, description="rad")
-    theta_dot: float = Field(default=0.0, description="rad/s")
-    psi_dot: float = Field(default=0.0, description="rad/s")
+    theta: Angle | None = Field(default=None, description="rad")
+    psi: Angle | None = Field(default=None, description="rad")
+    theta_dot: Angle = Field(default=0.0, description="rad/s")
+    psi_dot: Angle = Field(default=0.0, description="rad/s")
 
 
 class EncoderCounts(Strict):
     """Counts per revolution; 0 measures exactly."""
 
-    theta: int = Field(default=4096, ge=0, description="of pitch")
-    psi: int = Field(default=8192, ge=0, description="of yaw")
+    theta: Whole = Field(default=4096, ge=0, le=10**7, description="of pitch")
+    psi: Whole = Field(default=8192, ge=0, le=10**7, description="of yaw")
 
 
 class DigitalController(Strict):
     """The rig's own controller: sampled, quantized, filtered, late, noisy."""
 
-    sample_time: float = Field(default=0.002, description="s; voltages are held between samples")
+    sample_time: Annotated[float, within(1e-4, 1.0)] = Field(
+        default=0.002, description="s; voltages are held between samples"
+    )
     delay: bool = Field(default=False, description="voltages reach the motors one sample late")
     encoders: EncoderCounts | None = Field(default=None, description="the preset's where left out")
     rates: Rates = Field(default="filtered", description="filtered: from the angles, 20 Hz, damping 0.85")
-    noise: float = Field(default=0.0, description="standard deviation on the measured angles, rad")
-    seed: int = Field(default=0, ge=0, le=2**32 - 1, description="of the noise")
+    noise: Annotated[float, within(0.0, 1.0)] = Field(
+        default=0.0, description="standard deviation on the measured angles, rad"
+    )
+    seed: Whole = Field(default=0, ge=0, le=2**32 - 1, description="of the noise")
 
 
 class InputDisturbance(Strict):
     """Volts that act on the motors besides the controller's, from `time` on."""
 
-    V_p: float = Field(0.0, description="pitch motor, V")
-    V_y: float = Field(0.0, description="yaw motor, V")
-    time: float = Field(default=0.0, description="s")
+    V_p: Annotated[float, within(-1e3, 1e3)] = Field(0.0, description="pitch motor, V")
+    V_y: Annotated[float, within(-1e3, 1e3)] = Field(0.0, description="yaw motor, V")
+    time: Annotated[float, within(0.0, LONGEST)] = Field(default=0.0, description="s")
 
 
 class ScenarioChanges(Strict):
@@ -297,18 +284,22 @@ class ScenarioChanges(Strict):
 
     model: Model = Field(default="nonlinear", description="ignored by evaluate, which computes both")
     reference: Reference | None = None
-    duration: float | None = Field(default=None, description="s")
-    samples: int | None = Field(default=None, description="t = linspace(0, duration, samples)")
+    duration: Seconds | None = Field(default=None, description="s")
+    samples: Annotated[Whole, within(2, MOST_SAMPLES)] | None = Field(
+        default=None, description="t = linspace(0, duration, samples)"
+    )
     initial: Initial = Initial()
     saturation: bool = True
     anti_windup: AntiWindup = "clamping"
-    tracking_time: float | None = Field(
+    tracking_time: Annotated[float, within(1e-4, 1e4)] | None = Field(
         default=None,
         description="of back-calculation, s, 1e-4 to 1e4; each loop's integral time where left out",
     )
     travel_stops: bool = True
     trim_feedforward: bool = True
-    rtol: float = Field(default=1e-8, description="tolerance of the nonlinear integration")
+    rtol: Annotated[float, within(1e-12, 1e-2)] = Field(
+        default=1e-8, description="tolerance of the nonlinear integration"
+    )
     digital: DigitalController | None = Field(default=None, description="nonlinear model; null is continuous")
     disturbance: InputDisturbance | None = Field(default=None, description="nonlinear model")
 
@@ -377,4 +368,4 @@ class CompareRequest(StepRequest):
 class LiveRequest(EvaluateRequest):
     """An evaluate request with the number that its answer will carry."""
 
-    seq: int = Field(ge=0, le=2**53)
+    seq: Whole = Field(ge=0, le=2**53)

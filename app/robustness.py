@@ -9,12 +9,11 @@ from fastapi import APIRouter, Response, WebSocket
 
 from heli2dof_core.robustness import Cloud, cloud, cloud_in_parts
 
-from .compute import Compute
+from .compute import Compute, still_wanted
 from .conversation import Send, converse
-from .encoding import json_bytes, json_response
+from .encoding import json_bytes
 from .metrics import Metrics
 from .models import described
-from .replies import Reply
 from .robustness_requests import RobustnessReply, RobustnessRequest, cloud_reply
 
 
@@ -28,10 +27,10 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
     async def robustness(request: RobustnessRequest) -> Response:
         metrics.clouds.inc()
 
-        def work() -> Reply:
-            return cloud_reply(cloud(request.to_spec(), request.to_uncertainty()))
+        def work() -> bytes:
+            return json_bytes(cloud_reply(cloud(request.to_spec(), request.to_uncertainty(), still_wanted)))
 
-        return json_response(await compute.run(work))
+        return Response(await compute.run_slow(work), media_type="application/json")
 
     @router.websocket("/robustness")
     async def progressing(socket: WebSocket) -> None:
@@ -40,8 +39,9 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
         async def answer(data: Any, send: Send) -> None:
             request = RobustnessRequest.model_validate(data)
             metrics.clouds.inc()
-            parts = await compute.run(lambda: cloud_in_parts(request.to_spec(), request.to_uncertainty()))
-            while (part := await compute.run(_following, parts)) is not None:
+            spec, uncertainty = request.to_spec(), request.to_uncertainty()
+            parts = cloud_in_parts(spec, uncertainty, still_wanted)
+            while (part := await compute.run_slow(_following, parts)) is not None:
                 await send(part)
 
         await converse(socket, answer)

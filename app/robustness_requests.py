@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Annotated, Any
 
 from pydantic import Field
 
+from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.robustness import Cloud, Distribution, Uncertainty
 
 from .models import Complex, Model
 from .replies import Reply, poles_reply
+from .request_fields import Whole, within
 from .requests import StepRequest
 
 MOST_POLES = 2000
@@ -20,12 +22,15 @@ MOST_POLES = 2000
 class RobustnessRequest(StepRequest):
     """A design, an experiment, and how far the rigs may differ from the nominal one."""
 
-    uncertainty: dict[str, float] | None = Field(
-        default=None, description="relative, per parameter; by default 0.1 for all but g"
+    uncertainty: dict[str, Annotated[float, within(0.0, 0.95)]] | None = Field(
+        default=None,
+        max_length=len(PARAMETER_INFO),
+        json_schema_extra={"propertyNames": {"enum": [*PARAMETER_INFO]}},
+        description="relative, per parameter; by default 0.1 for all but g",
     )
     distribution: Distribution = "uniform"
-    samples: int = Field(default=200, ge=1, le=20_000, description="how many rigs")
-    seed: int = Field(default=0, ge=0, le=2**32 - 1, description="of the random rigs")
+    samples: Whole = Field(default=200, ge=1, le=20_000, description="how many rigs")
+    seed: Whole = Field(default=0, ge=0, le=2**32 - 1, description="of the random rigs")
 
     def to_uncertainty(self) -> Uncertainty:
         """The core's uncertainty."""
@@ -44,7 +49,7 @@ class RobustnessReply(Model):
     """After `done` of `samples` rigs; poles of the whole loop of the first of them, rad/s."""
 
     done: int = Field(description="rigs so far")
-    samples: int = Field(description="rigs in all")
+    samples: Whole = Field(description="rigs in all")
     loop_poles: list[list[Complex]]
     t: list[float] = Field(description="s")
     percentiles: list[float] = Field(description="%, of `envelopes`")

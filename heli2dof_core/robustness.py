@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from types import MappingProxyType, SimpleNamespace
@@ -27,6 +27,8 @@ Distribution = Literal["uniform", "normal"]
 MOST_SAMPLES = 20_000
 CHUNK = 250
 """Rigs before the first report of progress; each next part is twice as large."""
+SLICE = 50
+"""Rigs between two checks whether the work is still wanted: a few milliseconds, or seconds where rigs are stiff."""
 GRID = 101
 """Times at which responses are kept."""
 PERCENTILES = (5.0, 50.0, 95.0)
@@ -110,16 +112,25 @@ class Cloud(Shown):
         return Table.of("rigs", ("", "share"), shares), Table.of("percentiles", heads, rows)
 
 
-def cloud(spec: Spec, uncertainty: Uncertainty = Uncertainty()) -> Cloud:
+def cloud(
+    spec: Spec, uncertainty: Uncertainty = Uncertainty(), check: Callable[[], None] = lambda: None
+) -> Cloud:
     """The whole cloud at once."""
-    *_, last = cloud_in_parts(spec, uncertainty)
+    *_, last = cloud_in_parts(spec, uncertainty, check)
     return last
 
 
-def cloud_in_parts(spec: Spec, uncertainty: Uncertainty) -> Iterator[Cloud]:
+def cloud_in_parts(
+    spec: Spec, uncertainty: Uncertainty, check: Callable[[], None] = lambda: None
+) -> Iterator[Cloud]:
     """The cloud after every few hundred rigs; who stops asking stops the work.
 
     K and the outer loop stay as they were designed for the nominal rig, and so does the trim.
+
+    Args:
+        spec: the nominal rig with its design and experiment.
+        uncertainty: how the rigs differ from it.
+        check: called after every few rigs; what it raises ends the work.
 
     Raises:
         InvalidInputError: the scenario has a digital controller or a disturbance.
@@ -153,8 +164,11 @@ def cloud_in_parts(spec: Spec, uncertainty: Uncertainty) -> Iterator[Cloud]:
         begin, size = 0, CHUNK
         while begin < len(rigs):
             end = min(begin + size, len(rigs))
-            middle = (begin + end) // 2
-            list(pool.map(respond, (begin, middle), (middle, end)))
+            for first in range(begin, end, SLICE):
+                check()
+                last = min(first + SLICE, end)
+                middle = (first + last) // 2
+                list(pool.map(respond, (first, middle), (middle, last)))
             yield _summary(t, poles, angles, within, end)
             begin, size = end, 2 * size  # so that all summaries together cost as much as the last
 

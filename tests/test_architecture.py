@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 import subprocess
 import sys
@@ -65,3 +66,32 @@ def test_page_and_locks_name_no_other_host():
         if path.suffix in (".js", ".html", ".css", ".json", ".txt") and path.is_file():
             hosts = set(re.findall(r"https?://([\w.-]+)", path.read_text(encoding="utf-8")))
             assert hosts <= {"www.w3.org", "127.0.0.1"}, (name, hosts)
+
+
+EVALUATING = {"eval", "exec", "compile", "sympify", "parse_expr", "parse_latex", "literal_eval", "__import__"}
+UNPICKLING = {"pickle", "cPickle", "dill", "cloudpickle", "joblib", "marshal", "shelve", "jsonpickle"}
+
+
+def test_nothing_is_evaluated_from_text():
+    """No call of an evaluator by any name, no unpickling import, no NumPy or SciPy reader that unpickles."""
+    for name in TRACKED:
+        if not name.startswith(("app/", "heli2dof_core/")) or not name.endswith(".py"):
+            continue
+        for node in ast.walk(ast.parse((ROOT / name).read_text(encoding="utf-8"))):
+            where = f"{name}:{getattr(node, 'lineno', 0)}"
+            if isinstance(node, ast.Call):
+                called = node.func
+                # re.compile is a method of a module, compile() Python's own.
+                own = called.id if isinstance(called, ast.Name) else ""
+                method = called.attr if isinstance(called, ast.Attribute) else ""
+                assert own not in EVALUATING, where
+                assert method not in EVALUATING - {"compile"}, where
+                allowed = [k for k in node.keywords if k.arg == "allow_pickle"]
+                assert all(isinstance(k.value, ast.Constant) and k.value.value is False for k in allowed), (
+                    where
+                )
+            if isinstance(node, ast.Import | ast.ImportFrom):
+                modules = (
+                    {node.module or ""} if isinstance(node, ast.ImportFrom) else {a.name for a in node.names}
+                )
+                assert not {m.partition(".")[0] for m in modules} & UNPICKLING, where

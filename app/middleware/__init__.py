@@ -5,6 +5,7 @@ from __future__ import annotations
 from starlette.middleware.cors import CORSMiddleware
 from starlette.types import ASGIApp
 
+from ..limits import Limits, OpenSockets
 from ..metrics import Metrics
 from ..settings import Settings
 from ..visits import Visits
@@ -18,11 +19,14 @@ from .sockets import Sockets
 __all__ = ["surrounded"]
 
 
-def surrounded(app: ASGIApp, settings: Settings, metrics: Metrics, visits: Visits) -> ASGIApp:
+def surrounded(
+    app: ASGIApp, settings: Settings, metrics: Metrics, visits: Visits, sockets: OpenSockets
+) -> ASGIApp:
     """The routes with all that surrounds them; what is written last comes first."""
     app = Sockets(app, metrics, visits)
     if settings.access_token is not None:
         app = Access(app, settings.access_token.get_secret_value(), settings.frame_ancestors)
+    app = Limits(app, settings, sockets)
     app = Origins(app, settings.cors_origins, settings.allowed_hosts, metrics)
     if settings.cors_origins:
         app = CORSMiddleware(

@@ -25,19 +25,19 @@ def build_router(compute: Compute) -> APIRouter:
 
     @router.post("/place", **described(models.Placement, "State feedback for any controllable (A, B)"))
     async def place(request: PlaceRequest) -> Response:
-        return json_response(await compute.run(lambda: replies.assessment_reply(request.place())))
+        return json_response(await compute.run_slow(lambda: replies.assessment_reply(request.place())))
 
     @router.post("/compare", **described(models.Comparison, "The same poles through several methods"))
     async def compare_(request: CompareRequest) -> Response:
         def work() -> replies.Reply:
             return replies.comparison_reply(compare(request.to_spec(), request.methods))
 
-        return json_response(await compute.run(work))
+        return json_response(await compute.run_slow(work))
 
     @router.post("/splits", **described(list[models.Split], "All ways to deal four poles into two pairs"))
     async def splits(request: DesignRequest) -> Response:
         return json_response(
-            await compute.run(lambda: replies.splits_reply(compare_splits(request.to_spec())))
+            await compute.run_slow(lambda: replies.splits_reply(compare_splits(request.to_spec())))
         )
 
     return router

@@ -9,7 +9,7 @@ from heli2dof_core.couplings import Coupling, Lead
 
 from .. import replies
 from ..compute import Compute
-from ..encoding import json_response
+from ..encoding import json_bytes, json_response
 from ..models import Symbolic, described
 from ..paper_models import Paper, Walkthrough
 from ..requests import DesignRequest
@@ -23,26 +23,31 @@ def build_router(compute: Compute) -> APIRouter:
     async def symbolic(
         coupling: Coupling = "triangular", lead: Lead = "pitch", shifted: bool = False
     ) -> Response:
-        def work() -> replies.Reply:
+        def work() -> bytes:
             from heli2dof_core.symbolic.render import symbolic_report
 
-            return replies.symbolic_reply(symbolic_report(Structure(coupling, lead), shifted=shifted))
+            return json_bytes(
+                replies.symbolic_reply(symbolic_report(Structure(coupling, lead), shifted=shifted))
+            )
 
-        return json_response(await compute.run(work))
+        found = await compute.run_once(("symbolic", coupling, lead, shifted), work)
+        return Response(found, media_type="application/json")
 
     @router.post(
         "/walkthrough", **described(Walkthrough, "The derivation in numbers, from constants to the RGA")
     )
     async def walkthrough(request: DesignRequest) -> Response:
-        return json_response(await compute.run(lambda: replies.walkthrough_reply(place(request.to_spec()))))
+        return json_response(
+            await compute.run_slow(lambda: replies.walkthrough_reply(place(request.to_spec())))
+        )
 
     @router.get("/paper", **described(Paper, "The paper, reproduced, and its errata proved"))
     async def paper() -> Response:
-        def work() -> replies.Reply:
+        def work() -> bytes:
             from ..paper_replies import paper_reply
 
-            return paper_reply()
+            return json_bytes(paper_reply())
 
-        return json_response(await compute.run(work))
+        return Response(await compute.run_once("paper", work), media_type="application/json")
 
     return router

@@ -32,7 +32,7 @@ def build_router(compute: Compute) -> APIRouter:
     @router.post("/export/{format}", **_described())
     async def export(request: StepRequest, name: FormatName, link: Link = None) -> Response:
         chosen = require_known(name, FORMATS, "format")
-        content = await compute.run(lambda: chosen.content(request.to_spec(), link or ""))
+        content = await compute.run_slow(lambda: chosen.content(request.to_spec(), link or ""))
         headers = {"Content-Disposition": f'attachment; filename="{chosen.filename}"'}
         return Response(content, media_type=chosen.media_type, headers=headers)
 
@@ -45,6 +45,7 @@ def _described() -> dict[str, Any]:
     kinds = {each.media_type.partition(";")[0] for each in FORMATS.values()}
     binary = {"schema": {"type": "string", "format": "binary"}}
     del options["responses"][200]["model"]
-    options["responses"][200]["content"] = dict.fromkeys(sorted(kinds), binary)
+    # What is JSON may be anything but text in the schema's sense.
+    options["responses"][200]["content"] = {k: {} if k.endswith("json") else binary for k in sorted(kinds)}
     names = ", ".join(f"`{each.name}` ({each.title})" for each in FORMATS.values())
     return {**options, "description": f"Formats: {names}.", "response_class": Response}

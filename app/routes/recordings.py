@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import threading
 from dataclasses import replace
 from typing import Any
 
@@ -12,15 +11,14 @@ from fastapi import APIRouter, HTTPException, Request, Response, WebSocket
 
 from heli2dof_core import Spec, close_loop, place, preset
 from heli2dof_core.engine import engine
-from heli2dof_core.errors import CancelledError, RecordingError
 from heli2dof_core.identification import Progress, identify
 from heli2dof_core.overlay import driven_by_references, driven_by_voltages, driven_in_segments
-from heli2dof_core.recording_files import MOST_BYTES, read_table, write_csv
+from heli2dof_core.recording_files import read_table, write_csv
 from heli2dof_core.recordings import recording_of
 from heli2dof_core.sample_recordings import deviating_rig, named_columns, sample_recording
 from heli2dof_core.spec import Digital
 
-from ..compute import Compute
+from ..compute import Compute, asking, still_wanted
 from ..conversation import Send, converse
 from ..encoding import json_bytes, json_response
 from ..models import described
@@ -37,6 +35,7 @@ from ..recording_models import (
     progress_reply,
 )
 from ..recording_store import RecordingStore
+from ..settings import Settings
 
 _PATIENCE = 180
 """Half seconds that a request waits for the kernels after the start."""
@@ -44,16 +43,16 @@ _SIZE = (0.2, 0.4)
 """Reference steps of a sample where the preset's scenario names none, rad."""
 
 
-def build_router(compute: Compute) -> APIRouter:
+def build_router(compute: Compute, settings: Settings) -> APIRouter:
     """The routes recordings under /api/v1."""
     router = APIRouter(prefix="/api/v1/recordings", tags=["recordings"])
-    store = RecordingStore()
+    store = RecordingStore(settings.recordings, settings.recordings_bytes)
 
     @router.post("", **_takes_a_file())
     async def send(request: Request, name: str = "") -> Response:
-        data = await _body(request)
+        data = await request.body()
         table = await compute.run_slow(read_table, data, name[:200])
-        return json_response(preview_reply(store.put(table), name[:200], table))
+        return json_response(preview_reply(store.put(table, asking.get().client[0]), name[:200], table))
 
     @router.post("/sample", **_makes_a_file())
     async def sample(request: SampleRequest) -> Response:
@@ -96,22 +95,6 @@ async def _compiled() -> None:
     )
 
 
-async def _body(request: Request) -> bytes:
-    """The request's body, given up as soon as it is too long."""
-    parts, size = [], 0
-    async for part in request.stream():
-        size += len(part)
-        if size > MOST_BYTES:
-            raise RecordingError(
-                "the file is too large",
-                field="file",
-                value=size,
-                hint=f"At most {MOST_BYTES // 2**20} MiB are read.",
-            )
-        parts.append(part)
-    return b"".join(parts)
-
-
 def _sample(request: SampleRequest) -> bytes:
     spec, base = request.to_spec(), preset(request.preset)
     given = spec.scenario.digital or Digital(encoders=base.encoders)
@@ -146,13 +129,12 @@ async def _identify(
     send: Send, spec: Spec, request: IdentifyRequest, compute: Compute, store: RecordingStore
 ) -> None:
     """Runs in the pool for what takes seconds; progress comes from there, of which only the newest waits."""
-    table, loop, called_off = store.get(request.recording), asyncio.get_running_loop(), threading.Event()
+    table, loop = store.get(request.recording), asyncio.get_running_loop()
     newest: list[Progress] = []
     told = asyncio.Event()
 
     def report(progress: Progress) -> None:
-        if called_off.is_set():
-            raise CancelledError("called off")
+        still_wanted()
         newest[:] = [progress]
         loop.call_soon_threadsafe(told.set)
 
@@ -178,7 +160,6 @@ async def _identify(
                 await send(_text(progress_reply(newest.pop())))
         await send(_text(await running))
     finally:
-        called_off.set()
         if not running.done():
             running.cancel()
             with contextlib.suppress(asyncio.CancelledError):
@@ -200,5 +181,4 @@ def _makes_a_file() -> dict[str, Any]:
     options = described(None, "A recording of the design's digital rig, CSV")
     del options["responses"][200]["model"]
     options["responses"][200]["content"] = {"text/csv": {"schema": {"type": "string"}}}
-    options["responses"][503] = {"description": "Still compiling"}
     return {**options, "response_class": Response}

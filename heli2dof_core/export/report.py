@@ -141,7 +141,9 @@ def _formulas(spec: Spec) -> Iterator[str]:
         gains, relative = symbols.entries["K"], symbols.entries["RGA"]["lambda_11"]
         if shift is not None:
             gains, relative = _shifted(spec.structure.family)
-            yield paragraph(f"Gain of the state feedback, with the basis' shift c = {number(shift, 6)}:", "before")
+            yield paragraph(
+                f"Gain of the state feedback, with the basis' shift c = {number(shift, 6)}:", "before"
+            )
         else:
             yield paragraph("Gain of the state feedback:", "before")
         for name, entry in gains.items():

@@ -48,7 +48,9 @@ def regulate(A: Floats, B: Floats, Q: Floats, R: Floats, integrate: Floats | Non
     more = {} if integrate is None else {"integral_action": integrate}
     try:
         K, _, _ = control.lqr(A, B, Q, R, method="scipy", **more)
-    except (np.linalg.LinAlgError, control.ControlArgument) as error:
+        if not np.all(np.isfinite(K)):
+            raise ValueError("its solution is not finite")
+    except (ValueError, control.ControlArgument) as error:  # a LinAlgError is a ValueError
         raise MethodUnavailableError(
             f"the Riccati equation has no stabilizing solution: {error}", field="weights"
         ) from error

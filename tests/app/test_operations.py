@@ -70,7 +70,7 @@ def test_what_is_done_is_counted(client: TestClient):
     assert during["heli2dof_sockets_open|/api/v1/live"] == 1
     assert after["heli2dof_sockets_open|/api/v1/live"] == 0
     assert after["heli2dof_scene_sessions"] == 0
-    assert after["heli2dof_pool_waiting|compute"] == after["heli2dof_pool_waiting|slow"] == 0
+    assert after["heli2dof_pool_waiting|quick"] == after["heli2dof_pool_waiting|slow"] == 0
     assert after["process_resident_memory_bytes"] > 1e7
     assert after["process_open_fds"] > 3
 

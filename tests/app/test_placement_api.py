@@ -10,6 +10,7 @@ import sympy as sp
 from pydantic import TypeAdapter
 
 from app import comparison_models, models, paper_models
+from app.problems import Problem
 from heli2dof_core import METHODS, PRESETS, pole_error
 from tests.app.test_rest import COMPLEX, PAPER, poles, post
 
@@ -85,7 +86,7 @@ PLACE_PROBLEMS = [
 def test_bad_systems_are_problems_that_name_their_field(client, change, code, field):
     reply = post(client, "place", {**SYSTEM, "poles": WANTED, **change}, status=422)
     assert (reply["code"], reply["field"]) == (code, field)
-    models.Problem.model_validate(reply)
+    Problem.model_validate(reply)
 
 
 def test_a_dyadic_method_on_the_helicopter_explains_why_it_cannot_be(client):

@@ -63,7 +63,7 @@ def test_problems_name_row_and_column(client, sample):
     assert problem["code"] == "unusable_recording"
     assert "row 11, column 'theta'" in problem["detail"]
     assert upload(client, b"", status=422)["field"] == "file"
-    upload(client, b"1" * (33 * 2**20), status=422)
+    upload(client, b"1" * (33 * 2**20), status=413)
 
 
 @pytest.mark.parametrize(
@@ -130,7 +130,7 @@ def test_refused_identifications(client, sent, body, field):
 
 
 def test_the_store_forgets_the_longest_unused():
-    store = RecordingStore(most_bytes=2500)
+    store = RecordingStore(most=100, most_bytes=2500)
     keys = [store.put(Table(("x",), np.zeros((100, 1)))) for _ in range(3)]
     assert store.get(keys[0]).names == ("x",)
     store.put(Table(("x",), np.zeros((100, 1))))

@@ -11,6 +11,7 @@ import sympy as sp
 from pydantic import TypeAdapter
 
 from app import models
+from app.problems import Problem
 from heli2dof_core import PRESETS
 
 PAPER = {"preset": "quanser-2dof-manual", "poles": [-12, -10, -9.25, -8.76]}
@@ -207,7 +208,7 @@ def test_bad_input_is_a_problem_that_names_its_field(client, body, code, field):
     reply = client.post("/api/v1/step", json=body)
     assert reply.status_code == 422
     assert reply.headers["content-type"] == "application/problem+json"
-    problem = models.Problem.model_validate(reply.json())
+    problem = Problem.model_validate(reply.json())
     assert (problem.status, problem.code, problem.field) == (422, code, field)
     assert problem.detail
 

@@ -1,0 +1,204 @@
+"""What one client may take of the server: sizes, rates, sockets. Around the whole app, as plain ASGI."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections import Counter, OrderedDict
+from collections.abc import Iterator
+from ipaddress import IPv6Address, ip_address
+from time import monotonic
+from typing import Any
+
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from heli2dof_core.recording_files import MOST_BYTES
+
+from .compute import Asking, asking
+from .problems import problem, problem_response
+from .settings import Settings
+
+_TRY_LATER = 1013
+_LARGE = "/api/v1/recordings"
+"""The one call that takes a file."""
+_LIMITED = ("/api/", "/scene/")
+"""Where requests are counted: the page's own files cost nothing, and a class loads thousands of them at once."""
+_REMEMBERED = 10_000
+
+
+def address_of(scope: Scope) -> str:
+    """Who counts as one client: an IPv4 address, or the /64 that an IPv6 host may choose its own from."""
+    host = (scope.get("client") or ("", 0))[0]
+    with contextlib.suppress(ValueError):
+        address = ip_address(host)
+        if isinstance(address, IPv6Address):
+            return str(address.ipv4_mapped or IPv6Address(int(address) >> 64 << 64))
+    return host
+
+
+class Buckets:
+    """Tokens by address: `rate` of them come back in a second, up to `burst`."""
+
+    def __init__(self, rate: float, burst: float) -> None:
+        self._rate, self._burst = rate, burst
+        self._left: OrderedDict[str, tuple[float, float]] = OrderedDict()
+
+    def take(self, address: str) -> float:
+        """Takes one; returns 0, or after how many seconds there is one again."""
+        now = monotonic()
+        left, last = self._left.pop(address, (self._burst, now))
+        left = min(self._burst, left + (now - last) * self._rate)
+        wait = 0.0 if left >= 1 else (1 - left) / self._rate
+        self._left[address] = (left if wait else left - 1, now)
+        if len(self._left) > _REMEMBERED:
+            self._left.popitem(last=False)
+        return wait
+
+
+class OpenSockets:
+    """How many WebSockets are open, by address."""
+
+    def __init__(self) -> None:
+        self.by_address: Counter[str] = Counter()
+
+    @property
+    def sockets(self) -> int:
+        """All of them."""
+        return self.by_address.total()
+
+    @contextlib.contextmanager
+    def one_more(self, address: str) -> Iterator[None]:
+        """Counts one while the context lasts."""
+        self.by_address[address] += 1
+        try:
+            yield
+        finally:
+            self.by_address[address] -= 1
+            if not self.by_address[address]:
+                del self.by_address[address]
+
+
+class Limits:
+    """Refuses what goes beyond the settings, each with its clear answer; tells the core's threads who asks."""
+
+    def __init__(self, app: ASGIApp, settings: Settings, sockets: OpenSockets) -> None:
+        self._app, self._settings, self._open = app, settings, sockets
+        self._buckets = Buckets(settings.request_rate, settings.request_burst)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Passes on what is within the limits."""
+        if scope["type"] == "http":
+            await self._http(scope, receive, send)
+        elif scope["type"] == "websocket":
+            await self._websocket(scope, receive, send)
+        else:
+            await self._app(scope, receive, send)
+
+    async def _http(self, scope: Scope, receive: Receive, send: Send) -> None:
+        address = address_of(scope)
+        path = scope["path"].removeprefix(scope.get("root_path", ""))
+        wait = self._buckets.take(address) if path.startswith(_LIMITED) else 0.0
+        if wait:
+            answer = problem_response(
+                problem(
+                    429,
+                    "Too many requests from this address.",
+                    "too_many_requests",
+                    hint=f"At most {self._settings.request_rate:g} a second are answered; drag over the live socket.",
+                ),
+                {"Retry-After": str(int(wait) + 1)},
+            )
+            return await answer(scope, receive, send)
+        most = MOST_BYTES if path == _LARGE else self._settings.body_bytes
+        body = _Body(receive, most, self._settings.body_seconds)
+        if body.announced(scope) > most:
+            return await body.refusal(413)(scope, receive, send)
+        token = asking.set(Asking((address, _connection(scope)), body.gone))
+        try:
+            await self._app(scope, body.receive, send)
+        except _RefusedError as refused:
+            await body.refusal(refused.status)(scope, receive, send)
+        finally:
+            asking.reset(token)
+        return None
+
+    async def _websocket(self, scope: Scope, receive: Receive, send: Send) -> None:
+        address, settings = address_of(scope), self._settings
+        if self._open.sockets >= settings.sockets:
+            return await _turn_away(receive, send, f"the server has {settings.sockets} sockets open")
+        if self._open.by_address[address] >= settings.sockets_per_address:
+            return await _turn_away(
+                receive, send, f"this address has {settings.sockets_per_address} sockets open"
+            )
+        token = asking.set(Asking((address, _connection(scope))))
+        try:
+            with self._open.one_more(address):
+                await self._app(scope, receive, send)
+        finally:
+            asking.reset(token)
+        return None
+
+
+class _RefusedError(BaseException):
+    """A body is too long or too slow; no handler of the app below is to mistake it for its own."""
+
+    def __init__(self, status: int) -> None:
+        super().__init__(status)
+        self.status = status
+
+
+class _Body:
+    """A request's body, counted while it comes."""
+
+    def __init__(self, receive: Receive, most: int, seconds: float) -> None:
+        self._receive, self._most, self._seconds = receive, most, seconds
+        self._size, self._whole = 0, False
+        self._deadline = monotonic() + seconds
+
+    @staticmethod
+    def announced(scope: Scope) -> int:
+        """Content-Length, 0 where there is none."""
+        value = dict(scope["headers"]).get(b"content-length", b"")
+        return int(value) if value.isdigit() else 0
+
+    async def receive(self) -> Message:
+        """The next part.
+
+        Raises:
+            _RefusedError: it is one too many, or too late.
+        """
+        if self._whole:
+            return await self._receive()
+        try:
+            message = await asyncio.wait_for(self._receive(), max(0.0, self._deadline - monotonic()))
+        except TimeoutError:
+            raise _RefusedError(408) from None
+        self._size += len(message.get("body", b""))
+        self._whole = not message.get("more_body", False)
+        if self._size > self._most:
+            raise _RefusedError(413)
+        return message
+
+    async def gone(self) -> None:
+        """Returns once the client has left; the body must have been read."""
+        while (await self._receive())["type"] != "http.disconnect":
+            pass
+
+    def refusal(self, status: int) -> Any:
+        """The answer to a body that was refused; the connection ends with it."""
+        if status == 408:
+            detail, code = f"The body did not come within {self._seconds:g} s.", "body_too_slow"
+        else:
+            detail, code = f"The body is larger than {self._most} bytes.", "body_too_large"
+        return problem_response(problem(status, detail, code), {"Connection": "close"})
+
+
+def _connection(scope: Scope) -> str:
+    return str((scope.get("client") or ("", 0))[1])
+
+
+async def _turn_away(receive: Receive, send: Send, reason: str) -> None:
+    """Accepts and closes at once: a browser learns code and reason only of a socket that was accepted."""
+    await receive()
+    await send({"type": "websocket.accept"})
+    await send({"type": "websocket.close", "code": _TRY_LATER, "reason": f"{reason}: try again in a minute"})

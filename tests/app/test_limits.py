@@ -1,0 +1,221 @@
+"""What one client may take: each limit with its answer, and turns among those who wait."""
+
+from __future__ import annotations
+
+import socket
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import httpx2
+import numpy as np
+import pytest
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+from app.compute import Compute, OverdueError, still_wanted
+from app.limits import Buckets, address_of
+from app.queue import BusyError, FairQueue, Job
+from app.recording_store import RecordingStore
+from app.settings import Settings
+from heli2dof_core.errors import RecordingError
+from heli2dof_core.recordings import Table
+from tests.scene_server import until
+from tests.whole_server import serving
+
+SMALL = {
+    "body_bytes": 2000,
+    "body_seconds": 1.0,
+    "request_rate": 5.0,
+    "request_burst": 30,
+    "sockets": 6,
+    "sockets_per_address": 4,
+    "slow_threads": 1,
+    "slow_waiting": 3,
+    "slow_each": 2,
+    "slow_seconds": 2.0,
+    "scenes": 1,
+}
+STIFF = {
+    "samples": 20_000,
+    "scenario": {"duration": 600, "rtol": 1e-12},
+}
+"""A cloud that would take minutes."""
+
+
+@pytest.fixture(scope="module")
+def server():
+    with serving(**SMALL) as server:
+        yield server
+
+
+@pytest.fixture
+def http(server):
+    with httpx2.Client(base_url=server.http, timeout=30, trust_env=False) as http:
+        until(lambda: http.get("/api/v1/presets").status_code == 200, "there are requests left")
+        time.sleep(3.0)  # the bucket fills again
+        yield http
+
+
+def refused(reply, status: int, code: str) -> dict:
+    problem = reply.json()
+    assert (reply.status_code, problem["status"], problem["code"]) == (status, status, code)
+    assert reply.headers["content-type"] == "application/problem+json"
+    return problem
+
+
+def test_large_bodies_are_refused_announced_or_not(http):
+    refused(http.post("/api/v1/gains", content=b" " * 2001), 413, "body_too_large")
+    refused(http.post("/api/v1/gains", content=(b" " * 500 for _ in range(5))), 413, "body_too_large")
+    assert http.post("/api/v1/gains", content=b"{}" + b" " * 1998).status_code == 200
+
+
+def test_a_body_that_does_not_come_is_given_up(server, http):
+    with socket.create_connection(("127.0.0.1", server.port), timeout=10) as peer:
+        head = "POST /api/v1/gains HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
+        peer.sendall(f"{head}Content-Length: 100\r\n\r\n{{".encode())
+        assert b" 408 " in peer.recv(4096)
+
+
+def test_too_many_requests_are_told_when_to_come_back(http):
+    replies = [http.get("/api/v1/presets") for _ in range(60)]
+    late = [reply for reply in replies if reply.status_code != 200]
+    assert late
+    refused(late[0], 429, "too_many_requests")
+    assert int(late[0].headers["Retry-After"]) >= 1
+    # The page's own files and the health check are not counted.
+    assert http.get("/healthz").status_code == http.get("/static/style.css").status_code == 200
+
+
+def test_too_many_sockets_are_closed_with_1013(server):
+    url = server.socket("/api/v1/live")
+    peers = [connect(url, compression=None, proxy=None) for _ in range(SMALL["sockets_per_address"])]
+    try:
+        with connect(url, compression=None, proxy=None) as late, pytest.raises(ConnectionClosed) as closed:
+            late.recv(10)
+        assert closed.value.rcvd is not None
+        assert closed.value.rcvd.code == 1013
+        assert "4 sockets open" in closed.value.rcvd.reason
+    finally:
+        for peer in peers:
+            peer.close()
+    until(lambda: server.app.state.limits.sockets == 0, "all sockets are forgotten")
+
+
+def test_slow_work_is_given_up_after_its_time(http, server):
+    problem = refused(http.post("/api/v1/robustness", json=STIFF), 503, "overdue")
+    assert problem["hint"]
+    until(lambda: server.app.state.compute.running["slow"] == 0, "the thread is free again")
+
+
+def test_when_too_much_waits_more_is_refused(http):
+    with ThreadPoolExecutor(8) as pool:
+        replies = list(pool.map(lambda _: http.post("/api/v1/robustness", json=STIFF), range(8)))
+    codes = [reply.json()["code"] for reply in replies]
+    assert set(codes) == {"busy", "overdue"}
+    busy = next(reply for reply in replies if reply.json()["code"] == "busy")
+    assert int(busy.headers["Retry-After"]) >= 1
+
+
+def test_work_is_called_off_when_its_client_goes(server):
+    compute = server.app.state.compute
+    peer = socket.create_connection(("127.0.0.1", server.port))
+    body = b'{"samples": 20000, "scenario": {"duration": 600, "rtol": 1e-12}}'
+    head = "POST /api/v1/robustness HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
+    head += f"Content-Length: {len(body)}"
+    peer.sendall(head.encode() + b"\r\n\r\n" + body)
+    until(lambda: compute.running["slow"] == 1, "the work begins")
+    peer.close()
+    until(lambda: compute.running["slow"] == 0, "the work ends", 1.5)
+
+
+def test_clients_take_turns_whoever_has_how_many_waiting():
+    queue = FairQueue(most=100, most_each=20)
+    for name in ["a1", "a1", "a1", "a2", "b1", "b1", "c1"]:
+        queue.put(Job((name[0], name[1]), None))
+    order = [job.client for _ in range(len(queue)) if (job := queue.take())]
+    assert ["".join(client) for client in order] == ["a1", "b1", "c1", "a2", "b1", "a1", "a1"]
+
+
+def test_the_queue_is_bounded_in_all_and_for_each():
+    queue = FairQueue(most=3, most_each=2)
+    jobs = [Job(("a", "1"), None), Job(("a", "1"), None)]
+    for job in jobs:
+        queue.put(job)
+    with pytest.raises(BusyError, match="of your requests"):
+        queue.put(Job(("a", "1"), None))
+    queue.put(Job(("a", "2"), None))
+    with pytest.raises(BusyError, match="The server"):
+        queue.put(Job(("b", "1"), None))
+    queue.drop(jobs[0])
+    queue.put(Job(("b", "1"), None))
+    assert len(queue.close()) == 3
+    assert queue.take() is None
+
+
+def test_what_is_always_the_same_is_derived_once(client):
+    compute: Compute = client.app.state.compute
+    ran = []
+
+    async def both():
+        import asyncio
+
+        def work():
+            time.sleep(0.05)
+            ran.append(threading.current_thread().name)
+            return len(ran)
+
+        impatient = asyncio.create_task(compute.run_once("test", work))
+        await asyncio.sleep(0.01)
+        impatient.cancel()  # who leaves leaves the others their answer
+        return await asyncio.gather(compute.run_once("test", work), compute.run_once("test", work))
+
+    assert client.portal.call(both) == [1, 1]
+    assert len(ran) == 1 and ran[0].startswith("slow")
+
+
+def test_tokens_come_back():
+    buckets = Buckets(rate=100.0, burst=2)
+    assert [buckets.take("a") for _ in range(2)] == [0, 0]
+    assert 0 < buckets.take("a") <= 0.01
+    assert buckets.take("b") == 0
+    until(lambda: buckets.take("a") == 0, "one comes back", 1)
+
+
+@pytest.mark.parametrize(
+    ("host", "address"),
+    [
+        ("192.0.2.7", "192.0.2.7"),
+        ("2001:db8:1:2:3:4:5:6", "2001:db8:1:2::"),
+        ("::ffff:192.0.2.7", "192.0.2.7"),
+        ("testclient", "testclient"),
+    ],
+)
+def test_an_ipv6_network_counts_as_one_client(host, address):
+    assert address_of({"client": (host, 1)}) == address
+
+
+def test_who_sends_many_recordings_loses_its_own():
+    store = RecordingStore(most=4, most_bytes=10**6)
+    table = Table(("x",), np.zeros((10, 1)))
+    own = store.put(table, "student")
+    first, *_ = [store.put(table, "greedy") for _ in range(10)]
+    assert store.get(own) is table
+    assert len(store) == 4
+    with pytest.raises(RecordingError):
+        store.get(first)
+
+
+def test_a_class_behind_one_address_meets_no_limit():
+    """Forty students: two windows each with four sockets, a page's twenty calls at once, four asks a second."""
+    usual, students = Settings(), 40
+    assert usual.sockets_per_address >= students * 2 * 4
+    assert usual.request_burst >= students * 2 * 20
+    assert usual.request_rate >= students * 4
+    assert usual.slow_waiting >= students
+    assert usual.recordings >= students
+
+
+def test_work_outside_a_pool_is_always_wanted():
+    still_wanted()
+    assert issubclass(OverdueError, Exception)

@@ -1,0 +1,50 @@
+"""The whole app as `heli2dof serve` runs it, on a free port of the loopback, in a thread."""
+
+from __future__ import annotations
+
+import socket
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import uvicorn
+
+from app.cli.serving import server_config
+from app.settings import Settings
+from tests.scene_server import until
+
+
+@dataclass(frozen=True)
+class WholeServer:
+    """Where the app listens, and the app."""
+
+    port: int
+    app: Any
+
+    @property
+    def http(self) -> str:
+        return f"http://127.0.0.1:{self.port}"
+
+    def socket(self, path: str) -> str:
+        return f"ws://127.0.0.1:{self.port}{path}"
+
+
+@contextmanager
+def serving(**settings: Any) -> Iterator[WholeServer]:
+    """Run the app for as long as the context lasts; it has derived and compiled everything when it begins."""
+    config = server_config(Settings(**settings))
+    server = uvicorn.Server(config)
+    listener = socket.create_server(("127.0.0.1", 0))
+    thread = threading.Thread(target=server.run, args=([listener],), daemon=True)
+    thread.start()
+    until(lambda: server.started or not thread.is_alive(), "the server starts")
+    app: Any = config.app
+    try:
+        until(lambda: app.state.compute.settled, "all is derived and compiled", 240)
+        yield WholeServer(listener.getsockname()[1], app)
+    finally:
+        server.should_exit = True
+        thread.join(20.0)
+        assert not thread.is_alive(), "the server does not stop"
