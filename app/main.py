@@ -15,7 +15,7 @@ from heli2dof_core.version import package_version
 
 from . import examples, live, problems, robustness, scene
 from .compute import Compute
-from .limits import Limits, OpenSockets
+from .limits import Limits, OpenSockets, read_in_small_parts
 from .routes import catalogue, comparison, derivation, design, exports, frequency, recording, recordings
 from .settings import Settings
 
@@ -38,6 +38,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 
     @contextlib.asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
+        read_in_small_parts()
         compute.start()
         async with sessions.running():
             yield
@@ -51,7 +52,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         docs_url=None,
         redoc_url=None,
     )
-    app.state.compute = compute
+    app.state.compute, app.state.sessions = compute, sessions
     app.include_router(catalogue.build_router(compute))
     app.include_router(design.build_router(compute))
     app.include_router(frequency.build_router(compute))
