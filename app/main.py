@@ -15,7 +15,7 @@ from heli2dof_core.version import package_version
 
 from . import examples, live, policies, problems, robustness, scene
 from .compute import Compute
-from .limits import OpenSockets
+from .limits import OpenSockets, read_in_small_parts
 from .metrics import Metrics
 from .middleware import surrounded
 from .routes import (
@@ -68,6 +68,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 
     @contextlib.asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
+        read_in_small_parts()
         compute.start()
         async with sessions.running():
             yield
@@ -86,7 +87,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redoc_url=None,
     )
     app.state.compute, app.state.metrics, app.state.visits = compute, metrics, visits
-    app.state.limits = sockets
+    app.state.limits, app.state.sessions = sockets, sessions
     app.include_router(health.build_router(compute, visits, metrics if settings.metrics else None))
     app.include_router(catalogue.build_router())
     app.include_router(design.build_router(compute))

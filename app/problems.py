@@ -157,16 +157,20 @@ def _of_validation(error: Mapping[str, Any]) -> dict[str, Any]:
     return problem(422, detail, code, field=field, value=error.get("input"), hint=hint)
 
 
-def _finite(value: Any) -> Any:
-    """A value that JSON can carry: non-finite numbers and exotic objects as text."""
+def _finite(value: Any, depth: int = 5) -> Any:
+    """A value that JSON can carry: non-finite numbers and exotic objects as text, nothing long, nothing deep."""
+    if depth == 0:
+        return "…"
     if isinstance(value, float):
         return value if math.isfinite(value) else str(value)
-    if value is None or isinstance(value, (str, bool)):
+    if isinstance(value, str):
+        return value[:2000]
+    if value is None or isinstance(value, bool):
         return value
     if isinstance(value, int):
         return value if abs(value) < 2**63 else str(value)[:100]
     if isinstance(value, Mapping):
-        return {str(key): _finite(item) for key, item in list(value.items())[:20]}
+        return {str(key)[:200]: _finite(item, depth - 1) for key, item in list(value.items())[:20]}
     if isinstance(value, (list, tuple)):
-        return [_finite(item) for item in value[:20]]
+        return [_finite(item, depth - 1) for item in value[:20]]
     return str(value)[:200]

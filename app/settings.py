@@ -106,6 +106,7 @@ class Settings(BaseSettings):
     request_burst: int = Field(default=5000, ge=1, description="API requests of one address at once")
     sockets: int = Field(default=4000, ge=1, description="most WebSockets at once")
     sockets_per_address: int = Field(default=1000, ge=1, description="most WebSockets of one address at once")
+    message_rate: float = Field(default=250.0, gt=0, description="messages a second on one WebSocket")
     slow_threads: int = Field(
         default=2, ge=1, le=64, description="threads for clouds, identifications, comparisons, exports"
     )

@@ -12,6 +12,7 @@ from typing import Any
 import uvicorn
 
 from app.cli.serving import server_config
+from app.main import create_app
 from app.settings import Settings
 from tests.scene_server import until
 
@@ -34,13 +35,12 @@ class WholeServer:
 @contextmanager
 def serving(**settings: Any) -> Iterator[WholeServer]:
     """Run the app for as long as the context lasts; it has derived and compiled everything when it begins."""
-    config = server_config(Settings(**settings))
-    server = uvicorn.Server(config)
+    app = create_app(Settings(**settings))
+    server = uvicorn.Server(server_config(app))
     listener = socket.create_server(("127.0.0.1", 0))
     thread = threading.Thread(target=server.run, args=([listener],), daemon=True)
     thread.start()
     until(lambda: server.started or not thread.is_alive(), "the server starts")
-    app: Any = config.app
     try:
         until(lambda: app.state.compute.settled, "all is derived and compiled", 240)
         yield WholeServer(listener.getsockname()[1], app)

@@ -64,7 +64,12 @@ values = st.recursive(
 
 @pytest.fixture(scope="module")
 def server() -> Iterator[WholeServer]:
-    with serving() as server:
+    # The scene lasts as long as somebody watches, so that its own thread and descriptors are there all the time.
+    with serving() as server, opened(server, f"/scene/{SESSION}/hub"), opened(server, "/api/v1/live") as live:
+        live.send('{"seq": 1}')
+        live.recv(30)
+        sessions = server.app.state.sessions
+        until(lambda: sessions.server(SESSION) is not None, "the scene is there", 60)
         yield server
 
 
@@ -119,7 +124,7 @@ def raw(server: WholeServer, path: str) -> socket.socket:
     peer.sendall(f"{head}Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n".encode())
     reply = b""
     while b"\r\n\r\n" not in reply:
-        reply += peer.recv(4096)
+        reply += peer.recv(1)  # what follows is the first frame's
     assert b" 101 " in reply
     return peer
 
@@ -236,7 +241,8 @@ def test_floods_hold_up_nobody(server, at_rest, path):
         ended.set()
         for attacker in attackers:
             attacker.join()
-    assert max(times) < 3 * PATIENCE  # the flood's own work in this very process included
+    assert sorted(times)[5] < PATIENCE  # the flood's own work in this very process included
+    assert max(times) < 5 * PATIENCE
 
 
 @pytest.mark.parametrize("path", JSON_SOCKETS)
@@ -289,6 +295,13 @@ def test_half_open_connections_hold_up_nobody(server, at_rest):
     finally:
         for peer in halves + silent:
             peer.close()
+
+
+def test_a_flooding_socket_is_closed(server, at_rest):
+    with raw(server, "/api/v1/live") as peer:
+        with contextlib.suppress(OSError):
+            peer.sendall(frame(b"{}") * 2000)
+        assert closing_code(peer) in (0, 1008)  # 0: what the kernel had of it was lost with the connection
 
 
 def test_a_silent_peer_is_dropped_after_its_pings(server, at_rest):

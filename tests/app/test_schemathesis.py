@@ -55,6 +55,12 @@ RULES: dict[str, dict[str, str]] = {
         EXPERIMENT,
     ),
     "POST /api/v1/export/{format}": EXPERIMENT,
+    "POST /api/v1/recordings/sample": EXPERIMENT
+    | {
+        "invalid_input poles": "under this controller the rig runs away",
+        "invalid_input parameters.*": "the recorded rig deviates from the design's, at the edge of a range beyond it",
+        "invalid_input duration": "length over sample time is bounded",
+    },
     "POST /api/v1/robustness": RIGS,
     "POST /api/v1/place": {
         "unpaired_poles": "each complex pole needs its conjugate",

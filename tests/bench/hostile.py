@@ -146,8 +146,8 @@ def closing(server: WholeServer, path: str, sent: bytes) -> int:
 
 def spoken(server: WholeServer, path: str, message: str | bytes) -> str:
     with opened(server, path) as peer:
-        peer.send(message)
         try:
+            peer.send(message)
             while True:
                 reply = peer.recv(1.5)
                 if isinstance(reply, str) and '"status"' in reply:
