@@ -31,30 +31,31 @@ class Client:
     gains: list[list[list[float]]] = field(default_factory=list)
     lost: list[tuple[float, int]] = field(default_factory=list)
     """When a connection was lost, and the close code (1006: without one)."""
-    attempts: int = 0
+    stopped: bool = False
 
     async def run(self) -> None:
         seq, attempt = 0, 0
-        while True:
+        while not self.stopped:
             try:
                 async with connect(
                     self.url, compression=None, max_size=None, proxy=None, open_timeout=5
                 ) as peer:
                     attempt = 0
-                    while True:
+                    while not self.stopped:
                         seq += 1
                         await self._ask(peer, seq)
                         await asyncio.sleep(self.pace)
             except ConnectionClosed as closed:
                 self.lost.append((perf_counter(), closed.rcvd.code if closed.rcvd else 1006))
             except (OSError, InvalidHandshake, TimeoutError):
-                self.attempts += 1
+                pass
             await asyncio.sleep(min(LONGEST, FIRST * 2**attempt) * random.uniform(0.75, 1.25))
             attempt += 1
 
     async def _ask(self, peer: ClientConnection, seq: int) -> None:
         await peer.send(orjson.dumps({"seq": seq, "poles": self.poles, **BODY}).decode())
-        reply = orjson.loads(await asyncio.wait_for(peer.recv(), 10))
+        async with asyncio.timeout(10):
+            reply = orjson.loads(await peer.recv())
         assert reply["seq"] == seq, reply
         self.gains.append(reply["gains"]["K"])
         self.answered.append(perf_counter())

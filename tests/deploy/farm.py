@@ -89,7 +89,7 @@ class Farm:
     def home(self, session: str) -> Replica:
         """The replica that a session belongs to, as nginx logs it."""
         before = len(self._asked())
-        assert httpx2.get(f"{self.url}healthz?session={session}").status_code == 200
+        assert httpx2.get(f"{self.url}healthz?session={session}", timeout=30).status_code == 200
         until(lambda: len(self._asked()) > before, "nginx logs what it was asked")
         last = self._asked()[-1].split(", ")[-1]
         return next(replica for replica in self.replicas if replica.address == last)

@@ -18,27 +18,29 @@ CLIENTS, BEFORE, AFTER = 8, 1.5, 4.0
 """Clients of each replica, and seconds of load before and after the end of one."""
 WITHIN = 6.0
 """Seconds within which every client must be answered again; the machine may be busy."""
+PATIENCE = 60
+"""Seconds for what is no part of the measurement."""
 
 
 def test_a_session_stays_on_one_replica_by_path_and_by_query(farm: Farm):
-    homes = Counter()
-    for k in range(24):
-        session = f"visitor-{k}".ljust(22, "_")
-        home = farm.home(session)
-        homes[home.port] += 1
-        views = httpx2.put(f"{farm.url}scene/{session}/rig", json={"rig": "aero"})
-        assert views.status_code == 204
-        rows = [line for line in farm.log.read_text().splitlines() if "PUT /scene/" in line]
-        assert f"from {home.address}: 204" in rows[-1]
-    assert set(homes) == {replica.port for replica in farm.replicas}  # none is left without
+    for home in farm.replicas:
+        first, second = farm.sessions(home, 2)
+        for session in (first, second, first):
+            chosen = httpx2.put(f"{farm.url}scene/{session}/rig", json={"rig": "aero"}, timeout=PATIENCE)
+            assert chosen.status_code == 204
+            last = [line for line in farm.log.read_text().splitlines() if "PUT /scene/" in line][-1]
+            assert f"from {home.address}: 204" in last
+            assert farm.home(session) is home
 
 
 def test_recordings_are_found_again_by_their_session_alone(farm: Farm):
     first, second = (farm.sessions(replica, 1)[0] for replica in farm.replicas[:2])
-    with httpx2.Client(base_url=f"{farm.url}api/v1/", timeout=90) as client:
+    with httpx2.Client(base_url=f"{farm.url}api/v1/", timeout=PATIENCE) as client:
         sample = client.post("recordings/sample", json={"length": 6.0}, params={"session": first})
         assert sample.status_code == 200, sample.text
-        sent = client.post("recordings", content=sample.content, params={"session": first, "name": "a.csv"}).json()
+        sent = client.post(
+            "recordings", content=sample.content, params={"session": first, "name": "a.csv"}
+        ).json()
         body = {"columns": sent["guess"]["columns"], "driver": "segments"}
         asked = [
             client.post(f"recordings/{sent['id']}/overlay", json=body, params={"session": session})
@@ -90,10 +92,14 @@ async def under_load(
     """Runs the clients and REST calls beside them; returns when the end came, and what REST answered."""
     statuses: Counter[int] = Counter()
 
+    over = False
+
     async def post(session: str) -> None:
         async with httpx2.AsyncClient(base_url=farm.url, timeout=20) as rest:
-            while True:
-                answer = await rest.post("api/v1/gains", json={"poles": [-5, -6, -7, -8]}, params={"session": session})
+            while not over:
+                answer = await rest.post(
+                    "api/v1/gains", json={"poles": [-5, -6, -7, -8]}, params={"session": session}
+                )
                 statuses[answer.status_code] += 1
                 await asyncio.sleep(0.1)
 
@@ -110,9 +116,8 @@ async def under_load(
     deadline = ended + WITHIN
     while perf_counter() < deadline and any(client.gap(ended) == float("inf") for client in clients):
         await asyncio.sleep(0.1)
-    over = [task for task in running if task.done()]
-    for task in running:
-        task.cancel()
-    await asyncio.gather(*running, return_exceptions=True)
-    assert over == [], [task.exception() for task in over]
+    over = True
+    for client in clients:
+        client.stopped = True
+    await asyncio.gather(*running)
     return ended, statuses
