@@ -1,7 +1,7 @@
 """A faculty's drags: clients at twenty updates a second on one process, behind nginx, and on two behind nginx.
 
-Each client does as the page does: one request in flight, the next at its tick or when the answer is there. They run in a
-process of their own, which takes its share of the machine's cores. Prints a row for each number of clients:
+Each client does as the page does: one request in flight, the next at its tick or when the answer is there. They run
+in a process of their own, which takes its share of the machine's cores. Prints a row for each number of clients:
 
     python -m tests.bench.faculty [seconds each] [clients …]
 """

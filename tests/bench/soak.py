@@ -1,10 +1,10 @@
-"""A long day in minutes: forty clients drag, play, leave and return, break their connections, cancel clouds; one server.
+"""A long day in minutes: forty clients drag, play, leave and return, break connections, cancel clouds; one server.
 
-Prints a table of the server's memory, threads, file descriptors and errors over time, and at the end what is left over:
+Prints a table of the server's memory, threads, file descriptors and errors over time, and what is left at the end:
 
     python -m tests.bench.soak [minutes, 20 by default] [clients, 40] [seed]
 
-Ends with status 1 where an answer was wrong, the server logged an error, or threads, descriptors or memory stay behind.
+Ends with status 1 where an answer was wrong, the server logged an error, or threads, descriptors or memory stay.
 """
 
 from __future__ import annotations
