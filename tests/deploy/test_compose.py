@@ -48,7 +48,7 @@ def test_only_nginx_is_reached_from_outside():
         assert "ports" not in service
         assert list(service["networks"]) == ["inside"]
     # Whom a replica serves is said by nginx alone, which does not pass on what clients claim.
-    assert 'X-Forwarded-For $remote_addr;' in NGINX
+    assert "X-Forwarded-For $remote_addr;" in NGINX
 
 
 def test_limits_fit_one_another():
@@ -63,7 +63,14 @@ def test_nginx_takes_the_shipped_configuration_as_compose_starts_it(tmp_path: Pa
     assert entry[0] == "nginx" and entry[entry.index("-c") + 1] == "/etc/heli2dof/nginx.conf"
     assert "./deploy:/etc/heli2dof:ro" in SERVICES["proxy"]["volumes"]
     arguments = ["-p", str(tmp_path), "-c", str(shipped / "nginx.conf"), "-e", "stderr"]
-    told = subprocess.run([program(), "-t", *arguments], capture_output=True, text=True, timeout=30, check=False)
+    told = subprocess.run(
+        [program(), "-t", *arguments], capture_output=True, text=True, timeout=30, check=False
+    )
     assert told.returncode == 0, told.stderr
     assert "warn" not in told.stderr
-    assert {path.name for path in tmp_path.iterdir()} >= {"etc", "body", "proxy", "cache"}  # all it writes is below -p
+    assert {path.name for path in tmp_path.iterdir()} >= {
+        "etc",
+        "body",
+        "proxy",
+        "cache",
+    }  # all it writes is below -p

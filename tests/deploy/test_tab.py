@@ -131,7 +131,9 @@ def below_a_path(farm: Farm, tmp_path: Path) -> Iterator[str]:
         },
     )
     lab = snippet("Below a path", **{"http://127.0.0.1:8000/": farm.url})
-    folders = "".join(f"{kind}_temp_path {kind};" for kind in ("proxy", "fastcgi", "uwsgi", "scgi", "client_body"))
+    folders = "".join(
+        f"{kind}_temp_path {kind};" for kind in ("proxy", "fastcgi", "uwsgi", "scgi", "client_body")
+    )
     conf = tmp_path / "site.conf"
     conf.write_text(
         f"pid site.pid;\nevents {{}}\nhttp {{ access_log off; {folders}\nserver {{\n{tls}\n{lab}\n}} }}\n"
