@@ -7,13 +7,15 @@ import re
 import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from time import perf_counter
 
-from playwright.sync_api import Browser, Frame, Page
+import pytest
+from playwright.sync_api import Browser, Frame, Page, expect
 
-from tests.deploy.farm import DEPLOY, Farm
+from tests.deploy.farm import DEPLOY, Farm, free_port, nginx
 from tests.e2e.conftest import PATIENCE, opened, settled, state
-from tests.e2e.test_scene import MESHES
+from tests.e2e.test_scene import MESHES, PARTS
 
 DOCS = DEPLOY.parent / "docs" / "operations.md"
 LIFTED = "() => window.__viserMutable?.nodePoseData['/rig/yoke/body']?.position?.[2]"
