@@ -25,14 +25,13 @@ OPEN = "() => JSON.parse(document.documentElement.dataset.state).connection === 
 
 
 @contextmanager
-def tab(chromium: Browser, url: str) -> Iterator[tuple[Page, list[str]]]:
-    """A tab with its scene, and the errors that it met."""
+def tab(chromium: Browser) -> Iterator[tuple[Page, list[str]]]:
+    """An empty tab, and the errors that it meets."""
     context = chromium.new_context(viewport={"width": 1280, "height": 800}, ignore_https_errors=True)
     page = context.new_page()
     errors: list[str] = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.on("console", lambda message: message.type == "error" and errors.append(message.text))
-    opened(page, url)
     yield page, errors
     context.close()
 
@@ -54,7 +53,8 @@ def set_pole(page: Page, number: int, value: float) -> None:
 
 
 def test_a_tab_whose_replica_is_killed_goes_on_elsewhere(farm: Farm, chromium: Browser, record_property):
-    with tab(chromium, farm.url) as (page, errors):
+    with tab(chromium) as (page, errors):
+        opened(page, farm.url)
         page.get_by_test_id("preset").select_option("quanser-aero-2")
         settled(page)
         set_pole(page, 2, -5.5)
@@ -99,7 +99,8 @@ def test_a_tab_whose_replica_is_killed_goes_on_elsewhere(farm: Farm, chromium: B
         record_property("scene_s", round(whole, 2))
 
         # And the link alone, opened anew, shows what it showed before.
-        with tab(chromium, link) as (again, none):
+        with tab(chromium) as (again, none):
+            opened(again, link)
             assert placed(again) == [p["re"] for p in before["poles"]]
             assert state(again)["K"] == before["K"]
             assert none == []
@@ -145,7 +146,7 @@ def below_a_path(farm: Farm, tmp_path: Path) -> Iterator[str]:
 
 
 def test_the_page_works_below_a_path_over_tls(below_a_path: str, chromium: Browser):
-    with tab(chromium, "about:blank") as (page, errors):
+    with tab(chromium) as (page, errors):
         sockets: list[str] = []
         asked: list[str] = []
         page.on("websocket", lambda socket: sockets.append(socket.url))
