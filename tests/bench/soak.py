@@ -225,7 +225,7 @@ class Standing:
     megabytes: float
     threads: int
     files: int
-    tasks: float
+    sockets: float
 
     @classmethod
     def of(cls, server: Server, began: float) -> Standing:
@@ -234,23 +234,22 @@ class Standing:
             server.status("VmRSS") / 1024,
             server.status("Threads"),
             server.files(),
-            tasks_of(server.port),
+            open_sockets(server.port),
         )
 
     def __str__(self) -> str:
         return (
-            f"| {self.minute:.1f} | {self.megabytes:.0f} | {self.threads} | {self.files} | {self.tasks:.0f} "
+            f"| {self.minute:.1f} | {self.megabytes:.0f} | {self.threads} | {self.files} | {self.sockets:.0f} "
             f"| {done['updates']} | {done['scene']} | {done['cloud']} | {sum(wrong.values())} |"
         )
 
 
-def tasks_of(port: int) -> float:
-    """asyncio's tasks, where the server's metrics tell them; else NaN."""
+def open_sockets(port: int) -> float:
+    """Sockets that the server counts as open, each with its tasks; NaN where its metrics are off."""
     with suppress(httpx2.HTTPError):
-        found = re.search(
-            r"^heli2dof_tasks ([\d.e+]+)$", httpx2.get(f"http://127.0.0.1:{port}/metrics").text, re.M
-        )
-        return float(found[1]) if found else float("nan")
+        text = httpx2.get(f"http://127.0.0.1:{port}/metrics", timeout=30).text
+        counts = re.findall(r"^heli2dof_sockets_open\{.*\} ([\d.e+]+)$", text, re.M)
+        return sum(map(float, counts)) if counts else float("nan")
     return float("nan")
 
 
@@ -258,7 +257,7 @@ async def day(server: Server, minutes: float, clients: int, seed: int) -> list[S
     began = perf_counter()
     standings = [Standing.of(server, began)]
     print(
-        "| minute | MB | threads | files | tasks | updates | scenes | clouds | wrong |\n|" + 9 * "---|",
+        "| minute | MB | threads | files | sockets | updates | scenes | clouds | wrong |\n|" + 9 * "---|",
         flush=True,
     )
     print(standings[0], flush=True)
@@ -335,6 +334,7 @@ def verdict(standings: list[Standing], left: Standing, log: str, status: int) ->
         **{f"log: {line[:160]}": count for line, count in errors.most_common(20)},
         **({"memory grows": 1} if growth > GROWTH_MB else {}),
         **({"threads stay": 1} if left.threads > first.threads + LEFT_THREADS else {}),
+        **({"sockets stay": 1} if left.sockets > 0 else {}),
         **({"files stay": 1} if left.files > first.files + LEFT_FILES else {}),
     }
     for what, count in bad.items():

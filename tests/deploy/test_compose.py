@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+from ipaddress import ip_address, ip_network
 from pathlib import Path
 
 import pytest
@@ -48,7 +49,12 @@ def test_only_nginx_is_reached_from_outside():
         assert "ports" not in service
         assert list(service["networks"]) == ["inside"]
     # Whom a replica serves is said by nginx alone, which does not pass on what clients claim.
+    subnet = COMPOSE["networks"]["inside"]["ipam"]["config"][0]["subnet"]
+    for service in REPLICAS.values():
+        assert service["environment"]["HELI2DOF_TRUSTED_PROXIES"] == subnet
+        assert ip_address(service["networks"]["inside"]["ipv4_address"]) in ip_network(subnet)
     assert "X-Forwarded-For $remote_addr;" in NGINX
+    assert "X-Forwarded-Host $http_host;" in NGINX
 
 
 def test_limits_fit_one_another():
