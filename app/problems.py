@@ -161,16 +161,14 @@ def _finite(value: Any, depth: int = 5) -> Any:
     """A value that JSON can carry: non-finite numbers and exotic objects as text, nothing long, nothing deep."""
     if depth == 0:
         return "…"
-    if isinstance(value, float):
-        return value if math.isfinite(value) else str(value)
-    if isinstance(value, str):
-        return value[:2000]
-    if value is None or isinstance(value, bool):
-        return value
-    if isinstance(value, int):
-        return value if abs(value) < 2**63 else str(value)[:100]
     if isinstance(value, Mapping):
         return {str(key)[:200]: _finite(item, depth - 1) for key, item in list(value.items())[:20]}
     if isinstance(value, (list, tuple)):
         return [_finite(item, depth - 1) for item in value[:20]]
-    return str(value)[:200]
+    plain = value is None or isinstance(value, bool)
+    small = (isinstance(value, float) and math.isfinite(value)) or (
+        isinstance(value, int) and abs(value) < 2**63
+    )
+    if plain or small:
+        return value
+    return value[:2000] if isinstance(value, str) else str(value)[:200]

@@ -1,8 +1,10 @@
 /**
- * The server, as the page sees it: a few REST calls and the live socket. All addresses are relative to the page.
+ * The server, as the page sees it: a few REST calls and the live socket. All addresses are relative to the page
+ * and name the tab's session, by which a proxy in front of several servers finds the one that knows this tab.
  * @typedef {import('./types.js').Connection} Connection
  */
 import { backoff } from './backoff.js';
+import { ofSession, session } from './scene_session.js';
 import { decodeFrame } from './wire.js';
 
 const PROTOCOL = 'heli2dof.v1+binary';
@@ -10,7 +12,9 @@ const PATIENCE_MS = 10_000;
 const UNUSUAL = /[^\w\-.~:/?#[\]@!$&'()*+,;=%]/gu; // what RFC 3986 knows in no address, and browsers leave in it
 
 /** @param {string} path @returns {URL} */
-const at = (path) => new URL(path, document.baseURI);
+const at = (path) => ofSession(new URL(path, document.baseURI), session());
+/** What belongs to a scene names its session itself. @param {string} id @param {string} path @returns {URL} */
+const sceneAt = (id, path) => new URL(`scene/${encodeURIComponent(id)}/${path}`, document.baseURI);
 
 /** A problem object (RFC 9457) thrown as an error. */
 export class ProblemError extends Error {
@@ -21,10 +25,10 @@ export class ProblemError extends Error {
   }
 }
 
-/** @param {string} path @param {{method?: string, body?: unknown}} [options] @returns {Promise<any>} */
+/** @param {string|URL} path @param {{method?: string, body?: unknown}} [options] @returns {Promise<any>} */
 async function call(path, { method = 'GET', body } = {}) {
   const headers = body === undefined ? undefined : { 'Content-Type': 'application/json' };
-  const response = await fetch(at(path), { method, headers, body: body === undefined ? undefined : JSON.stringify(body) });
+  const response = await fetch(path instanceof URL ? path : at(path), { method, headers, body: body === undefined ? undefined : JSON.stringify(body) });
   const text = await response.text();
   const json = text && (response.headers.get('content-type') ?? '').includes('json') ? JSON.parse(text) : {};
   if (!response.ok) throw new ProblemError({ title: response.statusText, ...json });
@@ -51,8 +55,8 @@ export const openLoops = (design) => call('api/v1/loops', { method: 'POST', body
 export const getPaper = () => call('api/v1/paper');
 /** The derivation in numbers. @param {unknown} design */
 export const walkThrough = (design) => call('api/v1/walkthrough', { method: 'POST', body: design });
-/** @param {string} session @param {string} rig */
-export const putRig = (session, rig) => call(`scene/${encodeURIComponent(session)}/rig`, { method: 'PUT', body: { rig } });
+/** @param {string} id of a session @param {string} rig */
+export const putRig = (id, rig) => call(sceneAt(id, 'rig'), { method: 'PUT', body: { rig } });
 /** What cameras need to know of each rig. @returns {Promise<Record<string, import('./scene_cameras.js').RigView>>} */
 export const getRigViews = () => call('scene/rigs');
 
@@ -80,21 +84,20 @@ export const overlayRecording = (id, body) => call(`api/v1/recordings/${encodeUR
 export const recordMotion = (format, design) => fileOf(`api/v1/recording?format=${format}`, design);
 /** A design for another program or for print. @param {string} format @param {string} link that opens it @param {unknown} design */
 export const exportDesign = (format, link, design) => fileOf(`api/v1/export/${format}?${new URLSearchParams({ link: link.replace(UNUSUAL, encodeURIComponent) })}`, design);
-/** The rig in a window of its own. @param {string} session */
-export const windowAddress = (session) => at(`scene/${encodeURIComponent(session)}/`).href;
+/** The rig in a window of its own. @param {string} id of a session */
+export const windowAddress = (id) => sceneAt(id, '').href;
 
-/** @param {string} path */
-function socketAddress(path) {
-  const url = at(path);
+/** @param {URL} url */
+function socketAddress(url) {
   url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
   return url.href;
 }
 
-export const liveAddress = () => socketAddress('api/v1/live');
-/** @param {string} session */
-export const hubAddress = (session) => socketAddress(`scene/${encodeURIComponent(session)}/hub?page=true`);
-export const identifyAddress = () => socketAddress('api/v1/recordings/identify');
-export const cloudAddress = () => socketAddress('api/v1/robustness');
+export const liveAddress = () => socketAddress(at('api/v1/live'));
+/** @param {string} id of a session */
+export const hubAddress = (id) => socketAddress(sceneAt(id, 'hub?page=true'));
+export const identifyAddress = () => socketAddress(at('api/v1/recordings/identify'));
+export const cloudAddress = () => socketAddress(at('api/v1/robustness'));
 
 /**
  * The live socket. One request is in flight at most; while it is, only the newest one waits. A lost connection is tried again, ever more slowly,

@@ -1,4 +1,4 @@
-/** Whose scene this tab shows, and whether the browser can show one. */
+/** This tab's session: whose scene it shows, and what a proxy in front of several servers keeps together. And whether the browser can show a scene. */
 
 const KEY = 'heli2dof-scene';
 
@@ -9,12 +9,27 @@ function newSession() {
 }
 
 /** Kept over a reload; a duplicated tab inherits the storage but not the navigation type, and gets its own. */
-export function session() {
-  const [navigation] = /** @type {PerformanceNavigationTiming[]} */ (performance.getEntriesByType('navigation'));
-  const kept = navigation?.type === 'reload' ? sessionStorage.getItem(KEY) : null;
-  const id = kept ?? newSession();
-  sessionStorage.setItem(KEY, id);
-  return id;
+function keptOrNew() {
+  try {
+    const [navigation] = /** @type {PerformanceNavigationTiming[]} */ (performance.getEntriesByType('navigation'));
+    const kept = navigation?.type === 'reload' ? sessionStorage.getItem(KEY) : null;
+    const id = kept ?? newSession();
+    sessionStorage.setItem(KEY, id);
+    return id;
+  } catch {
+    return newSession(); // storage is switched off
+  }
+}
+
+/** @type {string|undefined} */ let own;
+
+/** The same for as long as the page is open. */
+export const session = () => (own ??= keptOrNew());
+
+/** The address with the session that its server is chosen by. @param {URL} url @param {string} id */
+export function ofSession(url, id) {
+  url.searchParams.set('session', id);
+  return url;
 }
 
 export function hasWebGl() {

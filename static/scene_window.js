@@ -8,11 +8,13 @@ import { degrees, fixed } from './format.js';
 import { Hub } from './hub.js';
 import { ScenePlayer } from './scene.js';
 import { edited, shownOf, steer, trajectoryIn } from './scene_panel.js';
+import { ofSession } from './scene_session.js';
 import { InStep } from './scene_step.js';
 import { designOf, evaluationOf } from './store.js';
 import { motionOf } from './traces.js';
 
 const APP = new URL('../../', location.href); // the page is served at …/scene/{session}/
+const SESSION = location.pathname.split('/').at(-2) ?? '';
 const PROTOCOL = 'heli2dof.v1+binary';
 
 /** @param {string|URL} path @param {URL} base */
@@ -99,7 +101,7 @@ class SceneWindow {
     if (!leads) return;
     if (this.#shown) this.hub.show(this.#shown);
     if (this.#shown) return this.#putRig(this.#shown.rig); // the server may have been started anew
-    const presets = await (await fetch(new URL('api/v1/presets', APP))).json();
+    const presets = await (await fetch(ofSession(new URL('api/v1/presets', APP), SESSION))).json();
     if (!this.#shown && this.#alone && !this.#asked) this.#ask(evaluationOf(designOf(presets[0])));
   }
 
@@ -125,7 +127,7 @@ class SceneWindow {
       onReply: (reply) => this.#answered(reply),
       onProblem: () => {}, // the panel keeps what was refused until something else is set
       onStatus: () => {},
-      open: () => new WebSocket(socketAddress('api/v1/live', APP), [PROTOCOL]),
+      open: () => new WebSocket(ofSession(socketAddress('api/v1/live', APP), SESSION), [PROTOCOL]),
     });
     this.#asked = { design, after: this.#count };
     this.#seq += 1;

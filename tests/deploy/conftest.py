@@ -1,0 +1,32 @@
+"""Three replicas behind nginx, for all tests of this folder; whoever ends one starts it again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Browser
+
+from tests.deploy.farm import Farm, farm
+from tests.e2e.conftest import chromium as _chromium
+from tests.scene_server import until
+
+chromium = _chromium
+
+
+@pytest.fixture(scope="session")
+def running_farm(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Farm]:
+    with farm(tmp_path_factory.mktemp("farm"), 3) as running:
+        yield running
+
+
+@pytest.fixture(name="farm")
+def whole_farm(running_farm: Farm) -> Iterator[Farm]:
+    yield running_farm
+    for replica in running_farm.replicas:
+        if replica.process.poll() is not None:
+            replica.start()
+    until(lambda: all(replica.ready() for replica in running_farm.replicas), "the replicas are back", 60)
+
+
+__all__ = ["Browser", "chromium"]
