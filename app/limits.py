@@ -39,8 +39,9 @@ def address_of(scope: Scope) -> str:
 
 
 def read_in_small_parts() -> None:
-    """Lets asyncio read 16 KiB of a connection at a time instead of 256: a flood of tiny frames is parsed frame by
-    frame, and 256 KiB of them would hold up everybody else for half a second.
+    """Lets asyncio read 16 KiB of a connection at a time instead of 256.
+
+    A flood of tiny frames is parsed frame by frame: 256 KiB of them would hold up everybody else for half a second.
     """
     transport = getattr(asyncio.selector_events, "_SelectorSocketTransport", None)
     if transport is not None and hasattr(transport, "max_size"):

@@ -148,7 +148,7 @@ def _of_validation(error: Mapping[str, Any]) -> dict[str, Any]:
     return problem(422, detail, code, field=field, value=error.get("input"), hint=hint)
 
 
-def _finite(value: Any, depth: int = 5) -> Any:
+def _finite(value: Any, depth: int = 5) -> Any:  # noqa: PLR0911
     """A value that JSON can carry: non-finite numbers and exotic objects as text, nothing long, nothing deep."""
     if depth == 0:
         return "…"
