@@ -30,6 +30,7 @@ types: $(VENV)/.tools node_modules/.installed ## the page's JSDoc types, by Type
 	$(BIN)/node tests/page/check_types.mjs
 
 unit: $(VENV)/.tools node_modules/.installed ## the Python tests, the browser's among them, in two processes
+	@$(BIN)/python -c 'from heli2dof_core.engine import warm_up; warm_up()' # once, not in each process at once
 	CHROMIUM=$(CHROMIUM) $(BIN)/pytest $(BESIDE)
 
 page-test: $(VENV)/.tools ## the page's pure modules

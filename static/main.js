@@ -124,9 +124,15 @@ function viewsOf() {
   return { plane: viewOf(plane), figures: figures.map(viewOf) };
 }
 
+/** Views that have failed, which is told once however often all are made anew. @type {WeakSet<object>} */
+const faulty = new WeakSet();
+
 /** @param {{render: (state: State) => void}} view */
 function viewOf(view) {
-  return isolated(watched(view), report);
+  return isolated(watched(view), (error) => {
+    if (!faulty.has(view)) report(error);
+    faulty.add(view);
+  });
 }
 
 /** Quietly, once for each part. @param {unknown} error */

@@ -31,7 +31,7 @@ from tests.scene_server import SceneServer, serving, until
 
 @pytest.fixture(scope="module")
 def server() -> Iterator[SceneServer]:
-    with serving() as running:
+    with serving(capacity=40) as running:
         yield running
 
 

@@ -5,13 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser
 
 from tests.deploy.farm import Farm, farm
-from tests.e2e.conftest import chromium as _chromium
 from tests.scene_server import until
-
-chromium = _chromium
 
 
 @pytest.fixture(scope="session")
@@ -27,6 +23,3 @@ def whole_farm(running_farm: Farm) -> Iterator[Farm]:
         if replica.process.poll() is not None:
             replica.start()
     until(lambda: all(replica.ready() for replica in running_farm.replicas), "the replicas are back", 60)
-
-
-__all__ = ["Browser", "chromium"]

@@ -13,13 +13,12 @@ from pathlib import Path
 
 import httpx2
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Browser, Page, expect
 
 from tests.scene_server import until
 
 ROOT = Path(__file__).parents[2]
 
-FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-networking"]
 PATIENCE = 90_000
 """Milliseconds; software rendering on two cores is slow."""
 expect.set_options(timeout=20_000)  # ms; a busy machine draws a frame now and then
@@ -66,15 +65,6 @@ def running_app(port: int = 0, **environment: str) -> Iterator[App]:
 def app() -> Iterator[App]:
     with running_app() as app:
         yield app
-
-
-@pytest.fixture(scope="session")
-def chromium() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        path = os.environ.get("CHROMIUM") or "/usr/bin/chromium"
-        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
-        yield browser
-        browser.close()
 
 
 @contextmanager

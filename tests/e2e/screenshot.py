@@ -7,7 +7,8 @@ import sys
 
 from playwright.sync_api import sync_playwright
 
-from tests.e2e.conftest import FLAGS, opened, running_app, settled
+from tests.conftest import FLAGS
+from tests.e2e.conftest import opened, running_app, settled
 from tests.e2e.test_page import scene, seek
 
 
