@@ -76,7 +76,14 @@ RULES: dict[str, dict[str, str]] = {
     | {"unusable_recording (recording|columns.*)": "the key of a recording that is there, and its columns"},
     "GET /api/v1/symbolic": {"invalid_input shifted": "the axis-decoupled structure has no shift"},
 }
-SLOW = ("compare", "recording", "recordings/sample", "robustness", "export/{format}", "recordings/{key}/overlay")
+SLOW = (
+    "compare",
+    "recording",
+    "recordings/sample",
+    "robustness",
+    "export/{format}",
+    "recordings/{key}/overlay",
+)
 THINNED = {f"POST /api/v1/{name}": 5 for name in SLOW}
 """Of the slow calls whose bodies are a step's with little more: one of so many cases is sent, always the same."""
 sent: Counter[str] = Counter()
