@@ -32,7 +32,7 @@ T = TypeVar("T")
 SWITCH = 0.0005
 """Seconds for which a computing thread keeps Python's lock while the event loop wants it; Python's own 5 ms
 would be most of a drag's answer."""
-NICENESS = 10
+NICENESS = 5
 """Of the slow threads: where processors are short, the event loop goes first."""
 
 

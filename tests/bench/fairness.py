@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import asyncio
 import sys
-from collections.abc import Awaitable, Callable
+from collections import Counter
+from collections.abc import Awaitable
 from time import perf_counter
 
 import httpx2
@@ -21,7 +22,8 @@ from tests.e2e.conftest import running_app
 
 DRAGGING, RATE = 10, 20.0
 COLUMNS = {"time": "time", "theta": "theta", "psi": "psi", "V_p": "V_p", "V_y": "V_y"}
-Work = Callable[[int], Awaitable[None]]
+finished: Counter[str] = Counter()
+"""Slow work that was done, or refused."""
 
 
 async def drag(port: int, seconds: float, times: list[float], nth: int) -> None:
@@ -48,6 +50,7 @@ async def clouds(port: int) -> None:
             reply = {"done": 0}
             while reply.get("done", 10_000) < 10_000:
                 reply = orjson.loads(await peer.recv())
+            finished[reply.get("code", "cloud")] += 1
             if "code" in reply:
                 await asyncio.sleep(1.0)
 
@@ -63,6 +66,7 @@ async def identifications(port: int) -> None:
             reply = {"done": False}
             while reply.get("done") is False:
                 reply = orjson.loads(await peer.recv())
+            finished[reply.get("code", "identification")] += 1
             if "code" in reply:
                 await asyncio.sleep(1.0)
 
@@ -72,6 +76,7 @@ async def posts(port: int, path: str, body: dict) -> None:
     async with httpx2.AsyncClient(base_url=f"http://127.0.0.1:{port}/api/v1", timeout=120) as http:
         while True:
             reply = await http.post(path, json=body)
+            finished[path if reply.status_code == 200 else f"{path} {reply.status_code}"] += 1
             if reply.status_code != 200:
                 await asyncio.sleep(1.0)
 
@@ -119,6 +124,7 @@ def main() -> None:
                 f"p50 {p50:.1f} ms, p95 {p95:.1f} ms, p99 {p99:.1f} ms, longest {max(times) * 1e3:.0f} ms",
                 flush=True,
             )
+    print("meanwhile:", ", ".join(f"{count} × {name}" for name, count in finished.items()))
 
 
 if __name__ == "__main__":
