@@ -29,7 +29,7 @@ CONVERSATIONS = ("/api/v1/robustness", "/api/v1/recordings/identify")
 JSON_SOCKETS = ("/api/v1/live", *CONVERSATIONS)
 SOCKETS = (*JSON_SOCKETS, f"/scene/{SESSION}", f"/scene/{SESSION}/hub")
 ALIVE = {"/api/v1/live": {"seq": 7}, CONVERSATIONS[0]: {"samples": 3}, CONVERSATIONS[1]: {"cancel": True}}
-PATIENCE = 1.0
+PATIENCE = 2.0
 """Seconds in which a good client is answered while others misbehave; a millisecond or two in peace."""
 
 fuzzed = settings(
