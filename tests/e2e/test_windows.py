@@ -25,7 +25,7 @@ SEEN_PLAYING = "() => window.starts.length >= 12"
 
 
 @contextmanager
-def window_of(page: Page, app: App, viewport: tuple[int, int] = (900, 700)) -> Iterator[Page]:
+def window_of(page: Page, app: App, viewport: tuple[int, int] = (640, 420)) -> Iterator[Page]:
     """The rig in a window of its own, playing what the page shows; fails on any error in it."""
     session = page.evaluate("() => sessionStorage.getItem('heli2dof-scene')")
     window = page.context.new_page()
