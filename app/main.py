@@ -6,15 +6,14 @@ import contextlib
 from collections.abc import AsyncIterator
 from typing import Any
 
-from fastapi import FastAPI, Response
-from fastapi.responses import FileResponse
-from fastapi.staticfiles import StaticFiles
+from fastapi import FastAPI, Request, Response
 from starlette.types import ASGIApp
 
 from heli2dof_core.version import package_version
 
 from . import examples, live, policies, problems, robustness, scene
 from .compute import Compute
+from .kept_files import KeptFiles
 from .limits import OpenSockets, read_in_small_parts
 from .metrics import Metrics
 from .middleware import surrounded
@@ -101,39 +100,29 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(robustness.build_router(compute, metrics))
     app.include_router(scene.build_views_router())
     app.include_router(scene.build_router(sessions, metrics, settings.frame_ancestors))
-    app.mount("/static", RevalidatedFiles(directory=settings.static), name="static")
+    files = KeptFiles(directory=settings.static)
+    app.mount("/static", files, name="static")
     problems.install(app)
     examples.install(app)
 
-    _add_pages(app, settings)
+    _add_pages(app, settings, files)
     return app
 
 
-def _add_pages(app: FastAPI, settings: Settings) -> None:
+def _add_pages(app: FastAPI, settings: Settings, files: KeptFiles) -> None:
     """The page, that of the API, and the icon; each with its policy."""
 
-    def page_of(name: str, policy: str) -> FileResponse:
-        headers = {"Cache-Control": "no-cache", "Content-Security-Policy": policy}
-        return FileResponse(settings.static / name, headers=headers)
+    def page_of(name: str, request: Request, policy: str) -> Response:
+        return files.content(name).response(request.headers, {"Content-Security-Policy": policy})
 
     @app.get("/", include_in_schema=False)
-    async def page() -> FileResponse:
-        return page_of("index.html", policies.page(settings.frame_ancestors))
+    async def page(request: Request) -> Response:
+        return page_of("index.html", request, policies.page(settings.frame_ancestors))
 
     @app.get("/docs", include_in_schema=False)
-    async def docs() -> FileResponse:
-        return page_of("api_docs.html", policies.api_docs(settings.frame_ancestors))
+    async def docs(request: Request) -> Response:
+        return page_of("api_docs.html", request, policies.api_docs(settings.frame_ancestors))
 
     @app.get("/favicon.ico", include_in_schema=False)
-    async def favicon() -> FileResponse:
-        return FileResponse(settings.static / "favicon.svg", media_type="image/svg+xml")
-
-
-class RevalidatedFiles(StaticFiles):
-    """Static files that browsers ask about again (ETag), so that an upgrade shows at once."""
-
-    def file_response(self, *args: Any, **kwargs: Any) -> Response:
-        """As starlette does, with no-cache."""
-        response = super().file_response(*args, **kwargs)
-        response.headers["Cache-Control"] = "no-cache"
-        return response
+    async def favicon(request: Request) -> Response:
+        return files.content("favicon.svg").response(request.headers)

@@ -8,6 +8,7 @@ import { h, setText, symbol } from './dom.js';
 import { Choice } from './fields.js';
 import { degrees, fixed } from './format.js';
 import { CALM } from './pace.js';
+import { RigKeeper } from './rig_keeper.js';
 import { ScenePlayer } from './scene.js';
 import { SceneControls } from './scene_controls.js';
 import { flightsOf } from './scene_ghosts.js';
@@ -46,6 +47,7 @@ export class SceneView {
     this.onTime = onTime;
     this.session = session();
     this.webgl = hasWebGl();
+    this.rigs = new RigKeeper((rig) => putRig(this.session, rig));
     this.frame = h('iframe', { title: 'The rig in three dimensions', 'data-testid': 'scene', tabindex: -1 });
     this.notice = h('p', { class: 'scene-notice', 'data-testid': 'scene-notice', role: 'status' }, this.webgl ? 'Building the rig…' : 'This browser shows no WebGL, so the rig stays unseen. All else works.');
     this.hud = Object.fromEntries(['theta', 'psi', 'V_p', 'V_y'].map((name) => [name, h('span', { class: 'hud-value', 'data-testid': `hud-${name}` })]));
@@ -124,7 +126,7 @@ export class SceneView {
     this.motion.set(state.motion);
     if (state.dragging !== this.#dragging) this.#follow(state.dragging);
     const rig = this.store.preset?.rig;
-    if (state.connection === 'lost') this.#rig = null; // a server that returns knows nothing of this tab
+    if (state.connection === 'lost') this.#rig = null; // a server that returns knows nothing of this tab, and builds the right rig at once if told first
     else if (rig && rig !== this.#rig) this.#setRig(rig);
     if (!state.reply) return;
     const motion = motionOf(state.reply, state.motion) ?? state.reply.step;
@@ -193,11 +195,7 @@ export class SceneView {
   async #setRig(rig) {
     this.#rig = rig;
     if (!this.webgl) return;
-    try {
-      await putRig(this.session, rig);
-    } catch {
-      // The frame shows what the server says of it.
-    }
+    await this.rigs.want(rig); // where that fails, the frame shows what the server says of it
     if (!this.frame.src) this.frame.src = `scene/${this.session}/`;
     this.#views ??= await getRigViews().catch(() => null); // without them, the camera is the viewer's
     if (rig === this.#rig && this.#views?.[rig]) this.player.setView(this.#views[rig]);
@@ -222,6 +220,7 @@ export class SceneView {
 
   /** @param {import('./scene.js').PlayerState} last */
   #state(last) {
+    if (last.ready && !this.#last.ready) this.rigs.again(); // whoever has built it may never have heard of this tab
     this.#last = last;
     const { ready, reason } = last;
     this.transport.render(last);

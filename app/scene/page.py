@@ -6,8 +6,6 @@ addresses in the page are relative, so the app may be mounted under any prefix.
 
 from __future__ import annotations
 
-import gzip
-import hashlib
 import html
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -17,6 +15,7 @@ from pathlib import Path
 from fastapi import Request, Response
 
 from .. import policies
+from ..kept_files import Content
 from .viser_scripts import inline_scripts
 
 _MARKER = "<title>Viser</title>"
@@ -50,11 +49,9 @@ _INJECTED = (
 
 @dataclass(frozen=True, slots=True)
 class ViewerPage:
-    """Viser's page with our additions, plain and compressed, its entity tag and its policy."""
+    """Viser's page with our additions, and its policy."""
 
-    body: bytes
-    compressed: bytes
-    etag: str
+    content: Content
     policy: str
 
     @classmethod
@@ -75,24 +72,12 @@ class ViewerPage:
         if page.count(_MARKER) != 1:
             raise RuntimeError(f"{path} does not hold {_MARKER} once: is this viser 1.1.1?")
         body = page.replace(_MARKER, _INJECTED).encode()
-        etag = f'"{hashlib.sha256(body).hexdigest()[:32]}"'
-        policy = policies.viewer(ancestors, inline_scripts(page))
-        return cls(body, gzip.compress(body, compresslevel=6, mtime=0), etag, policy)
+        return cls(Content(body, "text/html"), policies.viewer(ancestors, inline_scripts(page)))
 
     def response(self, request: Request) -> Response:
         """Answer a request for the page, with 304 where the browser has it already."""
-        headers = {
-            "Cache-Control": "private, no-cache",
-            "Content-Security-Policy": self.policy,
-            "ETag": self.etag,
-            "Vary": "Accept-Encoding",
-        }
-        if self.etag in request.headers.get("if-none-match", ""):
-            return Response(status_code=304, headers=headers)
-        if "gzip" in request.headers.get("accept-encoding", ""):
-            headers["Content-Encoding"] = "gzip"
-            return Response(self.compressed, media_type="text/html", headers=headers)
-        return Response(self.body, media_type="text/html", headers=headers)
+        headers = {"Cache-Control": "private, no-cache", "Content-Security-Policy": self.policy}
+        return self.content.response(request.headers, headers)
 
 
 def taken_away(page: str, title: str) -> str:

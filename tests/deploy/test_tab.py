@@ -11,7 +11,7 @@ from pathlib import Path
 from time import perf_counter
 
 import pytest
-from playwright.sync_api import Browser, Frame, Page, expect
+from playwright.sync_api import Browser, Frame, Page, Route, expect
 
 from tests.deploy.farm import DEPLOY, Farm, free_port, nginx
 from tests.e2e.conftest import PATIENCE, opened, settled, state
@@ -37,7 +37,8 @@ def tab(chromium: Browser) -> Iterator[tuple[Page, list[str]]]:
 
 
 def scene(page: Page) -> Frame:
-    frame = next(frame for frame in page.frames if "/scene/" in frame.url)
+    frame = page.wait_for_selector("iframe[src]").content_frame()
+    assert frame is not None
     frame.wait_for_function(f"() => ({MESHES})() > 0", timeout=PATIENCE)
     return frame
 
@@ -53,6 +54,7 @@ def set_pole(page: Page, number: int, value: float) -> None:
 
 
 def test_a_tab_whose_replica_is_killed_goes_on_elsewhere(farm: Farm, chromium: Browser, record_property):
+    """Also where the first request to the new replica is lost."""
     with tab(chromium) as (page, errors):
         opened(page, farm.url)
         page.get_by_test_id("preset").select_option("quanser-aero-2")
@@ -68,7 +70,16 @@ def test_a_tab_whose_replica_is_killed_goes_on_elsewhere(farm: Farm, chromium: B
         sockets: list[str] = []
         page.on("websocket", lambda socket: sockets.append(socket.url))
         assert errors == []
+        told: list[str] = []
 
+        def lose_the_first(route: Route) -> None:
+            told.append(route.request.url)
+            if len(told) == 1:
+                route.abort()
+            else:
+                route.continue_()
+
+        page.route(f"**/scene/{session}/rig", lose_the_first)
         ended = perf_counter()
         victim.kill()
         page.wait_for_function(
@@ -88,6 +99,7 @@ def test_a_tab_whose_replica_is_killed_goes_on_elsewhere(farm: Farm, chromium: B
         assert len({url for url in sockets if rebuilt.search(url)}) == 2, sockets
         frame.wait_for_function(f"() => Math.abs(({LIFTED})() - {AERO}) < 1e-9")
         whole = perf_counter() - ended
+        assert len(told) >= 2  # the request that was lost is made again
         after = state(page)
         assert after["preset"] == before["preset"] == "quanser-aero-2"
         assert placed(page)[2:] == [-5.5, -6.5]

@@ -99,12 +99,21 @@ def page_with_scene(chromium: Browser, app: App) -> Iterator[Page]:
         yield page
 
 
+UNDRAWN = """for (const call of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced"]) {
+  WebGL2RenderingContext.prototype[call] = () => {};
+}"""
+"""Leaves out the drawing alone, most of the work without a graphics card: scene graph, frames and clocks stay."""
 SEEN = "try { localStorage.setItem('heli2dof.tour', 'done') } catch { /* a frame without storage */ }"
 
 
-def opened(page: Page, url: str, *, tour: bool = False) -> None:
-    """Opens the page and waits for its first answer; as at a first visit where `tour` is wanted."""
+def opened(page: Page, url: str, *, tour: bool = False, drawn: bool = False) -> None:
+    """Opens the page and waits for its first answer.
+
+    As at a first visit where `tour` is wanted; the rig's pixels are there where they are to be `drawn`.
+    """
     page.set_default_timeout(PATIENCE)
+    if not drawn:
+        page.context.add_init_script(UNDRAWN)
     if not tour:
         page.add_init_script(SEEN)
     page.goto(url)

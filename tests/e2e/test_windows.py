@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Download, Page
 
-from tests.e2e.conftest import PATIENCE, App, opened, running_app, settled, state
+from tests.e2e.conftest import PATIENCE, UNDRAWN, App, opened, running_app, settled, state
 from tests.e2e.test_scene import ANGLES
 
 WATCHED = """selector => {
@@ -148,6 +148,7 @@ def test_panel_works_on_where_the_page_has_gone(page: Page, app: App):
 
 def test_two_sessions_stay_apart(page: Page, app: App, chromium: Browser):
     context = chromium.new_context()
+    context.add_init_script(UNDRAWN)
     other = context.new_page()
     other.set_default_timeout(PATIENCE)
     other.goto(f"{app.url}scene/{'a-session-of-its-own'.ljust(24, '_')}/")

@@ -1,0 +1,126 @@
+"""The socket that `heli2dof serve` listens on, and the files that it keeps in memory."""
+
+from __future__ import annotations
+
+import asyncio
+import gzip
+import os
+import socket
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+from fastapi import FastAPI
+from fastapi.testclient import TestClient
+
+from app.cli.serving import listener
+from app.kept_files import KeptFiles
+from app.settings import Settings
+
+SCRIPT = "export const answer = 42; // what it is for\n" * 40
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "::1"])
+def test_accepted_connections_send_at_once(host: str):
+    """What asyncio accepts has TCP_NODELAY: a body does not wait for the header's acknowledgement."""
+
+    async def accepted() -> int:
+        delays: asyncio.Queue[int] = asyncio.Queue()
+
+        async def took(_: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+            option = writer.get_extra_info("socket").getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+            writer.close()
+            await delays.put(option)
+
+        bound = listener(Settings(host=host, port=0))
+        async with await asyncio.start_server(took, sock=bound) as server:
+            _, writer = await asyncio.open_connection(*server.sockets[0].getsockname()[:2])
+            found = await delays.get()
+            writer.close()
+            return found
+
+    with ThreadPoolExecutor(1) as pool:  # a browser's loop may hold this thread
+        assert pool.submit(lambda: asyncio.run(accepted())).result() != 0
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    inside = tmp_path / "static"
+    (inside / "panels").mkdir(parents=True)
+    (inside / "panels" / "plot.js").write_text(SCRIPT)
+    (inside / "dot.png").write_bytes(bytes(range(256)) * 8)
+    (inside / "short.css").write_text("p { margin: 0 }")
+    (tmp_path / "secret.txt").write_text("not for the web")
+    (inside / "escape.txt").symlink_to(tmp_path / "secret.txt")
+    return inside
+
+
+@pytest.fixture
+def client(folder: Path) -> TestClient:
+    app = FastAPI()
+    app.mount("/static", KeptFiles(directory=folder))
+    return TestClient(app)
+
+
+def test_text_is_compressed_for_who_takes_it(client: TestClient):
+    plain = client.get("/static/panels/plot.js", headers={"Accept-Encoding": "identity"})
+    assert plain.text == SCRIPT
+    assert "content-encoding" not in plain.headers
+    assert plain.headers["content-type"].startswith("text/javascript")
+    with client.stream("GET", "/static/panels/plot.js", headers={"Accept-Encoding": "br, gzip"}) as packed:
+        raw = b"".join(packed.iter_raw())
+    assert packed.headers["content-encoding"] == "gzip"
+    assert gzip.decompress(raw).decode() == SCRIPT
+    assert len(raw) < len(SCRIPT) / 5
+    assert plain.headers["vary"] == packed.headers["vary"] == "Accept-Encoding"
+    assert plain.headers["etag"] != packed.headers["etag"]
+
+
+@pytest.mark.parametrize("name", ["dot.png", "short.css"])
+def test_what_compression_does_not_help_is_sent_as_it_is(client: TestClient, folder: Path, name: str):
+    reply = client.get(f"/static/{name}")
+    assert "content-encoding" not in reply.headers
+    assert reply.content == (folder / name).read_bytes()
+
+
+def test_who_has_a_file_already_is_told_so_until_it_changes(client: TestClient, folder: Path):
+    first = client.get("/static/panels/plot.js")
+    known = {"If-None-Match": f'W/"something", {first.headers["etag"]}'}
+    again = client.get("/static/panels/plot.js", headers=known)
+    assert (again.status_code, again.content) == (304, b"")
+    assert again.headers["etag"] == first.headers["etag"]
+    assert first.headers["cache-control"] == again.headers["cache-control"] == "no-cache"
+    path = folder / "panels" / "plot.js"
+    path.write_text(SCRIPT.replace("42", "43"))
+    os.utime(path, ns=(path.stat().st_atime_ns, path.stat().st_mtime_ns + 1))
+    changed = client.get("/static/panels/plot.js", headers=known)
+    assert changed.status_code == 200
+    assert "43" in changed.text
+
+
+def test_head_tells_the_size_alone(client: TestClient):
+    reply = client.head("/static/dot.png")
+    assert (reply.status_code, reply.headers["content-length"]) == (200, "2048")
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "nothing.js",
+        "panels",
+        "",
+        "../secret.txt",
+        "%2e%2e/secret.txt",
+        "escape.txt",
+        "a" * 300,
+        "a%00b",
+        "/etc/hosts",
+    ],
+)
+def test_there_is_nothing_outside_the_folder(client: TestClient, path: str):
+    assert client.get(f"/static/{path}").status_code == 404
+
+
+def test_only_get_and_head_are_answered(client: TestClient):
+    reply = client.post("/static/dot.png")
+    assert (reply.status_code, reply.headers["allow"]) == (405, "GET, HEAD")
