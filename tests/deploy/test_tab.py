@@ -14,7 +14,7 @@ import pytest
 from playwright.sync_api import Browser, Frame, Page, Route, expect
 
 from tests.deploy.farm import DEPLOY, Farm, free_port, nginx
-from tests.e2e.conftest import PATIENCE, opened, settled, state
+from tests.e2e.conftest import PATIENCE, UNDRAWN, opened, settled, state
 from tests.e2e.test_scene import MESHES, PARTS
 
 DOCS = DEPLOY.parent / "docs" / "operations.md"
@@ -56,7 +56,7 @@ def set_pole(page: Page, number: int, value: float) -> None:
 def test_a_tab_whose_replica_is_killed_goes_on_elsewhere(farm: Farm, chromium: Browser, record_property):
     """Also where the first request to the new replica is lost."""
     with tab(chromium) as (page, errors):
-        opened(page, farm.url)
+        opened(page, farm.url, scene=UNDRAWN)
         page.get_by_test_id("preset").select_option("quanser-aero-2")
         settled(page)
         set_pole(page, 2, -5.5)
@@ -163,7 +163,7 @@ def test_the_page_works_below_a_path_over_tls(below_a_path: str, chromium: Brows
         asked: list[str] = []
         page.on("websocket", lambda socket: sockets.append(socket.url))
         page.on("request", lambda request: asked.append(request.url))
-        opened(page, below_a_path)
+        opened(page, below_a_path, scene=UNDRAWN)
         set_pole(page, 2, -5.5)
         assert placed(page)[2] == -5.5
         frame = scene(page)

@@ -72,14 +72,10 @@ def page_of(chromium: Browser, app: App, *, scene: bool) -> Iterator[Page]:
     """The page at 1280×800, its first answer drawn; fails on any error in its console."""
     context = chromium.new_context(viewport={"width": 1280, "height": 800})
     page = context.new_page()
-    if not scene:  # software rendering takes most of two cores
-        page.route(
-            "**/scene/*/", lambda route: route.fulfill(content_type="text/html", body="<title>-</title>")
-        )
     errors: list[str] = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.on("console", lambda message: message.type == "error" and errors.append(message.text))
-    opened(page, app.url)
+    opened(page, app.url, scene=UNDRAWN if scene else EMPTY)
     yield page
     context.close()
     assert errors == []
@@ -87,33 +83,36 @@ def page_of(chromium: Browser, app: App, *, scene: bool) -> Iterator[Page]:
 
 @pytest.fixture
 def page(chromium: Browser, app: App) -> Iterator[Page]:
-    """The page, nothing in its scene's frame."""
+    """The page, its scene's frame empty."""
     with page_of(chromium, app, scene=False) as page:
         yield page
 
 
 @pytest.fixture
 def page_with_scene(chromium: Browser, app: App) -> Iterator[Page]:
-    """The page with its scene."""
+    """The page with its scene, which has everything but pixels."""
     with page_of(chromium, app, scene=True) as page:
         yield page
 
 
+EMPTY = """Object.defineProperty(HTMLIFrameElement.prototype, "src", {
+  get() { return this.wanted ?? ""; }, set(address) { this.wanted = address; }, configurable: true });"""
+"""Leaves the scene's frame empty: viser's client takes seconds to start."""
 UNDRAWN = """for (const call of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced"]) {
   WebGL2RenderingContext.prototype[call] = () => {};
 }"""
 """Leaves out the drawing alone, most of the work without a graphics card: scene graph, frames and clocks stay."""
+DRAWN = ""
 SEEN = "try { localStorage.setItem('heli2dof.tour', 'done') } catch { /* a frame without storage */ }"
 
 
-def opened(page: Page, url: str, *, tour: bool = False, drawn: bool = False) -> None:
+def opened(page: Page, url: str, *, tour: bool = False, scene: str = EMPTY) -> None:
     """Opens the page and waits for its first answer.
 
-    As at a first visit where `tour` is wanted; the rig's pixels are there where they are to be `drawn`.
+    As at a first visit where `tour` is wanted; the scene is EMPTY, UNDRAWN or DRAWN.
     """
     page.set_default_timeout(PATIENCE)
-    if not drawn:
-        page.context.add_init_script(UNDRAWN)
+    page.add_init_script(scene)
     if not tour:
         page.add_init_script(SEEN)
     page.goto(url)

@@ -8,7 +8,7 @@ import sys
 from playwright.sync_api import sync_playwright
 
 from tests.conftest import FLAGS
-from tests.e2e.conftest import opened, running_app, settled
+from tests.e2e.conftest import DRAWN, opened, running_app, settled
 from tests.e2e.test_page import scene, seek
 
 
@@ -19,7 +19,7 @@ def main() -> None:
         path = os.environ.get("CHROMIUM") or "/usr/bin/chromium"
         browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
         page = browser.new_page(viewport={"width": width, "height": height})
-        opened(page, app.url)
+        opened(page, app.url, scene=DRAWN)
         frame = scene(page)
         seek(page, 0.12)
         settled(page)

@@ -35,7 +35,6 @@ def test_no_violation(chromium: Browser, app: App, size: tuple[int, int], scheme
         reduced_motion="reduce",
     )
     page = context.new_page()
-    page.route("**/scene/*/", lambda route: route.fulfill(content_type="text/html", body=""))
     opened(page, app.url)
     assert violations(page) == []
     page.get_by_test_id("require-settling").fill("0.4")

@@ -212,7 +212,6 @@ def test_nothing_is_asked_until_it_is_seen_nor_during_a_drag(page: Page):
 @pytest.mark.parametrize("width", [390, 1280])
 def test_the_page_does_not_scroll_sideways(chromium: Browser, app: App, width: int):
     page = chromium.new_page(viewport={"width": width, "height": 800})
-    page.route("**/scene/*/", lambda route: route.fulfill(content_type="text/html", body="<title>-</title>"))
     opened(page, app.url)
     for card in ("compare", "splits", "interaction"):
         seen(page, card)

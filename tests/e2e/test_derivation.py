@@ -85,7 +85,6 @@ def test_a_tap_shows_the_card_and_a_tap_elsewhere_closes_it(chromium: Browser, a
     context = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
     page = context.new_page()
     page.set_default_timeout(60_000)
-    page.route("**/scene/*/", lambda route: route.fulfill(content_type="text/html", body="<title>-</title>"))
     page.goto(app.url)
     settled(page)
     page.locator("#paper").scroll_into_view_if_needed()

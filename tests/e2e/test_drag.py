@@ -60,7 +60,6 @@ class Fingers:
 def phone(chromium: Browser, app: App) -> Iterator[tuple[Page, Fingers]]:
     context = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
     page = context.new_page()
-    page.route("**/scene/*/", lambda route: route.fulfill(content_type="text/html", body=""))
     errors: list[str] = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     opened(page, app.url)

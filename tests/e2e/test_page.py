@@ -7,7 +7,7 @@ import socket
 import pytest
 from playwright.sync_api import Browser, Frame, Page, expect
 
-from tests.e2e.conftest import PATIENCE, App, opened, running_app, settled, state
+from tests.e2e.conftest import PATIENCE, UNDRAWN, App, opened, running_app, settled, state
 
 POSE = """() => {
   const data = window.__viserMutable?.nodePoseData ?? {};
@@ -112,7 +112,7 @@ def test_poles_move_by_keyboard_as_sliders_with_a_name(page: Page):
 def test_two_tabs_do_not_disturb_each_other(page_with_scene: Page, app: App, chromium: Browser):
     page = page_with_scene
     other = chromium.new_context(viewport={"width": 1280, "height": 800}).new_page()
-    opened(other, app.url)
+    opened(other, app.url, scene=UNDRAWN)
     assert page.locator("iframe").get_attribute("src") != other.locator("iframe").get_attribute("src")
     mine, theirs = scene(page), scene(other)
     for tab in (page, other):
@@ -213,7 +213,7 @@ def test_no_request_leaves_the_server(chromium: Browser, app: App):
     strangers: list[str] = []
     page.on("request", lambda r: r.url.startswith((app.url, "blob:", "data:")) or strangers.append(r.url))
     page.on("websocket", lambda s: f"127.0.0.1:{app.port}/" in s.url or strangers.append(s.url))
-    opened(page, app.url)
+    opened(page, app.url, scene=UNDRAWN)
     scene(page)
     page.goto(app.url + "docs")
     page.locator("#operations-design-gains_api_v1_gains_post").wait_for()

@@ -180,7 +180,6 @@ def test_a_restarted_server_loses_nothing_and_gets_the_newest_edit_only(chromium
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     page = chromium.new_page(viewport={"width": 1280, "height": 800})
-    page.route("**/scene/*/", lambda route: route.fulfill(content_type="text/html", body="<title>-</title>"))
     sent: list[list[dict]] = []  # by connection
 
     def watch(ws) -> None:

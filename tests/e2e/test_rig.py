@@ -162,7 +162,6 @@ def test_axe_finds_nothing_in_the_open_panel(chromium: Browser, app: App, scheme
         reduced_motion="reduce",
     )
     page = context.new_page()
-    page.route("**/scene/*/", lambda route: route.fulfill(content_type="text/html", body=""))
     opened(page, app.url)
     page.get_by_test_id("rig").click()
     entered(page, "rig-B_y", "0.5")

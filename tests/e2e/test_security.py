@@ -10,7 +10,7 @@ import httpx2
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from .conftest import SEEN, App, running_app, settled
+from .conftest import SEEN, UNDRAWN, App, running_app, settled
 
 TOKEN = "a-token-of-a-class-2026"
 LISTEN = """
@@ -27,6 +27,7 @@ def listening(chromium: Browser) -> Iterator[Page]:
     context = chromium.new_context(viewport={"width": 1280, "height": 800})
     context.add_init_script(SEEN)
     context.add_init_script(LISTEN)
+    context.add_init_script(UNDRAWN)
     page = context.new_page()
     page.set_default_timeout(90_000)
     errors: list[str] = []

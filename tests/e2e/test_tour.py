@@ -31,7 +31,6 @@ def visit(
     errors: list[str] = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.on("console", lambda message: message.type == "error" and errors.append(message.text))
-    page.route("**/scene/*/", lambda route: route.fulfill(content_type="text/html", body="<title>-</title>"))
     opened(page, app.url + search, tour=tour)
     yield page
     context.close()

@@ -31,6 +31,7 @@ def window_of(page: Page, app: App, viewport: tuple[int, int] = (640, 420)) -> I
     window = page.context.new_page()
     window.set_viewport_size({"width": viewport[0], "height": viewport[1]})
     window.set_default_timeout(PATIENCE)
+    window.add_init_script(UNDRAWN)
     errors: list[str] = []
     window.on("pageerror", lambda error: errors.append(str(error)))
     window.goto(f"{app.url}scene/{session}/")
@@ -220,7 +221,6 @@ def test_menu_gives_the_link_of_the_window(page: Page):
 def test_window_is_rebuilt_after_the_server_was_started_anew(chromium: Browser):
     context = chromium.new_context()
     page = context.new_page()
-    page.route("**/scene/*/", lambda route: route.fulfill(content_type="text/html", body="<title>-</title>"))
     with running_app() as first:
         opened(page, first.url)
         page.get_by_test_id("preset").select_option("quanser-aero-2")
@@ -228,6 +228,7 @@ def test_window_is_rebuilt_after_the_server_was_started_anew(chromium: Browser):
         session = page.evaluate("() => sessionStorage.getItem('heli2dof-scene')")
         window = context.new_page()
         window.set_default_timeout(PATIENCE)
+        window.add_init_script(UNDRAWN)
         window.goto(f"{first.url}scene/{session}/")
         drawn(window)
         window.evaluate("() => { window.kept = true; }")
