@@ -9,7 +9,8 @@ IMAGE_BUILDER ?= docker build
 BESIDE := --numprocesses=2 --dist=loadfile
 PACKAGING := pyproject.toml constraints.txt package.json package-lock.json hatch_build.py
 SOURCES := $(shell find app heli2dof_core static -type f -not -path '*/vendor/*' -not -name '*.pyc' 2>/dev/null)
-CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
+# Without windows (chromium-headless-shell, as Playwright itself prefers) the tests take two thirds of the time.
+CHROMIUM ?= $(firstword $(shell command -v chromium-headless-shell chromium chromium-browser google-chrome))
 
 .PHONY: help serve test check types unit page-test e2e screenshot bench docs image clean
 help: ## this list
@@ -58,7 +59,7 @@ clean: ## remove what was built
 
 .PHONY: browser
 browser:
-	@test -n "$(CHROMIUM)" || { echo "The browser tests need Chromium. Debian, Ubuntu: sudo apt-get install chromium. \
+	@test -n "$(CHROMIUM)" || { echo "The browser tests need Chromium. Debian, Ubuntu: sudo apt-get install chromium-headless-shell. \
 	Elsewhere: install Chromium or Chrome and call: make test CHROMIUM=/path/to/it" >&2; exit 1; }
 
 $(BIN)/pip:

@@ -99,9 +99,10 @@ EMPTY = """Object.defineProperty(HTMLIFrameElement.prototype, "src", {
   get() { return this.wanted ?? ""; }, set(address) { this.wanted = address; }, configurable: true });"""
 """Leaves the scene's frame empty: viser's client takes seconds to start."""
 UNDRAWN = """for (const call of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced"]) {
-  WebGL2RenderingContext.prototype[call] = () => {};
+  const draw = WebGL2RenderingContext.prototype[call];
+  WebGL2RenderingContext.prototype[call] = function (...all) { if (window.drawn) draw.apply(this, all); };
 }"""
-"""Leaves out the drawing alone, most of the work without a graphics card: scene graph, frames and clocks stay."""
+"""Leaves out the drawing alone, most of the work without a graphics card, until the frame's `drawn` is set."""
 DRAWN = ""
 SEEN = "try { localStorage.setItem('heli2dof.tour', 'done') } catch { /* a frame without storage */ }"
 

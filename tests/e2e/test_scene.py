@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import math
 from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import pytest
@@ -58,33 +57,16 @@ def server() -> Iterator[SceneServer]:
         yield running
 
 
-@contextmanager
-def page_in(chromium: Browser) -> Iterator[Page]:
+@pytest.fixture
+def host(server: SceneServer, chromium: Browser) -> Iterator[Page]:
     context = chromium.new_context(viewport={"width": 620, "height": 240})
     page = context.new_page()
     page.set_default_timeout(PATIENCE)
-    yield page
-    context.close()
-
-
-@pytest.fixture
-def host(server: SceneServer, chromium: Browser) -> Iterator[Page]:
-    """The page around the scenes, which have everything but pixels."""
-    with page_in(chromium) as page:
-        page.add_init_script(UNDRAWN)
-        yield begun(page, server)
-
-
-@pytest.fixture
-def drawn_host(server: SceneServer, chromium: Browser) -> Iterator[Page]:
-    with page_in(chromium) as page:
-        yield begun(page, server)
-
-
-def begun(page: Page, server: SceneServer) -> Page:
+    page.add_init_script(UNDRAWN)
     page.goto(server.http)
     page.wait_for_function("window.hosting")
-    return page
+    yield page
+    context.close()
 
 
 def open_scene(page: Page, name: str, query: str = "") -> Frame:
@@ -119,6 +101,8 @@ def hold(page: Page, frame: Frame, name: str, theta: float, psi: float) -> None:
 
 def pixels(page: Page, frame: Frame) -> bytes:
     """What the canvas shows once it has come to rest, as bytes of red, green, blue and opacity."""
+    frame.evaluate("() => { window.drawn = true; }")
+    rendered(frame)
     last, alike = picture(frame), 1
     for _ in range(MOST_PICTURES):
         rendered(frame)
@@ -126,6 +110,7 @@ def pixels(page: Page, frame: Frame) -> bytes:
         alike = alike + 1 if now == last else 1
         last = now
         if alike == 3:
+            frame.evaluate("() => { window.drawn = false; }")
             return now
     raise AssertionError(f"the picture still changes after {MOST_PICTURES} looks")
 
@@ -153,25 +138,25 @@ def changed_share(before: bytes, after: bytes) -> float:
     return different / (len(before) / 4)
 
 
-def test_posted_pose_moves_the_picture_and_taking_it_back_restores_it(drawn_host: Page):
-    frame = open_scene(drawn_host, "moving")
-    hold(drawn_host, frame, "moving", 0.0, 0.0)
-    rest = pixels(drawn_host, frame)
-    hold(drawn_host, frame, "moving", 0.4, 0.8)
-    moved = pixels(drawn_host, frame)
-    hold(drawn_host, frame, "moving", 0.0, 0.0)
+def test_posted_pose_moves_the_picture_and_taking_it_back_restores_it(host: Page):
+    frame = open_scene(host, "moving")
+    hold(host, frame, "moving", 0.0, 0.0)
+    rest = pixels(host, frame)
+    hold(host, frame, "moving", 0.4, 0.8)
+    moved = pixels(host, frame)
+    hold(host, frame, "moving", 0.0, 0.0)
     assert changed_share(rest, moved) > 0.04
-    assert changed_share(rest, pixels(drawn_host, frame)) < 0.004
+    assert changed_share(rest, pixels(host, frame)) < 0.004
 
 
-def test_sessions_do_not_disturb_each_other(drawn_host: Page):
-    left, right = open_scene(drawn_host, "left"), open_scene(drawn_host, "right")
-    hold(drawn_host, right, "right", -0.2, 0.3)
-    before = pixels(drawn_host, right)
-    hold(drawn_host, left, "left", 0.3, 1.0)
+def test_sessions_do_not_disturb_each_other(host: Page):
+    left, right = open_scene(host, "left"), open_scene(host, "right")
+    hold(host, right, "right", -0.2, 0.3)
+    before = pixels(host, right)
+    hold(host, left, "left", 0.3, 1.0)
     rendered(right)
     assert right.evaluate(ANGLES) == pytest.approx({"theta": -0.2, "psi": 0.3})
-    assert changed_share(before, pixels(drawn_host, right)) < 0.004
+    assert changed_share(before, pixels(host, right)) < 0.004
 
 
 def test_playback_follows_the_trajectory(host: Page):
