@@ -87,6 +87,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     )
     app.state.compute, app.state.metrics, app.state.visits = compute, metrics, visits
     app.state.limits, app.state.sessions = sockets, sessions
+    files = KeptFiles(directory=settings.static)
+    app.mount("/static", files, name="static")  # first: it is asked for most, and each route that is tried costs time
     app.include_router(health.build_router(compute, visits, metrics if settings.metrics else None))
     app.include_router(catalogue.build_router())
     app.include_router(design.build_router(compute))
@@ -100,8 +102,6 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(robustness.build_router(compute, metrics))
     app.include_router(scene.build_views_router())
     app.include_router(scene.build_router(sessions, metrics, settings.frame_ancestors))
-    files = KeptFiles(directory=settings.static)
-    app.mount("/static", files, name="static")
     problems.install(app)
     examples.install(app)
 

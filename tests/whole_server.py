@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import socket
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,7 +10,7 @@ from typing import Any
 
 import uvicorn
 
-from app.cli.serving import server_config
+from app.cli.serving import listener, server_config
 from app.main import create_app
 from app.settings import Settings
 from tests.scene_server import until
@@ -35,15 +34,17 @@ class WholeServer:
 @contextmanager
 def serving(**settings: Any) -> Iterator[WholeServer]:
     """Run the app for as long as the context lasts; it has derived and compiled everything when it begins."""
-    app = create_app(Settings(**settings))
+    chosen = Settings(host="127.0.0.1", port=0, **settings)
+    app = create_app(chosen)
     server = uvicorn.Server(server_config(app))
-    listener = socket.create_server(("127.0.0.1", 0))
-    thread = threading.Thread(target=server.run, args=([listener],), daemon=True)
+    bound = listener(chosen)
+    port = bound.getsockname()[1]
+    thread = threading.Thread(target=server.run, args=([bound],), daemon=True)
     thread.start()
     until(lambda: server.started or not thread.is_alive(), "the server starts")
     try:
         until(lambda: app.state.compute.settled, "all is derived and compiled", 240)
-        yield WholeServer(listener.getsockname()[1], app)
+        yield WholeServer(port, app)
     finally:
         server.should_exit = True
         thread.join(20.0)
