@@ -88,7 +88,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.compute, app.state.metrics, app.state.visits = compute, metrics, visits
     app.state.limits, app.state.sessions = sockets, sessions
     files = KeptFiles(directory=settings.static)
-    app.mount("/static", files, name="static")  # first: it is asked for most, and each route that is tried costs time
+    # First: these are asked for most, and each route that is tried costs time.
+    app.mount("/static", files, name="static")
     app.include_router(health.build_router(compute, visits, metrics if settings.metrics else None))
     app.include_router(catalogue.build_router())
     app.include_router(design.build_router(compute))

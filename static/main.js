@@ -59,7 +59,7 @@ const figures = [
   new Remarks(document), new FindingsPanel(byId('strip'), store), // it measures what it has written
   { render: publish }, // last, when all is shown
 ];
-let views = viewsOf();
+const views = { plane: viewOf(plane), figures: figures.map(viewOf) };
 const turns = new Turns();
 const locked = new LockedControls(document.body);
 
@@ -108,7 +108,7 @@ function render() {
   scheduled = false;
   const begin = performance.now();
   const { state } = store;
-  if (locked.release(state)) views = viewsOf(); // each says again which of its controls can be used
+  if (locked.release(state)) for (const view of [views.plane, ...views.figures]) view.forget(); // each says again which of its controls can be used
   views.plane(state);
   const drawn = drawPlots(state);
   turns.take(state, views.figures, { busy: drawn === true, again: schedule });
@@ -120,19 +120,10 @@ function render() {
   for (const old of asked.keys()) if (old <= answered) asked.delete(old);
 }
 
-function viewsOf() {
-  return { plane: viewOf(plane), figures: figures.map(viewOf) };
-}
-
-/** Views that have failed, which is told once however often all are made anew. @type {WeakSet<object>} */
-const faulty = new WeakSet();
-
-/** @param {{render: (state: State) => void}} view */
+/** A view that is drawn where what it reads has changed, and stops no other where it fails; `forget` has it drawn in any case. @param {{render: (state: State) => void}} view */
 function viewOf(view) {
-  return isolated(watched(view), (error) => {
-    if (!faulty.has(view)) report(error);
-    faulty.add(view);
-  });
+  let draw = watched(view);
+  return Object.assign(isolated((/** @type {State} */ state) => draw(state), report), { forget: () => { draw = watched(view); } });
 }
 
 /** Quietly, once for each part. @param {unknown} error */
@@ -157,8 +148,7 @@ function welcome() {
 /** Panels that the first view does not need, fetched when it is there. */
 async function furtherDown() {
   const [{ ComparePanel }, { RecordingsPanel }] = await Promise.all([import('./panels/compare.js'), import('./panels/recordings.js')]);
-  figures.unshift(new ComparePanel(byId('compare'), store), new RecordingsPanel(byId('recordings'), store));
-  views = viewsOf();
+  views.figures.unshift(viewOf(new ComparePanel(byId('compare'), store)), viewOf(new RecordingsPanel(byId('recordings'), store)));
   schedule();
 }
 

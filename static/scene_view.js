@@ -56,7 +56,7 @@ export class SceneView {
     this.motion = new Choice({ label: 'Motion that the scene plays', testid: 'motion', onChange: (v) => store.set({ motion: /** @type {any} */ (v) }),
       options: [['theta', 'pitch step', 'the scene plays the pitch step alone'], ['psi', 'yaw step', 'the scene plays the yaw step alone'], ['both', 'both', 'the scene plays both steps at once']] });
     this.transport = new Transport({
-      onToggle: () => this.#toggle(), onReplay: () => this.player.replay(), onSeek: (t) => this.seek(t),
+      onToggle: () => this.#toggle(), onReplay: () => { this.#taken(); this.player.replay(); }, onSeek: (t) => this.seek(t),
       onSpeed: (speed) => this.player.setSpeed(speed), onLoop: (loop) => this.player.setLoop(loop),
     });
     this.controls = new SceneControls({
@@ -95,8 +95,15 @@ export class SceneView {
     new ResizeObserver(() => this.player.resized()).observe(this.frame);
   }
 
+  /** Whoever moves time by hand keeps it: what is to play by itself after a change does not. */
+  #taken() {
+    this.#pending = false;
+    clearTimeout(this.#timer);
+  }
+
   /** Holds the rig at a time. @param {number} t */
   seek(t) {
+    this.#taken();
     this.#held = null;
     this.player.pause();
     this.player.seek(t);
@@ -117,6 +124,7 @@ export class SceneView {
   }
 
   #toggle() {
+    this.#taken();
     if (this.player.playing) this.player.pause();
     else this.player.play();
   }

@@ -208,6 +208,20 @@ def test_playing_ends_at_the_end_in_real_time(page_with_scene: Page):
     assert page.get_by_test_id("hud-theta").inner_text().startswith("10.0")
 
 
+def test_who_moves_time_after_a_change_keeps_it(page: Page):
+    """What plays by itself half a second after a change does not take the slider out of a hand."""
+    clock = page.get_by_test_id("clock")
+    for pole, share in (("-6", 0.4), ("-7", 0.6)):
+        page.get_by_test_id("pole-field-2").fill(pole)
+        page.get_by_test_id("pole-field-2").press("Enter")
+        settled(page)
+        seek(page, share)
+        held = clock.inner_text()
+        page.evaluate("() => new Promise((passed) => setTimeout(passed, 700))")
+        assert clock.inner_text() == held
+        expect(page.get_by_test_id("play")).to_have_attribute("aria-pressed", "false")
+
+
 def test_no_request_leaves_the_server(chromium: Browser, app: App):
     page = chromium.new_page()
     strangers: list[str] = []
