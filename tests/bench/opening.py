@@ -15,6 +15,7 @@ import httpx2
 import numpy as np
 import uvicorn
 from fastapi.staticfiles import StaticFiles
+from starlette.routing import Mount
 
 from app.cli.serving import listener, server_config
 from app.main import create_app
@@ -30,7 +31,7 @@ ROUNDS = 3
 def serve(bound: socket.socket) -> None:
     """The whole app, and its files a second time."""
     app = create_app()
-    app.mount(PEER, StaticFiles(directory=Settings().static))
+    app.router.routes.insert(1, Mount(PEER, StaticFiles(directory=Settings().static)))  # as early as ours
     uvicorn.Server(server_config(app)).run([bound])
 
 
