@@ -15,6 +15,10 @@ from collections.abc import Iterator
 import orjson
 import pytest
 import schemathesis
+
+# Schemathesis imports it late. In Python 3.11 pytest's rewriting of it fails where another thread prints a traceback:
+# both parse, and ast keeps one depth for all threads.
+import schemathesis.specs.openapi.object_authorization
 from hypothesis import HealthCheck, Phase, settings
 from schemathesis.checks import load_all_checks
 from schemathesis.specs.openapi.checks import positive_data_acceptance
