@@ -95,7 +95,7 @@ def round_trips() -> dict[str, float]:
     """Medians, s: a full update over the socket, a bare exchange, and the update alone."""
     text = request()
     spec = LiveRequest.model_validate(orjson.loads(text)).to_spec()
-    with running_app() as app:
+    with running_app(message_rate="100000") as app:
         kernels_ready(app.port)
         for _ in range(2):  # while the first ones run, the server derives the other structures
             times, size = asyncio.run(exchanges(live(app.port), text, [BINARY_SUBPROTOCOL], 3 * EXCHANGES))
