@@ -59,7 +59,7 @@ clean: ## remove what was built
 
 .PHONY: browser
 browser:
-	@test -n "$(CHROMIUM)" || { echo "The browser tests need Chromium. Debian, Ubuntu: sudo apt-get install chromium-headless-shell. \
+	@test -n "$(CHROMIUM)" || { echo "The browser tests need Chromium. Debian: sudo apt-get install chromium-headless-shell. \
 	Elsewhere: install Chromium or Chrome and call: make test CHROMIUM=/path/to/it" >&2; exit 1; }
 
 $(BIN)/pip:

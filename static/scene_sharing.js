@@ -66,6 +66,7 @@ export class SceneSharing {
       this.#show();
     }
     this.correct();
+    if (edits.play) this.scene.taken();
     steer(this.scene.player, edits);
   }
 

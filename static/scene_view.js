@@ -56,7 +56,7 @@ export class SceneView {
     this.motion = new Choice({ label: 'Motion that the scene plays', testid: 'motion', onChange: (v) => store.set({ motion: /** @type {any} */ (v) }),
       options: [['theta', 'pitch step', 'the scene plays the pitch step alone'], ['psi', 'yaw step', 'the scene plays the yaw step alone'], ['both', 'both', 'the scene plays both steps at once']] });
     this.transport = new Transport({
-      onToggle: () => this.#toggle(), onReplay: () => { this.#taken(); this.player.replay(); }, onSeek: (t) => this.seek(t),
+      onToggle: () => this.#toggle(), onReplay: () => { this.taken(); this.player.replay(); }, onSeek: (t) => this.seek(t),
       onSpeed: (speed) => this.player.setSpeed(speed), onLoop: (loop) => this.player.setLoop(loop),
     });
     this.controls = new SceneControls({
@@ -96,14 +96,14 @@ export class SceneView {
   }
 
   /** Whoever moves time by hand keeps it: what is to play by itself after a change does not. */
-  #taken() {
+  taken() {
     this.#pending = false;
     clearTimeout(this.#timer);
   }
 
   /** Holds the rig at a time. @param {number} t */
   seek(t) {
-    this.#taken();
+    this.taken();
     this.#held = null;
     this.player.pause();
     this.player.seek(t);
@@ -124,7 +124,7 @@ export class SceneView {
   }
 
   #toggle() {
-    this.#taken();
+    this.taken();
     if (this.player.playing) this.player.pause();
     else this.player.play();
   }

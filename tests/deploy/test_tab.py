@@ -81,10 +81,8 @@ def test_a_tab_whose_replica_is_killed_goes_on_elsewhere(farm: Farm, chromium: B
 
         page.route(f"**/scene/{session}/rig", lose_the_first)
         ended = perf_counter()
-        victim.kill()
-        deadline = perf_counter() + 40
-        while not any("/api/v1/live" in url for url in sockets) and perf_counter() < deadline:
-            page.wait_for_timeout(20)  # it may be lost for less than a frame
+        with page.expect_websocket(lambda socket: "/api/v1/live" in socket.url):
+            victim.kill()
         page.wait_for_function(OPEN)
         back = perf_counter() - ended
         set_pole(page, 3, -6.5)
