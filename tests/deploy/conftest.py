@@ -23,3 +23,4 @@ def whole_farm(running_farm: Farm) -> Iterator[Farm]:
         if replica.process.poll() is not None:
             replica.start()
     until(lambda: all(replica.ready() for replica in running_farm.replicas), "the replicas are back", 60)
+    until(running_farm.whole, "nginx asks every replica again", 60)

@@ -31,7 +31,7 @@ def free_port() -> int:
         return probe.getsockname()[1]
 
 
-@dataclass
+@dataclass(eq=False)
 class Replica:
     """`python -m app serve` on a port that it keeps."""
 
@@ -105,6 +105,10 @@ class Farm:
             if len(found) == count:
                 return found
         raise AssertionError("nginx sends hardly any session there")
+
+    def whole(self) -> bool:
+        """Whether nginx asks every replica again: one that was away is left out for a while, also when it is back."""
+        return {self.home(f"session-{k}".ljust(24, "_")) for k in range(32)} == set(self.replicas)
 
     def _asked(self) -> list[str]:
         return _UPSTREAM.findall(self.log.read_text())
