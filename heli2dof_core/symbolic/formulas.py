@@ -132,7 +132,7 @@ def derive(structure: Structure, *, shifted: bool = False) -> Formulas:
         "G": grouped(transfer_matrix(structure, shifted=shifted)),
         "G_0": grouped(steady_state(structure, shifted=shifted)),
         "RGA": grouped(relative_gain_array(structure, shifted=shifted)),
-        "RGA_s": grouped(relative_gains_of_s(structure, shifted=shifted)),
+        "RGA_s": relative_gains_of_s(structure, shifted=shifted),
     }
     return Formulas(
         structure=structure,

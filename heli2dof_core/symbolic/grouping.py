@@ -38,16 +38,13 @@ def group(expression: sp.Expr) -> sp.Expr:
     denominator = sp.factor(denominator).subs(_DETERMINANT, -gamma_)
     if denominator.has(gamma_):
         _, numerator = sp.reduced(numerator, [_DETERMINANT + gamma_], *_ORDER)
-    with_gamma = [term for term in sp.Add.make_args(sp.expand(numerator)) if term.has(gamma_)]
-    without = [term for term in sp.Add.make_args(sp.expand(numerator)) if not term.has(gamma_)]
+    terms = sp.Add.make_args(sp.expand(numerator))
+    with_gamma = [term for term in terms if term.has(gamma_)]
+    without = [term for term in terms if not term.has(gamma_)]
     return sp.Add(*(_part(part, denominator) for part in (with_gamma, without) if part))
 
 
 def _part(terms: Iterable[sp.Expr], denominator: sp.Expr) -> sp.Expr:
-    fraction = sp.factor(sp.Add(*terms)) / denominator
-    numerator, denominator = sp.fraction(sp.cancel(fraction) if fraction.has(gamma_) else fraction)
-    parts = [
-        sp.Mul(*(sp.collect(f, s) for f in sp.Mul.make_args(sp.factor(side))))
-        for side in (numerator, denominator)
-    ]
+    sides = sp.fraction(sp.factor(sp.Add(*terms)) / denominator)  # common factors go as powers of one base
+    parts = [sp.Mul(*(sp.collect(factor, s) for factor in sp.Mul.make_args(side))) for side in sides]
     return (parts[0] / parts[1]).subs(_SIGNED).subs(_SUMS)

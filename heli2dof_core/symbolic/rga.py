@@ -10,6 +10,7 @@ from sympy.polys.matrices import DomainMatrix
 
 from ..couplings import Structure
 from .full_rank import FIELD, full_rank, to_field
+from .grouping import group
 from .names import PARAMETERS as P
 from .names import alpha, beta_0, d_10, d_11, d_20, d_21, s
 
@@ -45,17 +46,17 @@ def relative_gain_array(structure: Structure, *, shifted: bool = False) -> Domai
 
 
 @cache
-def relative_gains_of_s(structure: Structure, *, shifted: bool = False) -> DomainMatrix:
-    """Ĝ(s) ∘ Ĝ(s)⁻ᵀ over `FIELD`, 2×2: RGA(jω) at s = jω.
+def relative_gains_of_s(structure: Structure, *, shifted: bool = False) -> sp.Matrix:
+    """Ĝ(s) ∘ Ĝ(s)⁻ᵀ, 2×2, as a person would write it: RGA(jω) at s = jω.
 
-    Rows and columns sum to 1, so one entry tells all: λ₁₁ = ĝ₁₁ ĝ₂₂ / det Ĝ. Feedback moves no zeros and
-    the rig has none, so that det Ĝ = det B₂ / (d₁ d₂) with B₂ the rows of B that carry the inputs:
-    to invert Ĝ in this field takes a thousand times as long where the shift is a symbol.
+    Rows and columns sum to 1, so one entry tells all: λ₁₂ = −ĝ₁₂ ĝ₂₁ / det Ĝ. Feedback moves no zeros and
+    the rig has none, so that det Ĝ = det B₂ / (d₁ d₂) with B₂ the rows of B that carry the inputs. The
+    product stays one: multiplied out it is ten times as long where the shift is a symbol.
     """
-    (g_11, _), (_, g_22) = transfer_matrix(structure, shifted=shifted).to_list()
-    diagonal = g_11 * _CHARACTERISTIC * g_22 / _DET_B
-    other = FIELD.one - diagonal
-    return DomainMatrix([[diagonal, other], [other, diagonal]], (2, 2), FIELD)
+    (_, g_12), (g_21, _) = transfer_matrix(structure, shifted=shifted).to_list()
+    factors = [FIELD.to_sympy(factor) for factor in (-g_12 * _CHARACTERISTIC / _DET_B, g_21)]
+    other = sp.factor_terms(sp.Mul(*map(group, factors)))
+    return sp.Matrix([[1 - other, other], [other, 1 - other]])
 
 
 def _at_zero(entry: FracElement) -> FracElement:

@@ -30,7 +30,7 @@ from heli2dof_core import (
 )
 from heli2dof_core.interaction import closed_loop_response, dominance_over_frequency
 from heli2dof_core.presets import PRESETS
-from heli2dof_core.symbolic.names import COEFFICIENTS_OF_POLES, PARAMETERS, c, s, theta_0
+from heli2dof_core.symbolic.names import PARAMETERS, c, p_1, p_2, p_3, p_4, s, theta_0
 from heli2dof_core.symbolic.rga import relative_gains_of_s
 from heli2dof_core.walkthrough import walk_through
 from tests.strategies import STRUCTURES
@@ -38,7 +38,7 @@ from tests.strategies import STRUCTURES
 AERO = Spec.from_preset(preset("quanser-aero"))
 
 
-@pytest.mark.parametrize("structure", STRUCTURES, ids=str)
+@pytest.mark.parametrize("structure", [*STRUCTURES, Structure("triangular", "yaw", 0.4)], ids=str)
 def test_symbolic_rga_of_s_is_the_numeric_one_at_every_frequency(structure):
     from heli2dof_core.symbolic.linearization import linear_model
     from heli2dof_core.symbolic.names import cos_0, sin_0
@@ -46,8 +46,12 @@ def test_symbolic_rga_of_s_is_the_numeric_one_at_every_frequency(structure):
     rig, angle, poles = preset("quanser-2dof-manual").parameters, 0.2, PoleSet([-3 + 4j, -3 - 4j, -5, -6])
     names = {PARAMETERS[name]: value for name, value in rig.as_dict().items()}
     names |= {sin_0: np.sin(angle), cos_0: np.cos(angle), theta_0: angle}
-    names |= dict(zip(COEFFICIENTS_OF_POLES, poles.coefficients, strict=True))
-    symbolic = relative_gains_of_s(structure).to_Matrix().subs(linear_model().definitions).subs(names)
+    names |= dict(zip((p_1, p_2, p_3, p_4), poles.values, strict=True))
+    shifted = structure.shift is not None
+    names |= {c: structure.shift} if shifted else {}
+    symbolic = (
+        relative_gains_of_s(structure.family, shifted=shifted).subs(linear_model().definitions).subs(names)
+    )
     at = np.array([0.1, 1.0, 7.0, 300.0])
     numeric = rga_over_frequency(design(plant(rig, angle), poles, structure), at)
     for w, own in zip(at, numeric, strict=True):

@@ -127,4 +127,8 @@ def settled(page: Page) -> None:
 
 
 def state(page: Page) -> dict:
-    return page.evaluate("() => JSON.parse(document.documentElement.dataset.state)")
+    """What the page says of itself, after the frame that draws the last edit."""
+    return page.evaluate(
+        "async () => { await new Promise(requestAnimationFrame);"
+        " return JSON.parse(document.documentElement.dataset.state); }"
+    )

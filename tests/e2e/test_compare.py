@@ -195,6 +195,7 @@ def test_nothing_is_asked_until_it_is_seen_nor_during_a_drag(page: Page):
         "(e) => scrollBy(0, e.getBoundingClientRect().top - innerHeight + 80)",
         page.get_by_test_id("compare").element_handle(),
     )
+    settled(page)
     box = page.get_by_test_id("pole-3").bounding_box()
     assert box is not None and box["y"] > 0
     asked.clear()

@@ -261,7 +261,7 @@ def test_requirements_hatch_the_plane_and_judge_the_poles(page: Page):
     settling.fill("0.38")
     overshoot.fill("0.01")
     for name in ("settling", "overshoot"):
-        assert page.get_by_test_id(f"forbidden-{name}").count() == 1
+        expect(page.get_by_test_id(f"forbidden-{name}")).to_have_count(1)
     found = poles(page)
     zeta = -found[2]["re"] / abs(complex(found[2]["re"], found[2]["im"]))
     assert 4 / -found[1]["re"] > 0.38 > 4 / -found[0]["re"] and zeta > 0.94
@@ -280,7 +280,7 @@ def test_requirements_hatch_the_plane_and_judge_the_poles(page: Page):
     settling.fill("")
     overshoot.fill("")
     for name in ("settling", "overshoot"):
-        assert page.get_by_test_id(f"forbidden-{name}").count() == 0
+        expect(page.get_by_test_id(f"forbidden-{name}")).to_have_count(0)
     expect(page.get_by_test_id("verdict-pitch")).to_be_hidden()
 
 
@@ -288,10 +288,10 @@ def test_a_requirement_that_is_no_number_is_told_and_changes_nothing(page: Page)
     field = page.get_by_test_id("require-settling")
     field.fill("0")
     expect(page.locator("#require-settling-error")).to_have_text("must be positive")
-    assert page.get_by_test_id("forbidden-settling").count() == 0
+    expect(page.get_by_test_id("forbidden-settling")).to_have_count(0)
     field.fill("2")
     field.fill("soon")
     expect(page.locator("#require-settling-error")).to_have_text("a number, please")
-    assert page.get_by_test_id("forbidden-settling").count() == 1
+    expect(page.get_by_test_id("forbidden-settling")).to_have_count(1)
     field.press("Tab")
     expect(field).to_have_value("2")
