@@ -5,6 +5,8 @@ Slow and careful, and nothing of heli2dof's own simulation in it: what the kerne
 
 from __future__ import annotations
 
+from math import cos, sin
+
 import numpy as np
 from scipy.integrate import solve_ivp
 
@@ -17,36 +19,43 @@ class Reference:
     def __init__(self, loop, limits, scenario):
         plant = loop.design.plant
         self.rig, self.K, self.scenario = plant.parameters, loop.design.K, scenario
-        self.P, self.I, self.F = loop.proportional, loop.integral, loop.feedforward
+        self.P, self.I = loop.proportional, loop.integral
         theta, psi, *start = scenario.resolved(plant.theta_0)
         self.wanted = np.array([theta, psi])
-        self.rest = np.array([plant.theta_0, 0.0])
-        self.trim = plant.trim if scenario.trim_feedforward else np.zeros(2)
+        trim = plant.trim if scenario.trim_feedforward else np.zeros(2)
+        fixed = trim + loop.feedforward @ (self.wanted - [plant.theta_0, 0.0])
+        of_state = np.hstack([-self.K, np.zeros((2, 2)) if self.I is None else self.I])
+        of_state[:, :2] -= self.P
+        fixed = fixed + self.P @ self.wanted + self.K @ [plant.theta_0, 0, 0, 0]
+        self.law = [(*row, constant) for row, constant in zip(of_state.tolist(), fixed.tolist(), strict=True)]
         self.limits = np.array([limits.V_p, limits.V_y]) if scenario.saturation else np.full(2, np.inf)
         self.travel = limits.theta if scenario.travel_stops and limits.theta else np.inf
         self.y = np.concatenate([start, np.zeros(2)])
+        self.ml2 = self.rig.m * self.rig.l**2
         self.motor_of = [0, 0] if self.I is None else [int(np.argmax(np.abs(self.I[:, i]))) for i in range(2)]
         self.mode, self.side, self.stop = [FREE, FREE], [1.0, 1.0], 0
 
     def asked(self, y):
-        x = y[:4] - [*self.rest, 0, 0]
-        u = self.trim - self.K @ x + self.P @ (self.wanted - y[:2]) + self.F @ (self.wanted - self.rest)
-        return u if self.I is None else u + self.I @ y[4:]
+        """u = trim − K (x − x₀) + P (r − y) + I z + F (r − y₀), collected as it depends on the state."""
+        a, b, c, d, e, f = y
+        return [p * a + q * b + r * c + s * d + t * e + u * f + k for p, q, r, s, t, u, k in self.law]
 
     def given(self, y):
         u = self.asked(y)
         return [u[i] if self.mode[i] == FREE else self.side[i] * self.limits[i] for i in range(2)]
 
     def mechanics(self, y):
-        r, (theta, _, theta_dot, psi_dot) = self.rig, y[:4]
+        r, (theta, _, theta_dot, psi_dot, *_) = self.rig, y
         V_p, V_y = self.given(y)
-        s, c, ml2 = np.sin(theta), np.cos(theta), r.m * r.l**2
+        s, c, ml2 = sin(theta), cos(theta), self.ml2
         pitch = r.K_pp * V_p + r.K_py * V_y - r.B_p * theta_dot - r.K_s * theta - r.m * r.g * r.l * c
         pitch = (pitch - ml2 * s * c * psi_dot**2) / (r.J_p + ml2)
         yaw = r.K_yp * V_p + r.K_yy * V_y - r.B_y * psi_dot + 2 * ml2 * s * c * theta_dot * psi_dot
         return pitch, yaw / (r.J_y + ml2 * c**2)
 
     def pushing(self, y):
+        if self.mode == [FREE, FREE]:
+            return [False, False]
         e = self.wanted - y[:2]
         return [
             self.I is not None and self.mode[m] != FREE and self.I[m, i] * e[i] * self.side[m] > 0
@@ -76,11 +85,12 @@ class Reference:
         return share
 
     def rates(self, _t, y):
+        y = y.tolist()  # plain floats are several times as fast as NumPy's
         pitch, yaw = self.mechanics(y)
-        e = self.wanted - y[:2]
+        e = [self.wanted[0] - y[0], self.wanted[1] - y[1]]
         if self.I is None:
-            z = np.zeros(2)
-        elif self.scenario.anti_windup == "clamping" and self.scenario.saturation:
+            z = [0.0, 0.0]
+        elif self.scenario.anti_windup == "clamping" and self.scenario.saturation and any(self.pushing(y)):
             share, push = self.shares(y), self.pushing(y)
             z = [e[i] * share[m] if push[i] else e[i] for i, m in enumerate(self.motor_of)]
         else:
