@@ -32,7 +32,7 @@ ALIVE = {"/api/v1/live": {"seq": 7}, CONVERSATIONS[0]: {"samples": 3}, CONVERSAT
 PATIENCE = 2.0
 """Seconds in which a good client is answered while others misbehave; a millisecond or two in peace."""
 
-# The pings of the server's and the clients' threads draw on `random`, which hypothesis takes for the strategies' doing.
+# The pings of servers' and clients' threads draw on `random`, which hypothesis takes for the strategies' doing.
 pytestmark = pytest.mark.filterwarnings("ignore:Do not use the `random` module inside strategies")
 
 fuzzed = settings(

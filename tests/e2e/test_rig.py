@@ -137,20 +137,25 @@ def test_by_keyboard_alone(page: Page):
 
 
 @pytest.mark.parametrize("size", [(1280, 800), (1280, 720), (1920, 1080), (390, 844)])
-@pytest.mark.parametrize("search", ["", "?projector"])
-def test_the_parameters_fit_and_push_nothing(chromium: Browser, app: App, size: tuple[int, int], search: str):
+def test_the_parameters_fit_and_push_nothing(chromium: Browser, app: App, size: tuple[int, int]):
     page = chromium.new_page(viewport={"width": size[0], "height": size[1]})
-    opened(page, app.url + search)
+    opened(page, app.url)
     still = ("splane", *PLOTS, "k-matrix", "metrics")
-    boxes = {name: page.get_by_test_id(name).first.bounding_box() for name in still}
-    page.get_by_test_id("rig").click()
-    assert {name: page.get_by_test_id(name).first.bounding_box() for name in still} == boxes
-    body = page.get_by_test_id("rig-body")
-    box = body.bounding_box()
-    assert box and box["x"] >= 0 and box["x"] + box["width"] <= size[0]
-    assert body.evaluate("n => n.scrollWidth - n.clientWidth") == 0
-    if size[0] > 1000:
-        assert box["y"] + box["height"] <= size[1]
+    for projector in (False, True):
+        if projector:
+            page.get_by_test_id("projector").click()
+        settled(page)
+        boxes = {name: page.get_by_test_id(name).first.bounding_box() for name in still}
+        page.get_by_test_id("rig").click()
+        assert {name: page.get_by_test_id(name).first.bounding_box() for name in still} == boxes
+        body = page.get_by_test_id("rig-body")
+        box = body.bounding_box()
+        assert box and box["x"] >= 0 and box["x"] + box["width"] <= size[0]
+        assert body.evaluate("n => n.scrollWidth - n.clientWidth") == 0
+        if size[0] > 1000:
+            assert box["y"] + box["height"] <= size[1]
+        page.keyboard.press("Escape")
+        expect(body).to_be_hidden()
     page.close()
 
 
