@@ -17,6 +17,7 @@ import threading
 from pathlib import Path
 from time import perf_counter
 
+import heli2dof_core
 from heli2dof_core.engine import engine, warm_up
 
 _log = logging.getLogger(__name__)
@@ -38,7 +39,8 @@ class KernelCompiler:
         began = perf_counter()
         try:
             seed_cache()
-            self._child = subprocess.Popen([sys.executable, "-c", COMPILE])
+            command, environment = compiler()
+            self._child = subprocess.Popen(command, env=environment)
             status = self._child.wait()
             if self._closed.is_set():
                 return
@@ -55,6 +57,16 @@ class KernelCompiler:
         self._closed.set()
         if self._child is not None and self._child.poll() is None:
             self._child.terminate()
+
+
+def compiler(code: str = COMPILE) -> tuple[list[str], dict[str, str]]:
+    """Command and environment of a child that imports this process's own package, whose cache it fills.
+
+    Not the one in the working directory: `make serve` runs the installed package in its checkout.
+    """
+    home = str(Path(heli2dof_core.__file__).parents[1])
+    path = os.pathsep.join([home, *filter(None, [os.environ.get("PYTHONPATH")])])
+    return [sys.executable, "-P", "-c", code], os.environ | {"PYTHONPATH": path}
 
 
 def seed_cache() -> None:
