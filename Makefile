@@ -71,7 +71,7 @@ $(VENV)/.installed: $(SOURCES) $(PACKAGING) | $(BIN)/pip
 	@echo "Installing heli2dof into $(VENV); the first time takes two minutes."
 	@$(BIN)/pip install --quiet --disable-pip-version-check \
 	  $(if $(filter $(PACKAGING),$?),-c constraints.txt,--no-deps --force-reinstall) .
-	@$(if $(filter $(PACKAGING),$?),echo "Compiling the kernels, once"; $(BIN)/python -P -c 'from heli2dof_core.engine import warm_up; warm_up()')
+	@$(if $(filter $(PACKAGING),$?),echo "Compiling the kernels; this is done once."; $(BIN)/python -P -c 'from heli2dof_core.engine import warm_up; warm_up()')
 	@touch $@
 
 # TypeScript and axe-core, for the tests alone; what ships is fetched by hatch_build.py.
