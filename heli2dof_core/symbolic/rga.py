@@ -46,7 +46,7 @@ def relative_gain_array(structure: Structure, *, shifted: bool = False) -> Domai
 
 
 @cache
-def relative_gains_of_s(structure: Structure, *, shifted: bool = False) -> sp.Matrix:
+def relative_gains_of_s(structure: Structure, *, shifted: bool = False) -> sp.ImmutableMatrix:
     """Ĝ(s) ∘ Ĝ(s)⁻ᵀ, 2×2, as a person would write it: RGA(jω) at s = jω.
 
     Rows and columns sum to 1, so one entry tells all: λ₁₂ = −ĝ₁₂ ĝ₂₁ / det Ĝ. Feedback moves no zeros and
@@ -56,7 +56,7 @@ def relative_gains_of_s(structure: Structure, *, shifted: bool = False) -> sp.Ma
     (_, g_12), (g_21, _) = transfer_matrix(structure, shifted=shifted).to_list()
     factors = [FIELD.to_sympy(factor) for factor in (-g_12 * _CHARACTERISTIC / _DET_B, g_21)]
     other = sp.factor_terms(sp.Mul(*map(group, factors)))
-    return sp.Matrix([[1 - other, other], [other, 1 - other]])
+    return sp.ImmutableMatrix([[1 - other, other], [other, 1 - other]])
 
 
 def _at_zero(entry: FracElement) -> FracElement:
