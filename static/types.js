@@ -149,5 +149,6 @@
  * @property {string[]} locks  names in locks.js
  * @property {Recorded} recorded
  * @property {string|null} notice  what is to be said of the link that was opened
+ * @property {string|null} fault  that a part of the page could not be drawn
  */
 export {};

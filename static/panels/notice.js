@@ -1,8 +1,23 @@
 /**
- * Two quiet words at the lower edge: what could not be taken from a link, until it is dismissed or the design changes; and that what is shown is an older
- * design's while the server is away.
+ * Three quiet words at the lower edge: what could not be taken from a link, until it is dismissed or the design changes; that a part of the page fails,
+ * until it is dismissed; and that what is shown is an older design's while the server is away.
  */
 import { h, setText } from '../dom.js';
+
+/** A line that can be dismissed. */
+class Line {
+  /** @param {string} name @param {() => void} dismiss */
+  constructor(name, dismiss) {
+    this.text = h('span', { role: 'status', 'data-testid': name });
+    this.node = h('div', { class: 'notice', hidden: true }, this.text, h('button', { type: 'button', 'data-testid': `${name}-close`, onclick: dismiss }, 'Dismiss'));
+  }
+
+  /** @param {string|null} words */
+  say(words) {
+    this.node.hidden = !words;
+    setText(this.text, words ?? '');
+  }
+}
 
 export class Notice {
   /** @type {string|null} */ #told = null;
@@ -12,23 +27,23 @@ export class Notice {
   constructor(root, store) {
     this.store = store;
     this.root = root;
-    this.text = h('span', { role: 'status', 'data-testid': 'notice' });
-    this.link = h('div', { class: 'notice', hidden: true }, this.text, h('button', { type: 'button', 'data-testid': 'notice-close', onclick: () => store.set({ notice: null }) }, 'Dismiss'));
+    this.link = new Line('notice', () => store.set({ notice: null }));
+    this.fault = new Line('fault', () => store.set({ fault: null }));
     this.stale = h('div', { class: 'notice', role: 'status', hidden: true, 'data-testid': 'stale' }, 'No connection: responses and figures are those of the last answer. Your changes are kept and sent when it returns.');
     root.className = 'notices';
-    root.append(this.stale, this.link);
+    root.append(this.stale, this.fault.node, this.link.node);
   }
 
   /** @param {import('../types.js').State} state */
-  render({ notice, design, answered, connection }) {
+  render({ notice, fault, design, answered, connection }) {
     const stale = connection === 'lost' && design !== null && answered !== design;
     this.stale.hidden = !stale;
     document.documentElement.classList.toggle('stale', stale);
+    this.fault.say(fault);
     if (notice !== this.#told) {
       this.#told = notice;
       this.#design = design;
-      this.link.hidden = !notice;
-      setText(this.text, notice ?? '');
+      this.link.say(notice);
     } else if (notice && design !== this.#design) this.store.set({ notice: null });
   }
 }
