@@ -6,6 +6,7 @@
   "use strict";
 
   const CHANNEL = "heli2dof-scene";
+  const PATIENCE = 300;
   const MOVES = new Set([
     "SetOrientationMessage",
     "SetPositionMessage",
@@ -24,6 +25,8 @@
   /** @type {Worker | null} The worker that holds viser's socket. */
   let socketWorker = null;
   let state = { state: "loading", reason: "" };
+  /** How often the socket was opened or closed. */
+  let connections = 0;
   /** @type {any} Viser's own message about its colours. */
   let theme = null;
 
@@ -46,9 +49,23 @@
     if (theme && !framed) deliver([{ ...theme, dark_mode: dark }]);
   }
 
+  /**
+   * Viser's client takes messages in its animation frames, the first camera among them, which would overrule
+   * a camera that the page has sent before. So the scene is ready once its queue is empty.
+   * @param {number} connection when it is another one, nobody waits any longer
+   * @param {number} [frames] that are waited for at most, where viser tells nothing of its queue
+   */
+  function whenDrained(connection, frames = PATIENCE) {
+    if (connection !== connections) return;
+    const { messageQueue } = /** @type {any} */ (window).__viserMutable ?? {};
+    if (messageQueue?.length === 0 || frames === 0) report("ready");
+    else requestAnimationFrame(() => whenDrained(connection, frames - 1));
+  }
+
   /** @param {MessageEvent} event What the socket's worker tells the client. */
   function observe(event) {
     const { type, messages, closeReason } = event.data;
+    if (type === "connected" || type === "closed") connections += 1;
     if (type === "connected") {
       report("loading"); // The client has just emptied its scene; the replay follows.
     } else if (type === "closed") {
@@ -61,7 +78,9 @@
           m.type === "ReplayDoneMessage" ||
           (state.state === "ready" && (m.name ?? "").startsWith("/rig")),
       );
-      if (rebuilt) report("ready");
+      if (!rebuilt) return;
+      if (state.state === "ready") report("ready");
+      else whenDrained(connections);
     }
   }
 
