@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -20,6 +21,14 @@ FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-ne
 settings.register_profile("ci", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("local", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("ci" if os.environ.get("CI") else "local")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """No two tests may share an id: pytest-xdist would run the first alone, and nobody would see it."""
+    times = Counter(item.nodeid for item in items)
+    if times.total() > len(times):
+        twice = ", ".join(name for name in times if times[name] > 1)
+        raise pytest.UsageError(f"several tests have one id: {twice}")
 
 
 @pytest.fixture(scope="session", autouse=True)
