@@ -103,6 +103,7 @@ def test_mat_with_vectors_structs_and_matrices(compressed):
         (mat_of({"x": np.zeros(20_000_000)}, do_compression=True), "too large when unpacked"),
         (b"1\n" * 300_001, "too many"),
     ],
+    ids=lambda value: value if isinstance(value, str) else "file",  # MATLAB's files hold the time of writing
 )
 def test_malformed_files_name_the_place(data, words):
     with pytest.raises(RecordingError, match=words.replace("(", r"\(")):
