@@ -13,15 +13,12 @@ from pathlib import Path
 
 import httpx2
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Page
 
-from tests.scene_server import until
+from tests.browser import UNDRAWN, opened
+from tests.patience import until
 
 ROOT = Path(__file__).parents[2]
-
-PATIENCE = 90_000
-"""Milliseconds; software rendering on two cores is slow."""
-expect.set_options(timeout=20_000)  # ms; a busy machine draws a frame now and then
 
 
 @dataclass(frozen=True)
@@ -67,68 +64,15 @@ def app() -> Iterator[App]:
         yield app
 
 
-@contextmanager
-def page_of(chromium: Browser, app: App, *, scene: bool) -> Iterator[Page]:
-    """The page at 1280×800, its first answer drawn; fails on any error in its console."""
-    context = chromium.new_context(viewport={"width": 1280, "height": 800})
-    page = context.new_page()
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    page.on("console", lambda message: message.type == "error" and errors.append(message.text))
-    opened(page, app.url, scene=UNDRAWN if scene else EMPTY)
-    yield page
-    context.close()
-    assert errors == []
-
-
 @pytest.fixture
 def page(chromium: Browser, app: App) -> Iterator[Page]:
-    """The page, its scene's frame empty."""
-    with page_of(chromium, app, scene=False) as page:
+    """The page, its scene's frame empty; nothing plays by itself."""
+    with opened(chromium, app.url) as page:
         yield page
 
 
 @pytest.fixture
 def page_with_scene(chromium: Browser, app: App) -> Iterator[Page]:
-    """The page with its scene, which has everything but pixels."""
-    with page_of(chromium, app, scene=True) as page:
+    """The page with its scene, which has everything but pixels, and plays."""
+    with opened(chromium, app.url, scene=UNDRAWN, moving=True) as page:
         yield page
-
-
-EMPTY = """Object.defineProperty(HTMLIFrameElement.prototype, "src", {
-  get() { return this.wanted ?? ""; }, set(address) { this.wanted = address; }, configurable: true });"""
-"""Leaves the scene's frame empty: viser's client takes seconds to start."""
-UNDRAWN = """for (const call of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced"]) {
-  const draw = WebGL2RenderingContext.prototype[call];
-  WebGL2RenderingContext.prototype[call] = function (...all) { if (window.drawn) draw.apply(this, all); };
-}"""
-"""Leaves out the drawing alone, most of the work without a graphics card, until the frame's `drawn` is set."""
-DRAWN = ""
-SEEN = "try { localStorage.setItem('heli2dof.tour', 'done') } catch { /* a frame without storage */ }"
-
-
-def opened(page: Page, url: str, *, tour: bool = False, scene: str = EMPTY) -> None:
-    """Opens the page and waits for its first answer.
-
-    As at a first visit where `tour` is wanted; the scene is EMPTY, UNDRAWN or DRAWN.
-    """
-    page.set_default_timeout(PATIENCE)
-    page.add_init_script(scene)
-    if not tour:
-        page.add_init_script(SEEN)
-    page.goto(url)
-    settled(page)
-
-
-def settled(page: Page) -> None:
-    """Waits until what is shown answers what was asked last; the page says so in the frame after an edit."""
-    page.evaluate("() => new Promise((drawn) => requestAnimationFrame(drawn))")
-    page.wait_for_function("() => JSON.parse(document.documentElement.dataset.state ?? '{}').settled")
-
-
-def state(page: Page) -> dict:
-    """What the page says of itself, after the frame that draws the last edit."""
-    return page.evaluate(
-        "async () => { await new Promise(requestAnimationFrame);"
-        " return JSON.parse(document.documentElement.dataset.state); }"
-    )

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.e2e.conftest import App, state
+from tests.browser import state
+from tests.e2e.conftest import App
 from tests.e2e.test_permalink import clipboard
 
 

@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, CDPSession, Page, expect
 
-from tests.e2e.conftest import App, opened, settled, state
+from tests.browser import opened, settled, state
+from tests.e2e.conftest import App
 
 Point = tuple[float, float]
 
@@ -58,14 +59,8 @@ class Fingers:
 
 @pytest.fixture
 def phone(chromium: Browser, app: App) -> Iterator[tuple[Page, Fingers]]:
-    context = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
-    page = context.new_page()
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    opened(page, app.url)
-    yield page, Fingers(context.new_cdp_session(page))
-    context.close()
-    assert errors == []
+    with opened(chromium, app.url, size=(390, 844), has_touch=True) as page:
+        yield page, Fingers(page.context.new_cdp_session(page))
 
 
 def test_a_finger_drags_a_pole_and_its_meaning_is_read_beside_it(phone: tuple[Page, Fingers]):

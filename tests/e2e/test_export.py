@@ -9,7 +9,8 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from app.exports import FORMATS
-from tests.e2e.conftest import App, settled, state
+from tests.browser import settled, state
+from tests.e2e.conftest import App
 
 
 def saved(page: Page, name: str) -> tuple[str, bytes]:

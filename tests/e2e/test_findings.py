@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from playwright.sync_api import Browser, Page, expect
 
-from tests.e2e.conftest import App, opened, settled, state
+from tests.browser import EMPTY, SEEN, goto, reopened, settled, state, visited
+from tests.e2e.conftest import App
 from tests.e2e.test_rig import entered, until
 
 SLOW = "#v1&p=-1,-1.5,-2,-2.5"
 
 
 def test_slow_poles_under_pi_are_told_at_the_loops_and_lead_to_the_remedy(page: Page, app: App):
-    page.goto("about:blank")
-    opened(page, app.url + SLOW)
+    reopened(page, app.url + SLOW)
     assert "pi_unstable" in state(page)["findings"]
     expect(page.get_by_test_id("remark-loops")).to_have_text("✕ unstable")
     finding = page.locator("#strip .list [data-code=pi_unstable] button")
@@ -68,26 +68,24 @@ LATE_PRESETS = """(() => {
 
 
 def test_a_view_that_throws_stops_no_other_and_is_told_of_quietly(chromium: Browser, app: App):
-    page = chromium.new_page(viewport={"width": 1280, "height": 800})
-    errors: list[str] = []
-    page.on("console", lambda message: message.type == "error" and errors.append(message.text))
-    page.route(
-        "**/static/panels/metrics.js",
-        lambda route: route.fulfill(
-            content_type="text/javascript",
-            body=route.fetch()
-            .text()
-            .replace("  render(", "  render() { throw new Error('out of order'); }\n  never(", 1),
-        ),
-    )
-    page.add_init_script(LATE_PRESETS)
-    opened(page, app.url)
-    expect(page.get_by_test_id("fault")).to_contain_text("out of order")
-    entered(page, "pole-field-0", "-20")
-    until(page, "s.poles[0].re === -20")
-    expect(page.get_by_test_id("verdict")).to_contain_text("Stable")
-    settled(page)
-    assert len([text for text in errors if "out of order" in text]) == 1
-    page.get_by_test_id("fault-close").click()
-    expect(page.get_by_test_id("fault")).to_be_hidden()
-    page.close()
+    with visited(chromium, EMPTY, SEEN, LATE_PRESETS) as visit:
+        page = visit.page
+        page.route(
+            "**/static/panels/metrics.js",
+            lambda route: route.fulfill(
+                content_type="text/javascript",
+                body=route.fetch()
+                .text()
+                .replace("  render(", "  render() { throw new Error('out of order'); }\n  never(", 1),
+            ),
+        )
+        goto(page, app.url)
+        expect(page.get_by_test_id("fault")).to_contain_text("out of order")
+        entered(page, "pole-field-0", "-20")
+        until(page, "s.poles[0].re === -20")
+        expect(page.get_by_test_id("verdict")).to_contain_text("Stable")
+        settled(page)
+        assert len([text for text in visit.errors if "out of order" in text]) == 1
+        visit.errors.clear()
+        page.get_by_test_id("fault-close").click()
+        expect(page.get_by_test_id("fault")).to_be_hidden()

@@ -7,7 +7,9 @@ import socket
 import pytest
 from playwright.sync_api import Browser, Frame, Page, expect
 
-from tests.e2e.conftest import PATIENCE, UNDRAWN, App, opened, running_app, settled, state
+from tests.browser import EMPTY, GONE, SEEN, UNDRAWN, goto, opened, settled, state, visited
+from tests.e2e.conftest import App, running_app
+from tests.e2e.test_scene import rendered
 
 POSE = """() => {
   const data = window.__viserMutable?.nodePoseData ?? {};
@@ -38,11 +40,11 @@ def drag(page: Page, testid: str, dx: float, dy: float = 0.0, steps: int = 12) -
 
 
 def scene(page: Page) -> Frame:
-    """The scene's frame, its rig there and drawn a few times (the first pictures take seconds)."""
+    """The scene's frame, its rig there and drawn a few times."""
     frame = page.wait_for_selector("iframe[src]").content_frame()
     assert frame is not None
     frame.wait_for_function(f"() => ({POSE})() !== null")
-    frame.wait_for_function("() => window.__viserTestpoints.rendererInfo.render.frame > 12")
+    rendered(frame, 12)
     return frame
 
 
@@ -111,23 +113,21 @@ def test_poles_move_by_keyboard_as_sliders_with_a_name(page: Page):
 
 def test_two_tabs_do_not_disturb_each_other(page_with_scene: Page, app: App, chromium: Browser):
     page = page_with_scene
-    other = chromium.new_context(viewport={"width": 1280, "height": 800}).new_page()
-    opened(other, app.url, scene=UNDRAWN)
-    assert page.locator("iframe").get_attribute("src") != other.locator("iframe").get_attribute("src")
-    mine, theirs = scene(page), scene(other)
-    for tab in (page, other):
-        seek(tab, 1.0)
-    for rig in (mine, theirs):
-        rig.wait_for_function(f"() => Math.abs(({POSE})()[0] - Math.PI / 18) < 5e-3")
-    before, pose = state(page), mine.evaluate(POSE)
+    with opened(chromium, app.url, scene=UNDRAWN, moving=True) as other:
+        assert page.locator("iframe").get_attribute("src") != other.locator("iframe").get_attribute("src")
+        mine, theirs = scene(page), scene(other)
+        for tab in (page, other):
+            seek(tab, 1.0)
+        for rig in (mine, theirs):
+            rig.wait_for_function(f"() => Math.abs(({POSE})()[0] - Math.PI / 18) < 5e-3")
+        before, pose = state(page), mine.evaluate(POSE)
 
-    drag(other, "pole-1", 30)
-    seek(other, 0.05)
-    theirs.wait_for_function(f"() => Math.abs(({POSE})()[0]) < 0.1")
+        drag(other, "pole-1", 30)
+        seek(other, 0.05)
+        theirs.wait_for_function(f"() => Math.abs(({POSE})()[0]) < 0.1")
 
-    assert state(page) == before
-    assert mine.evaluate(POSE) == pytest.approx(pose, abs=1e-6)
-    other.context.close()
+        assert state(page) == before
+        assert mine.evaluate(POSE) == pytest.approx(pose, abs=1e-6)
 
 
 def test_inner_loop_alone_has_the_placed_poles_and_pi_moves_them(page: Page):
@@ -223,58 +223,57 @@ def test_who_moves_time_after_a_change_keeps_it(page: Page):
 
 
 def test_no_request_leaves_the_server(chromium: Browser, app: App):
-    page = chromium.new_page()
-    strangers: list[str] = []
-    page.on("request", lambda r: r.url.startswith((app.url, "blob:", "data:")) or strangers.append(r.url))
-    page.on("websocket", lambda s: f"127.0.0.1:{app.port}/" in s.url or strangers.append(s.url))
-    opened(page, app.url, scene=UNDRAWN)
-    scene(page)
-    page.goto(app.url + "docs")
-    page.locator("#operations-design-gains_api_v1_gains_post").wait_for()
-    assert strangers == []
-    page.close()
+    with visited(chromium, UNDRAWN, SEEN) as visit:
+        page = visit.page
+        strangers: list[str] = []
+        page.on("request", lambda r: r.url.startswith((app.url, "blob:", "data:")) or strangers.append(r.url))
+        page.on("websocket", lambda s: f"127.0.0.1:{app.port}/" in s.url or strangers.append(s.url))
+        goto(page, app.url)
+        scene(page)
+        page.goto(app.url + "docs")
+        page.locator("#operations-design-gains_api_v1_gains_post").wait_for()
+        assert strangers == []
 
 
 @pytest.mark.parametrize("size", [(1280, 800), (1920, 1080)])
 def test_the_main_loop_needs_no_scrolling(chromium: Browser, app: App, size: tuple[int, int]):
-    page = chromium.new_page(viewport={"width": size[0], "height": size[1]})
-    opened(page, app.url)
-    for testid in (
-        "splane",
-        *PLOTS,
-        "scene",
-        "k-matrix-03",
-        "rga-matrix-11",
-        "suggest-pi",
-        "kp-yaw",
-        "ti-yaw",
-    ):
-        box = page.get_by_test_id(testid).bounding_box()
-        assert box is not None, testid
-        assert box["x"] >= 0 and box["x"] + box["width"] <= size[0], testid
-        assert box["y"] >= 0 and box["y"] + box["height"] <= size[1], testid
-    assert page.evaluate("() => document.scrollingElement.scrollWidth - innerWidth") <= 0
-    page.close()
+    with opened(chromium, app.url, size=size) as page:
+        for testid in (
+            "splane",
+            *PLOTS,
+            "scene",
+            "k-matrix-03",
+            "rga-matrix-11",
+            "suggest-pi",
+            "kp-yaw",
+            "ti-yaw",
+        ):
+            box = page.get_by_test_id(testid).bounding_box()
+            assert box is not None, testid
+            assert box["x"] >= 0 and box["x"] + box["width"] <= size[0], testid
+            assert box["y"] >= 0 and box["y"] + box["height"] <= size[1], testid
+        assert page.evaluate("() => document.scrollingElement.scrollWidth - innerWidth") <= 0
 
 
 def test_lost_server_is_told_edits_continue_and_are_sent_when_it_returns(chromium: Browser):
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
-    page = chromium.new_page()
-    lost = "() => JSON.parse(document.documentElement.dataset.state).connection !== 'open'"
-    with running_app(port) as app:
-        opened(page, app.url)
-    page.wait_for_function(lost)
-    field = page.get_by_test_id("pole-field-0")
-    field.fill("-15")
-    field.press("Enter")
-    assert state(page)["settled"] is False
-    with running_app(port):
-        settled(page)
-        assert state(page)["poles"][0]["re"] == -15
-        assert state(page)["connection"] == "open"
-        page.close()
+    with visited(chromium, EMPTY, SEEN) as visit:
+        page = visit.page
+        lost = "() => JSON.parse(document.documentElement.dataset.state).connection !== 'open'"
+        with running_app(port) as app:
+            goto(page, app.url)
+        page.wait_for_function(lost)
+        field = page.get_by_test_id("pole-field-0")
+        field.fill("-15")
+        field.press("Enter")
+        assert state(page)["settled"] is False
+        with running_app(port):
+            settled(page)
+            assert state(page)["poles"][0]["re"] == -15
+            assert state(page)["connection"] == "open"
+        visit.forgive(GONE)
 
 
 def test_a_drag_updates_many_times_a_second(page: Page, record_property):
@@ -299,7 +298,7 @@ def test_uncertain_rigs_show_as_a_cloud_of_poles_and_a_band(page: Page):
     cloud = "() => [...document.querySelector('canvas.cloud').getContext('2d')"
     cloud += ".getImageData(0, 0, 500, 500).data].filter((v, i) => i % 4 === 3 && v > 0).length"
     page.get_by_test_id("spread").select_option("0.1")
-    expect(page.get_by_test_id("cloud-words")).to_contain_text("2000 rigs: 100 % stable", timeout=PATIENCE)
+    expect(page.get_by_test_id("cloud-words")).to_contain_text("2000 rigs: 100 % stable")
     assert page.evaluate(cloud) > 500
     assert page.evaluate(TRACES, "plot-theta") != before["plot-theta"]
     assert page.evaluate(TRACES, "plot-V_p") == before["plot-V_p"]

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.e2e.conftest import App, page_of, settled, state
+from tests.browser import opened, settled, state
+from tests.e2e.conftest import App
 
 
 def opened_paper(page: Page) -> None:
@@ -111,8 +112,7 @@ def test_another_method_says_that_it_has_no_such_steps(page: Page):
 
 @pytest.mark.parametrize("width", [390, 1280, 1920])
 def test_nothing_scrolls_the_page_sideways(chromium: Browser, app: App, width: int):
-    with page_of(chromium, app, scene=False) as page:
-        page.set_viewport_size({"width": width, "height": 844})
+    with opened(chromium, app.url, size=(width, 844)) as page:
         opened_paper(page)
         for anchor in ("#paper", "#eq-17", "#paper-numbers", "#paper-errata", "#paper-consequence"):
             page.locator(anchor).scroll_into_view_if_needed()

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Frame, Page, expect
 
-from tests.e2e.conftest import settled
+from tests.browser import settled
 from tests.e2e.test_page import drag, scene, seek
 
 # The page's modules at work, and the pose (pitch, yaw in degrees) of the nodes that three.js draws.
