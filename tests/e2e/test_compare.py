@@ -7,7 +7,7 @@ from urllib.parse import urlsplit
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser import opened, settled, state, until_state
+from tests.browser import later, opened, settled, state, until_state
 from tests.e2e.conftest import App
 
 POLES = [-12.0, -10.0, -9.25, -8.76]
@@ -193,10 +193,10 @@ def test_nothing_is_asked_until_it_is_seen_nor_during_a_drag(page: Page):
     assert box is not None and box["y"] > 0
     asked.clear()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x + 30, y, steps=5)
-    page.wait_for_timeout(500)
+    with later(page):
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.mouse.move(x + 30, y, steps=5)
     assert state(page)["dragging"] and asked == []
     page.mouse.up()
     seen(page, "compare")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser import opened, settled, state
+from tests.browser import later, opened, settled, state
 from tests.e2e.conftest import App
 from tests.e2e.test_axe import RUN, violations
 from tests.e2e.test_page import PLOTS
@@ -27,10 +27,13 @@ def test_the_tour_comes_once_leads_through_five_steps_and_blocks_nothing(chromiu
         page.get_by_test_id("tour-next").click()
         expect(tour).to_be_hidden()
         assert page.locator(".toured").count() == 0
-        page.reload()
-        settled(page)
-        page.wait_for_function("() => performance.now() > 2500")  # later than it would have come
+        asked: list[str] = []
+        page.on("request", lambda request: asked.append(request.url.rpartition("/")[2]))
+        with later(page):
+            page.reload()
+            settled(page)
         expect(page.get_by_test_id("tour")).to_have_count(0)
+        assert "main.js" in asked and "tour.js" not in asked
 
 
 def test_the_tour_by_keyboard_from_the_header(chromium: Browser, app: App):
@@ -128,13 +131,12 @@ def test_the_address_asks_for_the_projector_until_it_is_switched_off(chromium: B
 
 
 def test_with_reduced_motion_nothing_moves_by_itself(chromium: Browser, app: App):
-    with opened(chromium, app.url, reduced_motion="reduce") as page:
+    with opened(chromium, app.url, moving=False) as page:
         expect(page.get_by_test_id("play")).to_have_text("Play")
         expect(page.get_by_test_id("clock")).to_have_text("0.00 s")
-        entered(page, "pole-field-0", "-15")
-        until(page, "s.poles[0].re === -15")
-        drawn = page.evaluate("() => performance.now()")
-        page.wait_for_function("(then) => performance.now() > then + 1200", arg=drawn)  # later than a replay
+        with later(page):
+            entered(page, "pole-field-0", "-15")
+            until(page, "s.poles[0].re === -15")
         expect(page.get_by_test_id("clock")).to_have_text("0.00 s")
         moving = """() => [...document.querySelectorAll('*')]
           .filter((n) => getComputedStyle(n).transitionDuration.split(',').some((d) => parseFloat(d) > 0)).length"""
