@@ -35,13 +35,17 @@ class SceneServer:
         return f"ws://127.0.0.1:{self.port}{self.prefix}/scene/{session}"
 
 
-def until(condition: Callable[[], object], what: str, seconds: float = 20.0) -> None:
-    """Wait until the condition holds; fail with `what` when the time is up."""
+PATIENCE = 120.0
+"""Seconds within which anything that is waited for must have come, however busy the machine: what takes longer never comes."""
+
+
+def until(condition: Callable[[], object], what: str, seconds: float = PATIENCE) -> None:
+    """Polls what another process, thread or socket tells until it holds; fails with `what` when patience ends."""
     deadline = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > deadline:
             raise AssertionError(f"not within {seconds} s: {what}")
-        time.sleep(0.02)
+        time.sleep(0.01)
 
 
 @contextmanager
@@ -73,5 +77,5 @@ def serving(
         yield SceneServer(server.servers[0].sockets[0].getsockname()[1], sessions, prefix)
     finally:
         server.should_exit = True
-        thread.join(20.0)
+        thread.join(PATIENCE)
         assert not thread.is_alive(), "the server does not stop"
