@@ -64,8 +64,10 @@ class Server:
 
 
 @contextmanager
-def served(folder: Path, command: tuple[str, ...] = (*SERVE, "--port", "0"), **settings: object) -> Iterator[Server]:
-    """Starts the server as `heli2dof serve` does, in the checkout or by another command; ends it if the test has not."""
+def served(
+    folder: Path, command: tuple[str, ...] = (*SERVE, "--port", "0"), **settings: object
+) -> Iterator[Server]:
+    """Starts the server, by default the checkout's; ends it if the test has not."""
     log = folder / "server.log"
     with log.open("w") as errors:
         process = subprocess.Popen(
@@ -92,4 +94,3 @@ def announced(out: IO[str], log: Path) -> int:
     found = re.search(r"ready: http://127.0.0.1:(\d+)", line)
     assert found, (line, log.read_text())
     return int(found[1])
-

@@ -36,7 +36,7 @@ class SceneServer:
 
 
 PATIENCE = 120.0
-"""Seconds within which anything that is waited for must have come, however busy the machine: what takes longer never comes."""
+"""Seconds within which anything that is waited for must have come, however busy the machine."""
 
 
 def until(condition: Callable[[], object], what: str, seconds: float = PATIENCE) -> None:

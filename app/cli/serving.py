@@ -39,7 +39,8 @@ class Server(uvicorn.Server):
 
     After SIGTERM or SIGINT it is not ready any more (`/healthz`), but serves on for `drain` seconds, so that
     a proxy sees it. Then it listens no more; sockets get the answer that they wait for and a close with 1001,
-    requests are answered, and after `grace` seconds the process ends, whatever still computes. A second signal ends it at once.
+    requests are answered. After `grace` seconds the process ends, whatever still computes; at a second signal at
+    once.
     """
 
     def __init__(self, config: uvicorn.Config, visits: Visits, settings: Settings) -> None:
