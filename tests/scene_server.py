@@ -50,10 +50,14 @@ def until(condition: Callable[[], object], what: str, seconds: float = PATIENCE)
 
 @contextmanager
 def serving(
-    capacity: int = 8, idle_seconds: float = 45.0, host_page: str = "", prefix: str = ""
+    capacity: int = 8,
+    idle_seconds: float = 45.0,
+    spare_seconds: float = 5.0,
+    host_page: str = "",
+    prefix: str = "",
 ) -> Iterator[SceneServer]:
     """Run the app in a thread for as long as the context lasts."""
-    sessions = SceneSessions(capacity, idle_seconds)
+    sessions = SceneSessions(capacity, idle_seconds, spare_seconds)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:

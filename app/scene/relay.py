@@ -109,7 +109,6 @@ async def relay(
     port: int,
     admit: Admit = lambda _id, _updates: None,
     metrics: Metrics | None = None,
-    goodbye: float = 10.0,
 ) -> None:
     """Carry frames both ways until either side closes, then close the other.
 
@@ -118,7 +117,6 @@ async def relay(
         port: of the viser server on the loopback.
         admit: says what may be set at the panel.
         metrics: counts what passes and what does not.
-        goodbye: seconds that viser has for its own, once the visitor has left.
     """
     metrics = metrics or Metrics()
     protocol = viser_subprotocol(visitor.scope["subprotocols"])
@@ -130,7 +128,6 @@ async def relay(
             max_size=None,
             # A slow visitor stops our reading, the kernel's buffers fill, and viser waits.
             max_queue=_QUEUED_FRAMES,
-            close_timeout=goodbye,
             proxy=None,
         )
     except (OSError, InvalidHandshake, TimeoutError):

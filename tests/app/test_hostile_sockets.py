@@ -116,7 +116,15 @@ def good(server: WholeServer) -> float:
 
 
 def opened(server: WholeServer, path: str) -> ClientConnection:
-    return connect(server.socket(path), compression=None, max_size=None, proxy=None, open_timeout=PATIENCE)
+    # It always reads on: a queue that is full would keep it from seeing the close.
+    return connect(
+        server.socket(path),
+        compression=None,
+        max_size=None,
+        max_queue=None,
+        proxy=None,
+        open_timeout=PATIENCE,
+    )
 
 
 def raw(server: WholeServer, path: str) -> socket.socket:

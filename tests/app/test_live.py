@@ -130,7 +130,7 @@ def test_quick_requests_are_answered_without_a_thread_and_others_with_one(client
         ({"method": "tits-yang"}, 1),
         ({"poles": [1, 2, 3]}, 0),  # a problem is quick
     ]
-    until(lambda: compute.settled, "all is derived and compiled", 120)
+    until(lambda: compute.settled, "all is derived and compiled")
     for body, threads in requests:
         threaded.clear()
         with client.websocket_connect("/api/v1/live") as socket:

@@ -255,8 +255,8 @@ def test_floods_are_slowed_and_others_are_not(server: SceneServer):
         for _ in range(sent):
             flood.send(encode(CAMERA))
         calm.send(encode(CAMERA))
-        until(lambda: other, "the calm one is heard at once")
-        assert monotonic() - began < 0.9
+        until(lambda: other, "the calm one is heard")
+        assert len(heard) < sent  # long before the flood is
         until(lambda: len(heard) == sent, "all arrive in the end")
         assert heard[-1][1] - began >= 120 / RATE * 0.9
 

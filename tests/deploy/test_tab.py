@@ -91,9 +91,8 @@ def test_a_tab_whose_replica_is_killed_goes_on_elsewhere(farm: Farm, chromium: B
 
         # Viser's page and the hub come back as well; the new replica has built the same rig.
         rebuilt = re.compile(rf"/scene/{session}(/hub.*)?$")
-        deadline = perf_counter() + 40
-        while len({url for url in sockets if rebuilt.search(url)}) < 2 and perf_counter() < deadline:
-            page.wait_for_timeout(100)
+        while len({url for url in sockets if rebuilt.search(url)}) < 2:
+            page.wait_for_event("websocket", timeout=PATIENCE)
         assert len({url for url in sockets if rebuilt.search(url)}) == 2, sockets
         frame.wait_for_function(f"() => Math.abs(({LIFTED})() - {AERO}) < 1e-9")
         whole = perf_counter() - ended
