@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import doctest
 import importlib
-import subprocess
-import sys
 from dataclasses import replace
 
 import control
@@ -14,6 +12,7 @@ import pytest
 import sympy as sp
 
 import heli2dof_core as heli
+from tests.children import python
 
 WITH_EXAMPLES = (
     *("heli2dof_core", "heli2dof_core.design", "heli2dof_core.evaluate", "heli2dof_core.formulas"),
@@ -123,5 +122,5 @@ def test_the_import_is_light_and_the_rest_comes_when_asked_for():
         "import heli2dof_core.symbolic.rga; heli.symbolic.rga, heli.paper; "
         "print('sympy' in sys.modules, hasattr(heli, 'nonsense'))"
     )
-    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    shown = python("-c", code)
     assert shown.split("\n") == ["[]", "True False", ""]

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import os
-import re
-import subprocess
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
-import httpx2
 import pytest
 from playwright.sync_api import Browser, Page
 
 from tests.browser import UNDRAWN, opened
-from tests.patience import until
-
-ROOT = Path(__file__).parents[2]
+from tests.children import SERVE, served
+from tests.patience import PATIENCE, until
 
 
 @dataclass(frozen=True)
@@ -33,29 +28,17 @@ class App:
 
 
 @contextmanager
-def running_app(port: int = 0, **environment: str) -> Iterator[App]:
+def running_app(port: int = 0, **settings: object) -> Iterator[App]:
     """The app as `heli2dof serve` starts it, in a process of its own, ready to compute.
 
-    Its environment has HELI2DOF_… of these names.
+    It has these settings.
     """
-    variables = {f"HELI2DOF_{name.upper()}": value for name, value in environment.items()}
-    command = [sys.executable, "-m", "app", "serve", "--port", str(port)]
-    process = subprocess.Popen(
-        command, cwd=ROOT, env=os.environ | variables, stdout=subprocess.PIPE, text=True
-    )
-    try:
-        assert process.stdout is not None
-        announcement = process.stdout.readline()
-        found = re.search(r"ready: http://127.0.0.1:(\d+)$", announcement)
-        assert found, announcement
-        app = App(int(found[1]))
-        until(lambda: httpx2.get(app.url + "healthz").status_code == 200, "the app is ready", 60)
-        yield app
-    finally:
-        process.terminate()
-        status = process.wait(30)
-        process.stdout.close()
-    assert status == 0
+    command = (*SERVE, "--port", str(port))
+    with TemporaryDirectory() as folder, served(Path(folder), command, **settings) as server:
+        until(lambda: server.answers, "the app is ready")
+        yield App(server.port)
+        server.process.terminate()
+        assert server.process.wait(PATIENCE) == 0, server.log.read_text()
 
 
 @pytest.fixture(scope="session")
