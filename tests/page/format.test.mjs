@@ -54,3 +54,10 @@ test("statistics of the updates", () => {
   stats.reset();
   assert.equal(stats.summary().median, null);
 });
+
+test("what is no number is a dash, in every way of writing", () => {
+  for (const write of [fixed, significant]) {
+    for (const nothing of [undefined, NaN, Infinity, -Infinity]) assert.equal(write(nothing), "–");
+    assert.notEqual(write(0), "–");
+  }
+});
