@@ -77,7 +77,7 @@ def _copy(source: Path, target: Path) -> None:
 
 def _check(base: Path, chosen: list[Mutant]) -> None:
     """Unchanged, all must pass; it also compiles the kernels for all copies."""
-    for commands in {mutant.file.partition("/")[0]: _commands(mutant) for mutant in chosen}.values():
+    for commands in {mutant.file.partition("/")[0]: _commands(mutant, base) for mutant in chosen}.values():
         for command in [*commands, [*PYTEST, "-p", "tests.mutation.interpreted", *INTERPRETED]]:
             if noticed := _noticed(command, base):
                 sys.exit(f"Nothing was changed, and yet: {noticed}")
@@ -91,7 +91,7 @@ def _try(mutant: Mutant, base: Path, equal: str | None) -> str:
             home = Path(folder) / "copy"
             _copy(base, home)
             (home / mutant.file).write_text(mutant.source, encoding="utf-8")
-            for command in _commands(mutant):
+            for command in _commands(mutant, base):
                 if noticed := _noticed(command, home):
                     verdict = "killed"
                     break
@@ -102,19 +102,19 @@ def _try(mutant: Mutant, base: Path, equal: str | None) -> str:
     return verdict
 
 
-def _commands(mutant: Mutant) -> list[list[str]]:
+def _commands(mutant: Mutant, base: Path) -> list[list[str]]:
     """What could notice the change, the fastest first."""
     if mutant.file.startswith("static/"):
-        tests = sorted((ROOT / "tests/page").glob("*.test.mjs"))
+        tests = sorted((base / "tests/page").glob("*.test.mjs"))
         return [[NODE, "--test", "--test-timeout=30000", *(f"tests/page/{test.name}" for test in tests)]]
     stem = Path(mutant.file).stem
-    tests = [*(ROOT / "tests/core").glob("test_*.py"), *(ROOT / "tests/authorities").glob("test_*.py")]
+    tests = [*(base / "tests/core").glob("test_*.py"), *(base / "tests/authorities").glob("test_*.py")]
 
     def late(test: Path) -> tuple[bool, bool, str]:
         named = re.search(rf"\b{stem}\b", test.read_text(encoding="utf-8"))
         return test.name in SLOW, not named, test.as_posix()
 
-    compiled = [*PYTEST, *(test.relative_to(ROOT).as_posix() for test in sorted(tests, key=late))]
+    compiled = [*PYTEST, *(test.relative_to(base).as_posix() for test in sorted(tests, key=late))]
     first = [[*PYTEST, "-p", "tests.mutation.interpreted", *INTERPRETED]]
     return [*(first if mutant.file.startswith(KERNELS) else []), compiled, [*PYTEST, *APP]]
 
