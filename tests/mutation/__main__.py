@@ -25,7 +25,7 @@ KERNELS = ("heli2dof_core/kernels/", "heli2dof_core/layout.py")
 # What the kernels' plain twins pass in seconds: most changes of a kernel need not be compiled to be noticed.
 INTERPRETED = [
     f"tests/core/test_{name}.py"
-    for name in ("sensitivity", "linear_response", "export_c", "digital_rig", "anti_windup")
+    for name in ("polynomials", "sensitivity", "linear_response", "export_c", "digital_rig", "anti_windup")
 ]
 SLOW = ("test_nonlinear_response.py", "test_full_rank_placement.py")
 APP = [f"tests/app/test_{name}.py" for name in ("rest", "placement_api", "robustness_api", "recordings_api")]
@@ -37,7 +37,7 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=40, help="changes, two thirds of them in the core")
     parser.add_argument("--jobs", type=int, default=1, help="changes tried at once")
     parser.add_argument(
-        "--like", default="", help="only those of the sample whose description holds this text"
+        "--like", nargs="*", help="of the sample only what holds such a text in its description"
     )
     parser.add_argument("--list", action="store_true", help="print the sample and run nothing")
     options = parser.parse_args()
@@ -47,7 +47,7 @@ def main() -> None:
         print(f"equal.json: no such change any more, in {key[0]}: {key[3]}")
     of_core = round(options.count * 0.65)
     chosen = [*sample(core, of_core, options.seed), *sample(page, options.count - of_core, options.seed)]
-    chosen = [mutant for mutant in chosen if options.like in str(mutant)]
+    chosen = [m for m in chosen if not options.like or any(text in str(m) for text in options.like)]
     print(
         f"{len(chosen)} of {len(core)} changes of the core and {len(page)} of the page, seed {options.seed}"
     )
