@@ -12,7 +12,7 @@ SOURCES := $(shell find app heli2dof_core static -type f -not -path '*/vendor/*'
 # Without windows (chromium-headless-shell, as Playwright itself prefers) the tests take two thirds of the time.
 CHROMIUM ?= $(firstword $(shell command -v chromium-headless-shell chromium chromium-browser google-chrome))
 
-.PHONY: help serve test check types unit page-test e2e screenshot bench docs image clean
+.PHONY: help serve test check types unit page-test e2e mutation screenshot bench docs image clean
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
@@ -39,6 +39,9 @@ page-test: $(VENV)/.tools ## the page's pure modules
 
 e2e: $(VENV)/.tools node_modules/.installed browser ## the browser tests alone
 	CHROMIUM=$(CHROMIUM) $(BIN)/pytest $(BESIDE) tests/e2e
+
+mutation: $(VENV)/.tools node_modules/.installed ## change the core and the page in forty places, one by one: which changes does no test see?
+	$(BIN)/python -m tests.mutation --jobs 2 $(if $(SEED),--seed $(SEED))
 
 screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.screenshot docs/screenshot.png
