@@ -85,7 +85,7 @@ def _mutants(file: str, source: str, places: list[tuple[int, int, str, str, str]
 
 
 def sample(mutants: list[Mutant], count: int, seed: int) -> list[Mutant]:
-    """As many of each kind as there are; by a hash of seed and key, so that edits elsewhere move nothing."""
+    """As many of each kind as there are; by a hash of seed and key, so that edits elsewhere move little."""
     by_kind = defaultdict(list)
     for mutant in sorted(mutants, key=lambda m: sha256(f"{seed} {m.key}".encode()).digest()):
         by_kind[mutant.kind].append(mutant)
