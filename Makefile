@@ -15,7 +15,8 @@ PYTEST = CHROMIUM=$(CHROMIUM) $(BIN)/pytest $(BESIDE)
 # Without windows (chromium-headless-shell, as Playwright itself prefers) the tests take two thirds of the time.
 CHROMIUM ?= $(firstword $(shell command -v chromium-headless-shell chromium chromium-browser google-chrome))
 
-.PHONY: help serve test quick check style static-types floors types kernels unit page-test e2e steady screenshot bench docs image clean
+.PHONY: help serve test quick check style static-types floors types kernels unit page-test e2e steady mutation screenshot \
+  bench docs image clean browser
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
@@ -61,6 +62,9 @@ e2e: $(VENV)/.tools node_modules/.installed browser kernels ## the browser tests
 steady: $(VENV)/.tools node_modules/.installed browser kernels ## the browser tests beside busy processes, and with all late
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.steady
 
+mutation: $(VENV)/.tools node_modules/.installed ## change the core and the page in forty places, one by one: which changes does no test see?
+	$(BIN)/python -m tests.mutation --jobs 2 $(if $(SEED),--seed $(SEED))
+
 screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.screenshot docs/screenshot.png
 
@@ -78,7 +82,6 @@ image: ## build the container with $(IMAGE_BUILDER)
 clean: ## remove what was built
 	rm -rf $(VENV) node_modules static/vendor build dist
 
-.PHONY: browser
 browser:
 	@test -n "$(CHROMIUM)" || { echo "The browser tests need Chromium. Debian: sudo apt-get install chromium-headless-shell. \
 	Elsewhere: install Chromium or Chrome and call: make test CHROMIUM=/path/to/it" >&2; exit 1; }

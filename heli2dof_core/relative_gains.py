@@ -23,9 +23,11 @@ def relative_gain_array(G: ArrayLike) -> NDArray[Any]:
     where there are no more inputs than outputs.
 
     Raises:
-        InvalidInputError: G is square and singular.
+        InvalidInputError: G is square and singular, or no matrix.
     """
     gains = np.asarray(G)
+    if gains.ndim < 2:
+        raise InvalidInputError(f"gains of shape {gains.shape} are no matrix", field="G")
     if gains.shape[-1] != gains.shape[-2]:
         return gains * np.swapaxes(np.linalg.pinv(gains), -1, -2)
     try:
@@ -62,7 +64,7 @@ def best_pairing(G: ArrayLike) -> tuple[int, ...]:
         InvalidInputError: G is not square, singular, or has more than `MOST_LOOPS` loops.
     """
     gains = np.asarray(G, dtype=float)
-    n = len(gains)
+    n = gains.shape[0] if gains.ndim else 0
     if gains.shape != (n, n) or n > MOST_LOOPS:
         raise InvalidInputError(f"no pairing for gains of shape {gains.shape}", field="G")
     rga = relative_gain_array(gains)

@@ -18,7 +18,8 @@ export function significant(v, digits = 4) {
   if (v === undefined || !Number.isFinite(v)) return '–';
   const size = Math.abs(v);
   if (size !== 0 && (size >= 1e6 || size < 1e-4)) return typographic(v.toExponential(Math.max(0, digits - 2)).replace('e+', 'e'));
-  const whole = size >= 1 ? Math.floor(Math.log10(size)) + 1 : 1;
+  const leading = size === 0 ? 0 : Math.floor(Math.log10(size));
+  const whole = leading >= 0 ? leading + 1 : leading === -1 ? 1 : leading + 2; // so that a small figure is not rounded to a zero
   return fixed(v, Math.max(0, digits - whole));
 }
 

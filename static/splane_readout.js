@@ -23,6 +23,19 @@ export function readoutLines(poles, index, requirements) {
   ];
 }
 
+/**
+ * Where the lines stand: above the pole, in the uppermost quarter below it; to its right as far as the picture reaches.
+ * @param {import('./splane_math.js').View} view @param {import('./types.js').Complex} p @param {number} unit CSS pixels to one of the view's @param {number} width of the lines
+ * @returns {{left: number, edge: number, below: boolean}} CSS pixels; the edge is the one towards the pole
+ */
+export function readoutPlace(view, p, unit, width) {
+  const [x, y] = toPixel(view, p).map((v) => v * unit);
+  const b = bounds(view);
+  const below = p.im > (b.top + b.bottom) / 2 + (b.top - b.bottom) / 4;
+  const left = Math.max(4, Math.min(x + 24 * unit, view.width * unit - width - 4));
+  return { left, edge: y + (below ? 26 : -26) * unit, below };
+}
+
 export class Readout {
   #width = 190;
   /** @type {number|null} whose lines they are */ #told = null;
@@ -40,12 +53,8 @@ export class Readout {
     this.node.hidden = index === null || !design;
     if (index === null || !design) return;
     if (!dragging || index !== this.#told) this.write({ design, requirements }, index);
-    const p = design.poles[index];
-    const [x, y] = toPixel(view, p).map((v) => v * unit);
-    const b = bounds(view);
-    const low = p.im > (b.top + b.bottom) / 2 + (b.top - b.bottom) / 4;
-    const column = Math.max(4, Math.min(x + 24 * unit, view.width * unit - this.#width - 4));
-    this.node.style.transform = `translate(${column}px, ${y + (low ? 26 : -26) * unit}px) translateY(${low ? '0' : '-100%'})`;
+    const { left, edge, below } = readoutPlace(view, design.poles[index], unit, this.#width);
+    this.node.style.transform = `translate(${left}px, ${edge}px) translateY(${below ? '0' : '-100%'})`;
   }
 
   /** What is read, which changes oftener in a drag than it can be read. @param {Pick<import('./types.js').State, 'design'|'requirements'>} state @param {number|null} index */

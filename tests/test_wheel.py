@@ -16,6 +16,8 @@ from tests.children import ROOT, environment, python, served
 from tests.patience import PATIENCE, until
 from tests.scene_client import VISER
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="session")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:

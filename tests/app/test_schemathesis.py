@@ -34,7 +34,7 @@ from tests.patience import PATIENCE
 from tests.whole_server import serving
 
 load_all_checks()
-pytestmark = pytest.mark.filterwarnings("ignore")
+pytestmark = [pytest.mark.filterwarnings("ignore"), pytest.mark.slow]
 
 DESIGN = {
     "unpaired_poles": "a pair is two real poles or two conjugates; a split may separate conjugates",

@@ -26,6 +26,8 @@ from tests.children import Server, served
 from tests.patience import PATIENCE, until
 from tests.scene_client import VISER, session_id
 
+pytestmark = pytest.mark.slow
+
 CLOUD = {"samples": 8000, "scenario": {"model": "nonlinear"}}
 """Takes about a second."""
 LARGE = {"samples": 20_000, "scenario": {"model": "linear"}}

@@ -107,6 +107,7 @@ def test_formulas_are_sympys_and_their_numbers_the_designs():
     assert sp.latex(f.symbols["J_p"]) in sp.latex(f.mechanics.mass_matrix)
 
 
+@pytest.mark.slow
 def test_the_shift_can_stay_a_symbol():
     f = heli.formulas(shifted=True)
     spec = heli.Spec.from_preset()

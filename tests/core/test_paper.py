@@ -13,8 +13,11 @@ from heli2dof_core.paper.equations import EQUATIONS
 from heli2dof_core.paper.errata import ERRATA
 from heli2dof_core.paper.figures import figures
 from heli2dof_core.paper.glossary import TERMS
+from heli2dof_core.paper.proofs import christoffel
 from heli2dof_core.paper.reproduce import digits_that_agree, reproduce, significant_digits
 from heli2dof_core.parameters import PARAMETER_INFO
+from heli2dof_core.symbolic.names import PARAMETERS as P
+from heli2dof_core.symbolic.names import psi_dot, theta, theta_dot
 from heli2dof_core.symbolic.render import symbolic_report
 from tests.authorities.test_paper import PRINTED_K, PRINTED_OPEN_LOOP_POLES, PRINTED_POLES
 
@@ -145,3 +148,14 @@ def test_figures_are_the_steps_that_python_control_gives():
     np.testing.assert_allclose(own["corrected"], expected, atol=2e-3)
     assert figure.output == "theta" and figures()[1].output == "psi"
     assert np.max(own["limited"]) == pytest.approx(np.radians(40.5), abs=1e-9)
+
+
+def test_the_proof_of_christoffels_symbols_shows_the_symmetric_part_of_both_readings():
+    """N + Nᵀ, N = Ḋ − 2C, with D of Eq. 10 differentiated by hand and C of Eq. 11 as printed."""
+    mass, arm, th, thd, psd = 1.4, 0.19, 0.3, 0.7, -1.1
+    h = mass * arm**2 * np.sin(th) * np.cos(th)
+    N = np.diag([0, -2 * h * thd]) - 2 * np.array([[0, h * psd], [-2 * h * psd, 0]])
+    values = {P["m"]: mass, P["l"]: arm, theta: th, theta_dot: thd, psi_dot: psd}
+    proof = christoffel()
+    np.testing.assert_allclose(np.array(proof.printed.subs(values).tolist(), dtype=float), N + N.T)
+    assert proof.correct.is_zero_matrix

@@ -12,6 +12,8 @@ from heli2dof_core import PRESETS
 from tests.children import ROOT, python, served
 from tests.patience import until
 
+pytestmark = pytest.mark.slow
+
 FILE = ROOT / "examples" / "client.py"
 
 

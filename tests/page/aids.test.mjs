@@ -56,3 +56,9 @@ test('the address asks for the projector before the memory does', () => {
   assert.equal(withoutProjector('?projector=1'), '');
   assert.equal(withoutProjector('?lang=de'), '?lang=de');
 });
+
+test('a share at the limit shows a decimal below one percent alone, so that it never reads as none', () => {
+  const said = (share) => remarksOf({ reply: { findings: [{ code: 'saturation_V_p', severity: 'warning', message: '' }], step: { nonlinear: { metrics: { V_p: { saturated: share } } } } }, problem: null }).V_p.text;
+  assert.deepEqual([0.004, 0.0099, 0.01, 0.011, 1].map(said), ['0.4 %', '1.0 %', '1 %', '1 %', '100 %'].map((share) => `▲ at limit ${share}`));
+  assert.equal(said(0), '▲ at limit'); // no share of the samples is known
+});

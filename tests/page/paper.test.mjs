@@ -48,6 +48,7 @@ test("figures: a true minus, no trailing zeros, integers as integers", () => {
 test("what rounding left of zeros is taken away, small entries stay", () => {
   assert.deepEqual(clean([[0, 1, -2e-18], [-120, 1e-9, 3e-15]]), [[0, 1, 0], [-120, 1e-9, 0]]);
   assert.equal(clean(undefined), undefined);
+  assert.deepEqual(clean([[-0, 0], [0, -0]]), [[0, 0], [0, 0]]); // a zero has no sign to be read
 });
 
 test("a conjugate pair is written once", () => {
