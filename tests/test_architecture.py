@@ -63,7 +63,7 @@ def test_the_cores_tests_know_no_app():
 
 def test_no_test_waits_for_time():
     """Only `until` polls, and what an event loop does in a turn of its own takes no time."""
-    for folder in ("app", "core", "deploy", "examples"):
+    for folder in ("app", "core", "deploy", "e2e", "examples"):
         for path in sorted((ROOT / "tests" / folder).glob("*.py")):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 called = node.func if isinstance(node, ast.Call) else None
