@@ -2,12 +2,13 @@
 # python-control: installing slycot changes answers, not only speed and what is available.
 #
 # One expects: slycot is an optional accelerator; ss(tf) and lqr give the same with and without it.
-# What happens: (1) ss((s − 1)/((s − 1)(s + 1))) has the poles ±1 without slycot and −1 alone with it: the realization is made
-#   minimal and the cancelled unstable pole is gone, without a word. (2) lqr of the double integrator with Q = diag(0, 1), for
-#   which no stabilizing gain exists, raises with slycot; without, it returns K = [0, 1], which leaves a pole at 0.
+# What happens: (1) ss((s − 1)/((s − 1)(s + 1))) has the poles ±1 without slycot and −1 alone with it: the realization
+#   is made minimal and the cancelled unstable pole is gone, without a word. (2) lqr of the double integrator with Q =
+#   diag(0, 1), for which no stabilizing gain exists, raises with slycot; without, it returns K = [0, 1], which leaves
+#   a pole at 0.
 # Seen with: control 0.10.2, slycot 0.7.1, scipy 1.17.1, numpy 2.4.6.
-# Why it matters: the same homework is stable on one machine and unstable on the other. Build unstable loops as state space
-#   and look at the poles after lqr.
+# Why it matters: the same homework is stable on one machine and unstable on the other. Build unstable loops as state
+#   space and look at the poles after lqr.
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

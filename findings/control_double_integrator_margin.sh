@@ -3,11 +3,11 @@
 #
 # One expects: (s + 0.1)/s² crosses −180° nowhere (its phase rises from −180° to −90°), so that its gain margin is
 #   infinite, as transfer function and as state space.
-# What happens: as a transfer function it is inf. As a state-space model it is 1e-14 or so at ω = 0 or next to it, in most of
-#   twenty bases of small whole numbers: the double pole at 0 is rounded apart, and then the phase does cross.
+# What happens: as a transfer function it is inf. As a state-space model it is 1e-14 or so at ω = 0 or next to it, in
+#   most of twenty bases of small whole numbers: the double pole at 0 is rounded apart, and then the phase does cross.
 # Seen with: control 0.10.2, scipy 1.17.1, numpy 2.4.6.
-# Why it matters: position-controlled rigs have two integrators (inertia and PI control) and are state-space models. A margin
-#   of 1e-16 reads as "unstable as soon as the gain drops", or as a bug of whoever reports infinity.
+# Why it matters: position-controlled rigs have two integrators (inertia and PI control) and are state-space models. A
+#   margin of 1e-16 reads as "unstable as soon as the gain drops", or as a bug of whoever reports infinity.
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -1,13 +1,13 @@
 #!/bin/sh
 # python-control: step_info of a multivariable loop fails, or is absurd, because of the entries that ought to be 0.
 #
-# One expects: step_info(system) of a 2×2 loop with integral action gives each diagonal entry's overshoot and
-#   times; where one output returns to 0 after a step of the other, something that says "no step here".
-# What happens: all figures are shares of that entry's final value, which is 0 but for rounding. Depending on the sign of
-#   some 1e-17, the overshoot is 1e15 % and more, or an IndexError that loses all four entries.
+# One expects: step_info(system) of a 2×2 loop with integral action gives each diagonal entry's overshoot and times;
+#   where one output returns to 0 after a step of the other, something that says "no step here".
+# What happens: all figures are shares of that entry's final value, which is 0 but for rounding. Depending on the sign
+#   of some 1e-17, the overshoot is 1e15 % and more, or an IndexError that loses all four entries.
 # Seen with: control 0.10.2, scipy 1.17.1, numpy 2.4.6.
-# Why it matters: two axes, each with a PI controller, are a rig's usual loop. Ask for one entry at a time and measure an
-#   off-diagonal one by its peak.
+# Why it matters: two axes, each with a PI controller, are a rig's usual loop. Ask for one entry at a time and measure
+#   an off-diagonal one by its peak.
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -1,10 +1,14 @@
 #!/bin/sh
-# SciPy and pymatreader on Simulink's "structure with time": the shape of what is read depends on reader and number of signals.
+# SciPy and pymatreader on Simulink's "structure with time": the shape of what is read depends on reader and number of
+#   signals.
 #
-# One expects: run.signals is a list of structures, one per signal, in both (pymatreader reads by scipy.io), also where there is one.
-# What happens: SciPy (simplify_cells) gives a dict for one signal and a list of dicts for several; pymatreader gives a dict for one
-#   and, for several, a dict of lists. Code that was tried with a log of one signal fails with two, and the other way round.
-# Seen with: scipy 1.17.1, pymatreader 1.3.2, numpy 2.4.6, h5py 3.16.0.
+# One expects: run.signals is a list of structures, one per signal, in both (pymatreader reads by scipy.io), also
+#   where there is one.
+# What happens: SciPy (simplify_cells) gives a dict for one signal and a list of dicts for several; pymatreader gives
+#   a dict for one and, for several, a dict of lists. Code that was tried with a log of one signal fails with two, and
+#   the other way round.
+# Seen with: scipy 1.17.1, pymatreader 1.3.2, numpy 2.4.6, h5py 3.16.0; savemat writes the fields that Simulink
+#   writes, and a file of GNU Octave reads the same.
 # Why it matters: rigs log through Simulink's To Workspace blocks or scopes, one signal or several per block.
 set -eu
 folder=$(mktemp -d)

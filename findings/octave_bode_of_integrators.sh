@@ -1,12 +1,15 @@
 #!/bin/sh
-# GNU Octave's control package: bode() of a transfer function with two integrators is 360° too low; of the same loop as ss it is right.
+# GNU Octave's control package: bode() of a transfer function with two integrators is 360° too low; of the same loop
+#   as ss it is right.
 #
 # One expects: the phase of (s + 1)/s² at 1 rad/s is −180° + 45° = −135°, however the loop is written.
-# What happens: as tf it is −495°. The phase of a tf is lowered by 360° where it has two or more poles that are exactly 0, though it
-#   is negative already; (s + 1)²/s³ comes out right by it. A pole at 1e-9 instead of 0, or ss(L), gives −135°.
-# Seen with: GNU Octave 7.3.0, control 3.4.0 (Debian: octave-control). Not installed here; without them this ends with 77.
-# Why it matters: an inertia under PI control has two integrators. Margins read off the plot against −180° are off by a turn,
-#   and the curve moves when a parameter is no longer exactly 0.
+# What happens: as tf it is −495°. The phase of a tf is lowered by 360° where it has two or more poles that are
+#   exactly 0, though it is negative already; (s + 1)²/s³ comes out right by it. A pole at 1e-9 instead of 0, or
+#   ss(L), gives −135°.
+# Seen with: GNU Octave 7.3.0, control 3.4.0 (Debian: octave-control). Not installed here; without them this ends with
+#   77.
+# Why it matters: an inertia under PI control has two integrators. Margins read off the plot against −180° are off by
+#   a turn, and the curve moves when a parameter is no longer exactly 0.
 set -eu
 if ! octave-cli --no-gui --eval "pkg load control" > /dev/null 2>&1; then
     echo "skipped: needs octave-cli and its control package"

@@ -1,13 +1,16 @@
 #!/bin/sh
-# GNU Octave's control package: margin() reports the phase margin of the wrong crossing where a lead is what the loop cannot bear.
+# GNU Octave's control package: margin() reports the phase margin of the wrong crossing where a lead is what the loop
+#   cannot bear.
 #
-# One expects: of two crossings of |L| = 1, with 30.3° of lead and with 135.8° of lag to instability, the nearer one: −30.3°,
-#   as python-control says.
+# One expects: of two crossings of |L| = 1, with 30.3° of lead and with 135.8° of lag to instability, the nearer one:
+#   −30.3°, as python-control says.
 # What happens: margins are taken into 0 … 360° before the smallest is chosen. −30.3° becomes 329.7°, and 135.8° is
-#   reported. The crossing at ω = 0 (gain margin 2.13, since L(0) = −0.47) is dropped: Inf. Unstable loops get 345.3° for −14.7°.
-# Seen with: GNU Octave 7.3.0, control 3.4.0 (Debian: octave-control). Not installed here; without them this ends with 77.
-# Why it matters: a lightly damped axis whose spring the controller partly cancels is such a loop; the rig has a quarter
-#   of the margin printed.
+#   reported. The crossing at ω = 0 (gain margin 2.13, since L(0) = −0.47) is dropped: Inf. Unstable loops get 345.3°
+#   for −14.7°.
+# Seen with: GNU Octave 7.3.0, control 3.4.0 (Debian: octave-control). Not installed here; without them this ends with
+#   77.
+# Why it matters: a lightly damped axis whose spring the controller partly cancels is such a loop; the rig has a
+#   quarter of the margin printed.
 set -eu
 if ! octave-cli --no-gui --eval "pkg load control" > /dev/null 2>&1; then
     echo "skipped: needs octave-cli and its control package"

@@ -1,12 +1,13 @@
 #!/bin/sh
 # Pinocchio: a URDF's joint damping is read, kept in the model, and not used by the forward dynamics.
 #
-# One expects: aba(model, data, q, v, tau) includes the damping that <dynamics damping="…"/> gives and model.damping holds.
-# What happens: model.damping is 3, and a joint of inertia 2 that turns at 1 rad/s without torque has the acceleration 0, not −1.5.
-#   The damping has to be put into tau by hand: aba(…, tau − model.damping * v) (friction likewise).
+# One expects: aba(model, data, q, v, tau) includes the damping that <dynamics damping="…"/> gives and model.damping
+#   holds.
+# What happens: model.damping is 3, and a joint of inertia 2 that turns at 1 rad/s without torque has the acceleration
+#   0, not −1.5. The damping has to be put into tau by hand: aba(…, tau − model.damping * v) (friction likewise).
 # Seen with: pin 4.1.0, numpy 2.4.6.
-# Why it matters: a helicopter rig's damping is what gives its poles −B/J; simulated with Pinocchio from its URDF it has
-#   double integrators instead, and a controller tuned there is tuned for another machine.
+# Why it matters: a helicopter rig's damping is what gives its poles −B/J; simulated with Pinocchio from its URDF it
+#   has double integrators instead, and a controller tuned there is tuned for another machine.
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -1,9 +1,11 @@
 #!/bin/sh
-# Schemathesis, pytest 9.2 and pytest-xdist: with --dist loadfile only one operation of an API is tested, and all is green.
+# Schemathesis, pytest 9.2 and pytest-xdist: with --dist loadfile only one operation of an API is tested, and all is
+#   green.
 #
-# One expects: @schema.parametrize() makes a test per operation, "test_api[GET /a]", "test_api[GET /b]" …, and all of them run.
-# What happens: from pytest 9.2 on they share the id "test_api". One process runs them all, but xdist's loadfile (and loadscope)
-#   keeps its work by id: the first is run alone, "1 passed", exit status 0. With pytest 9.1.1 all are run.
+# One expects: @schema.parametrize() makes a test per operation, "test_api[GET /a]", "test_api[GET /b]" …, and all of
+#   them run.
+# What happens: from pytest 9.2 on they share the id "test_api". One process runs them all, but xdist's loadfile (and
+#   loadscope) keeps its work by id: the first is run alone, "1 passed", exit status 0. With pytest 9.1.1 all are run.
 # Seen with: schemathesis 4.32.5, pytest 9.1.1 and 9.2.0, pytest-xdist 3.8.0.
 # Why it matters: an update of pytest took most of an API's tests away and made the suite faster. Check in
 #   pytest_collection_modifyitems that no id is there twice.

@@ -2,11 +2,11 @@
 # slycot (SB01BD, control.place_varga): the order of the wanted poles decides which poles are placed.
 #
 # One expects: a set of poles that is closed under conjugation is a set; order does not matter, as for control.place.
-# What happens: conjugates must stand side by side. For −1+j, −2+j, −1−j, −2−j on a chain of four integrators the result has
-#   −1 ± j twice and −2 ± j not at all, without a warning or an error.
+# What happens: conjugates must stand side by side. For −1+j, −2+j, −1−j, −2−j on a chain of four integrators the
+#   result has −1 ± j twice and −2 ± j not at all, without a warning or an error.
 # Seen with: slycot 0.7.1, control 0.10.2, scipy 1.17.1, numpy 2.4.6.
-# Why it matters: poles come sorted by imaginary part, or two per axis, from s-planes, eigenvalues and tables. The loop is
-#   stable, so that only a look at the eigenvalues tells.
+# Why it matters: poles come sorted by imaginary part, or two per axis, from s-planes, eigenvalues and tables. The
+#   loop is stable, so that only a look at the eigenvalues tells.
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
