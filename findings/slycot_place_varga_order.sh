@@ -21,11 +21,12 @@ import numpy as np
 warnings.simplefilter("error")
 A, B = np.diag(np.ones(3), 1), np.eye(4)[:, 3:]
 wanted = [-1 + 1j, -2 + 1j, -1 - 1j, -2 - 1j]
-for place, order in ((ct.place, wanted), (ct.place_varga, wanted), (ct.place_varga, sorted(wanted, key=lambda p: p.real))):
+paired = sorted(wanted, key=lambda p: p.real)
+for place, order in ((ct.place, wanted), (ct.place_varga, wanted), (ct.place_varga, paired)):
     K = place(A, B, order)
     print(place.__name__, order, "->", np.round(np.poly(A - B @ K), 6))
 asked, twice = np.poly(wanted).real, np.poly([-1 + 1j, -1 - 1j] * 2).real
 assert np.allclose(np.poly(A - B @ ct.place(A, B, wanted)), asked)
-assert np.allclose(np.poly(A - B @ ct.place_varga(A, B, sorted(wanted, key=lambda p: p.real))), asked)
+assert np.allclose(np.poly(A - B @ ct.place_varga(A, B, paired)), asked)
 assert np.allclose(np.poly(A - B @ ct.place_varga(A, B, wanted)), twice)
 EOF
