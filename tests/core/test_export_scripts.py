@@ -72,6 +72,19 @@ def test_the_python_script_runs_and_says_the_same(case):
     assert {type(names["plant"]).__name__, type(names["loop"]).__name__} == {"StateSpace"}
 
 
+def test_the_call_for_figures_of_merit_that_the_script_names_gives_them():
+    text = FORMATS["python"].render(BASE)
+    names: dict = {"__name__": "exported"}
+    exec(compile(text, "heli2dof_design.py", "exec"), names)
+    (call,) = (line[2:] for line in text.splitlines() if line.startswith("# ct."))
+    info = eval(call, names)
+    alone = replace(BASE, scenario=replace(BASE.scenario, theta=0.1, psi=None))
+    own = evaluate(alone).step["linear"].metrics.axes["theta"]
+    sample = names["t"][1]
+    assert info["SettlingTime"] == pytest.approx(own.settling_time, abs=2 * sample)
+    assert info["Overshoot"] == pytest.approx(own.overshoot, abs=0.01)
+
+
 def test_the_python_script_is_a_program(tmp_path: Path):
     script = tmp_path / FORMATS["python"].filename
     script.write_bytes(FORMATS["python"].content(BASE, "http://127.0.0.1:8000/#x"))
