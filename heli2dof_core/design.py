@@ -11,15 +11,14 @@ import numpy as np
 
 from .compiled import gain
 from .couplings import Structure, require_structure
-from .eigenvalues import eigenvalues
 from .findings import Finding
 from .interop import state_space
-from .placement.assess import eigenvector_condition
 from .placement.lqr_integral import IntegralPlacement
 from .placement.method import Task, Weights
 from .placement.registry import method as method_named
+from .placement.verdict import Verdict, eigenvector_condition, judge
 from .plant import Plant
-from .poles import PoleSet, match_poles
+from .poles import PoleSet
 from .remarks import design_remarks
 from .signals import INPUTS, OUTPUTS, STATES, C, Complexes, Floats
 from .tables import Shown, Table, latex_matrix, number, poles
@@ -58,19 +57,24 @@ class Design(Shown):
         return self.plant.A - self.plant.B @ self.K
 
     @cached_property
-    def closed_loop_poles(self) -> Complexes:
-        """Eigenvalues of A − BK as computed, in the order of `poles`, rad/s."""
-        found = eigenvalues(self.A_closed)
-        return np.array([found[i] for i in match_poles(self.poles.values, found)])
+    def verdict(self) -> Verdict:
+        """Where the poles of A − BK are, exactly where floats do not tell it."""
+        return judge(self.plant.A, self.plant.B, self.K, self.poles.array)
 
-    @cached_property
+    @property
+    def closed_loop_poles(self) -> Complexes:
+        """Eigenvalues of A − BK, in the order of `poles`, rad/s."""
+        return self.verdict.poles
+
+    @property
     def pole_error(self) -> float | None:
         """Largest distance between these and `poles`, rad/s; None where the method chose its own."""
-        if not self.aims:
-            return None
-        return max(
-            abs(p - q) for p, q in zip(self.closed_loop_poles.tolist(), self.poles.values, strict=True)
-        )
+        return self.verdict.error if self.aims else None
+
+    @property
+    def pole_error_bound(self) -> float:
+        """How far rounding may have moved `closed_loop_poles` as told, and so `pole_error`, rad/s."""
+        return self.verdict.bound
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
@@ -90,7 +94,7 @@ class Design(Shown):
 
     @cached_property
     def eigenvector_condition(self) -> float | None:
-        """κ₂ of the closed loop's eigenvectors; None where there are too few (see `placement.assess`)."""
+        """κ₂ of the closed loop's eigenvectors; None where there are too few (see `placement.verdict`)."""
         return eigenvector_condition(self.A_closed)
 
     @cached_property

@@ -28,7 +28,7 @@ def design_remarks(
     Where the method chose its own poles (error None), the remarks are on those.
     """
     if error is None:
-        return (_OWN_POLES, *_on_stability(found.tolist()), *_on_plant(plant))
+        return (_OWN_POLES, *_on_stability(found.tolist(), placed=False), *_on_plant(plant))
     wanted = poles.values
     return (
         *_on_stability(wanted),
@@ -41,17 +41,17 @@ def design_remarks(
 _OWN_POLES = Finding(
     "own_poles",
     "info",
-    "This method chooses its own poles, from weights: those that you placed are not used.",
+    "LQR computes its poles from the weights Q and R. The poles that you placed are not used.",
 )
 
 
-def _on_stability(poles: Sequence[complex]) -> Iterator[Finding]:
+def _on_stability(poles: Sequence[complex], *, placed: bool = True) -> Iterator[Finding]:
     if any(p.real > 0 for p in poles):
         yield Finding(
             "right_half_plane",
             "error",
             "A pole lies in the right half plane: without an outer loop the helicopter runs away. "
-            "Drag it left of the imaginary axis.",
+            + ("Place it left of the imaginary axis." if placed else "Change the weights."),
         )
     elif any(p.real == 0 for p in poles):
         yield Finding(
@@ -112,8 +112,8 @@ def _on_accuracy(poles: Sequence[complex], error: float) -> Iterator[Finding]:
         yield Finding(
             "pole_error",
             "warning",
-            f"The computed poles miss the wanted ones by up to {error:.2g} rad/s: poles that coincide, "
-            "or lie far out, are sensitive to rounding.",
+            f"K places the poles with an error of up to {error:.2g} rad/s: poles that coincide, or lie far out, "
+            "are sensitive to rounding K.",
         )
 
 

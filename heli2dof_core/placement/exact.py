@@ -1,0 +1,105 @@
+"""Matrices of floats over the rational numbers, where nothing is rounded: a float is a fraction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..signals import Complexes, Floats
+
+if TYPE_CHECKING:  # SymPy is imported on the first use
+    from sympy.polys.matrices import DomainMatrix
+
+PRECISION = 120
+"""Bits with which roots are looked for at first; doubled where they lie too close for that."""
+MOST_PRECISION = 1920
+
+
+def exact_matrix(matrix: Floats) -> DomainMatrix:
+    """The same numbers as fractions."""
+    from sympy import QQ
+    from sympy.polys.matrices import DomainMatrix
+
+    entries = [[QQ(*float(x).as_integer_ratio()) for x in row] for row in matrix]
+    return DomainMatrix(entries, matrix.shape, QQ)
+
+
+def float_matrix(matrix: DomainMatrix) -> Floats:
+    """The nearest floats."""
+    rows: Iterable[Iterable[Any]] = matrix.to_list()
+    return np.array([[float(Fraction(int(x.numerator), int(x.denominator))) for x in row] for row in rows])
+
+
+def exact_closed_loop(A: Floats, B: Floats, K: Floats) -> DomainMatrix:
+    """A − BK without rounding, n×n."""
+    return exact_matrix(A) - exact_matrix(B).matmul(exact_matrix(K))
+
+
+def exact_eigenvalues(matrix: DomainMatrix, near: Complexes) -> list[Any]:
+    """All eigenvalues as mpmath's numbers of `PRECISION` bits, each as often as it occurs.
+
+    They are the roots of the characteristic polynomial, which is exact and split by multiplicity first
+    (square-free factors), so that every root looked for is a simple one.
+
+    Args:
+        matrix: n×n, over the rational numbers.
+        near: n guesses; their quality decides the time alone.
+
+    Raises:
+        ArithmeticError: roots lie too close for `MOST_PRECISION` bits.
+    """
+    from sympy import QQ
+    from sympy.polys.sqfreetools import dup_sqf_list
+
+    found: list[Any] = []
+    for factor, multiplicity in dup_sqf_list(matrix.charpoly(), QQ)[1]:
+        found += [root for root in _simple_roots(factor, near) for _ in range(multiplicity)]
+    return found
+
+
+def _simple_roots(coefficients: Sequence[Any], near: Complexes) -> list[Any]:
+    from mpmath import mp, mpc, mpf
+    from mpmath.libmp import NoConvergence
+
+    degree, precision = len(coefficients) - 1, PRECISION
+    size = float(np.max(np.abs(near), initial=0.0)) or 1.0
+    apart = 1e-9 * size * np.exp(1j * (1.0 + np.arange(degree)))  # equal guesses would stay equal
+    start = near[:degree] + apart if len(near) == degree else None
+    while precision <= MOST_PRECISION:
+        with mp.workprec(precision):
+            polynomial = [mpf(int(c.numerator)) / int(c.denominator) for c in coefficients]
+            guesses = None if start is None else [mpc(complex(p)) for p in start]
+            try:
+                return list(mp.polyroots(polynomial, maxsteps=100, extraprec=precision, roots_init=guesses))
+            except NoConvergence:
+                precision *= 2
+                start = None
+    raise ArithmeticError("the poles lie too close together to be told apart")
+
+
+def exact_eigenvectors(matrix: DomainMatrix, values: Sequence[Any]) -> Complexes | None:
+    """Eigenvectors of length 1 as columns, for eigenvalues as `exact_eigenvalues` finds them.
+
+    By one step of inverse iteration in `PRECISION` bits. None where an eigenvalue occurs more than once: of such
+    ones a matrix may have too few.
+    """
+    from mpmath import mp
+
+    n = len(values)
+    if len({complex(v) for v in values}) < n and len(set(values)) < n:
+        return None
+    columns = []
+    with mp.workprec(PRECISION):
+        rows = [[mp.mpf(int(x.numerator)) / int(x.denominator) for x in row] for row in matrix.to_list()]
+        size = max((abs(x) for row in rows for x in row), default=mp.mpf(1)) or mp.mpf(1)
+        start = mp.matrix([mp.mpf(1) + mp.mpf(i) / (3 * n) for i in range(n)])
+        for value in values:
+            shifted = mp.matrix(rows)
+            for i in range(n):
+                shifted[i, i] -= value + size * mp.mpf(2) ** (-PRECISION // 2)
+            vector = mp.lu_solve(shifted, start)
+            columns.append([complex(x / mp.norm(vector)) for x in vector])
+    return np.array(columns).T
