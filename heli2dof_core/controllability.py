@@ -70,8 +70,9 @@ def scan(A: Floats, B: Floats) -> Scan:
             indices[i] += 1
             weakest = min(weakest, smallest)
     if kept.shape[1] < n:
+        who = "the inputs reach" if p > 1 else "the input reaches"
         raise UncontrollableError(
-            f"the inputs reach only {kept.shape[1]} of the {n} states",
+            f"{who} only {kept.shape[1]} of the {n} states",
             field="B",
             hint="Add an input, or take the states that no input reaches out of the model.",
         )

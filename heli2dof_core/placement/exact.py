@@ -16,6 +16,7 @@ if TYPE_CHECKING:  # SymPy is imported on the first use
 PRECISION = 120
 """Bits with which roots are looked for at first; doubled where they lie too close for that."""
 MOST_PRECISION = 1920
+NOWHERE: Complexes = np.zeros(0, dtype=np.complex128)
 
 
 def exact_matrix(matrix: Floats) -> DomainMatrix:
@@ -51,11 +52,16 @@ def exact_eigenvalues(matrix: DomainMatrix, near: Complexes) -> list[Any]:
     Raises:
         ArithmeticError: roots lie too close for `MOST_PRECISION` bits.
     """
+    return roots(matrix.charpoly(), near)
+
+
+def roots(polynomial: Sequence[Any], near: Complexes = NOWHERE) -> list[Any]:
+    """The roots of a polynomial with rational coefficients, highest first; else as `exact_eigenvalues`."""
     from sympy import QQ
     from sympy.polys.sqfreetools import dup_sqf_list
 
     found: list[Any] = []
-    for factor, multiplicity in dup_sqf_list(matrix.charpoly(), QQ)[1]:
+    for factor, multiplicity in dup_sqf_list(list(polynomial), QQ)[1]:
         found += [root for root in _simple_roots(factor, near) for _ in range(multiplicity)]
     return found
 

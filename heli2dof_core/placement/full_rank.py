@@ -105,6 +105,12 @@ def full_rank(
     order = _require_order(input_order, p)
     scanned = scan(A, B[:, order])
     indices = scanned.indices
+    if 0 in indices:
+        raise InvalidInputError(
+            f"input {order[indices.index(0)] + 1} moves the states hardly otherwise than the inputs before it",
+            field="B",
+            hint="Leave that column of B out.",
+        )
     chosen = assign(wanted, indices) if groups is None else _reordered(groups, order)
     chosen = require_groups(chosen, wanted, indices)
     matrix, inputs = exact_matrix(A), exact_matrix(B[:, order])
