@@ -11,15 +11,17 @@ import numpy as np
 
 from .compiled import gain
 from .couplings import Structure, require_structure
+from .errors import StructureUnavailableError
 from .findings import Finding
 from .interop import state_space
+from .placement.exact import exact_coefficients, exact_matrix, float_matrix
 from .placement.lqr_integral import IntegralPlacement
 from .placement.method import Task, Weights
 from .placement.registry import method as method_named
 from .placement.verdict import Verdict, eigenvector_condition, judge
 from .plant import Plant
 from .poles import PoleSet
-from .remarks import design_remarks
+from .remarks import NEARLY_PARALLEL, design_remarks
 from .signals import INPUTS, OUTPUTS, STATES, C, Complexes, Floats
 from .tables import Shown, Table, latex_matrix, number, poles
 
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
     import control
 
 FULL_RANK = "full-rank"
+SMALLEST = 1e-100
+"""|γ|, (N·m/V)², below which powers of it are no longer floats with all their digits."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -168,9 +172,43 @@ def design(
 
 
 def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats:
-    """K by the closed form that the derivation gives, 2×4."""
+    """K by the closed form that the derivation gives, 2×4.
+
+    It divides by γ, shifted by γ², so that as many digits are lost as γ's terms cancel, or twice as many. Where the
+    motors push nearly alike the same construction runs over the rational numbers, which loses none, and so it does
+    where a product leaves the floats' range.
+
+    Raises:
+        StructureUnavailableError: the rig has no such structure, or K is beyond the floats' range.
+    """
     require_structure(plant.parameters, structure)
+    if plant.parameters.independence < NEARLY_PARALLEL or abs(plant.parameters.gamma) < SMALLEST:
+        return _exact_gain(plant, poles, structure)
     arguments = (*poles.coefficients, *plant.parameters.as_dict().values(), plant.theta_0)
-    if structure.shift is None:
-        return np.array(gain(structure)(*arguments))
-    return np.array(gain(structure.family, shifted=True)(*arguments, structure.shift))
+    try:
+        if structure.shift is None:
+            K = np.array(gain(structure)(*arguments))
+        else:
+            K = np.array(gain(structure.family, shifted=True)(*arguments, structure.shift))
+    except ArithmeticError:
+        return _exact_gain(plant, poles, structure)
+    return K if np.all(np.isfinite(K)) else _exact_gain(plant, poles, structure)
+
+
+def _exact_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats:
+    from sympy import QQ
+
+    from .symbolic.full_rank import member
+
+    shift = None if structure.shift is None else QQ(*float(structure.shift).as_integer_ratio())
+    polynomials = [exact_coefficients(pair) for pair in (poles.values[:2], poles.values[2:])]
+    try:
+        return float_matrix(
+            member(exact_matrix(plant.A), exact_matrix(plant.B), structure, polynomials, shift).K
+        )
+    except ArithmeticError as error:
+        raise StructureUnavailableError(
+            "the gain of this structure is too large a number for this rig",
+            field="parameters",
+            hint="Make the motors' thrusts larger or less alike, or choose another coupling.",
+        ) from error

@@ -96,8 +96,7 @@ def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Fi
 
 
 def _on_plant(plant: Plant) -> Iterator[Finding]:
-    p = plant.parameters
-    share = abs(p.gamma) / (abs(p.K_pp * p.K_yy) + abs(p.K_py * p.K_yp))
+    share = plant.parameters.independence
     if share < NEARLY_PARALLEL:
         yield Finding(
             "nearly_uncontrollable",

@@ -95,8 +95,8 @@ def require_single_input(A: Floats, B: Floats, directions: Floats) -> None:
         return
     value, independent = _repeated(A, B)
     raise MethodUnavailableError(
-        "this formula needs one input that reaches every state, and no mix of the inputs does: A has the eigenvalue "
-        f"{value} with {independent} independent eigenvectors, and one input reaches but one of them",
+        "this formula needs one input that reaches every state. Here no mix of the inputs does: A has the eigenvalue "
+        f"{value} with {independent} independent eigenvectors, and one input reaches only one of them",
         field="method",
         hint="Choose a method for several inputs.",
     )

@@ -34,6 +34,24 @@ def float_matrix(matrix: DomainMatrix) -> Floats:
     return np.array([[float(Fraction(int(x.numerator), int(x.denominator))) for x in row] for row in rows])
 
 
+def exact_coefficients(poles: Iterable[complex]) -> list[Any]:
+    """d₀ … of Π (s − p), exactly, the leading 1 left out; complex poles count once per pair."""
+    from sympy import QQ
+
+    polynomial = [QQ.one]
+    for p in poles:
+        if p.imag < 0:
+            continue
+        re, im = (QQ(*float(part).as_integer_ratio()) for part in (p.real, p.imag))
+        factor = [re * re + im * im, -2 * re, QQ.one] if p.imag else [-re, QQ.one]
+        product = [QQ.zero] * (len(polynomial) + len(factor) - 1)
+        for i, a in enumerate(polynomial):
+            for j, b in enumerate(factor):
+                product[i + j] += a * b
+        polynomial = product
+    return polynomial[:-1]
+
+
 def exact_closed_loop(A: Floats, B: Floats, K: Floats) -> DomainMatrix:
     """A − BK without rounding, n×n."""
     return exact_matrix(A) - exact_matrix(B).matmul(exact_matrix(K))

@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,7 +18,7 @@ from numpy.typing import ArrayLike
 from ..controllability import scan
 from ..errors import InvalidInputError
 from ..signals import Complexes, Floats
-from .exact import exact_matrix, float_matrix
+from .exact import exact_coefficients, exact_matrix, float_matrix
 from .groups import Group, assign, require_groups
 from .method import Placement, Task, require_system
 
@@ -94,8 +93,6 @@ def full_rank(
         UnpairedPolesError: the poles, or a group of them, are not closed under conjugation.
         UncontrollableError: (A, B) is not controllable.
     """
-    from sympy import QQ
-
     from ..symbolic.luenberger import Triangle, canonical_form, desired_rows, feedback, leading_rows
 
     A, B, wanted = require_system(A, B, poles)
@@ -118,7 +115,7 @@ def full_rank(
     if shift is not None:
         rows = _shifted(rows, _require_shift(shift, indices))
     form = canonical_form(matrix, inputs, indices, rows)
-    polynomials = [(g.inputs, _coefficients(wanted[list(g.poles)], QQ)) for g in chosen]
+    polynomials = [(g.inputs, exact_coefficients(wanted[list(g.poles)])) for g in chosen]
     gain = float_matrix(feedback(form, desired_rows(form, polynomials, triangle)))
     back = np.argsort(order)
     return FullRankPlacement(
@@ -168,19 +165,3 @@ def _shifted(rows: list[DomainMatrix], S: Floats) -> list[DomainMatrix]:
     stacked = exact_matrix(S).matmul(rows[0].vstack(*rows[1:]))
     n = stacked.shape[1]
     return [stacked.extract([i], list(range(n))) for i in range(len(rows))]
-
-
-def _coefficients(poles: Complexes, field: Any) -> list[Any]:
-    """d₀ … of Π (s − p), exactly, the leading 1 left out; complex poles count once per pair."""
-    polynomial = [field.one]
-    for p in poles:
-        if p.imag < 0:
-            continue
-        re, im = (field(*Fraction(part).as_integer_ratio()) for part in (p.real, p.imag))
-        factor = [re * re + im * im, -2 * re, field.one] if p.imag else [-re, field.one]
-        product = [field.zero] * (len(polynomial) + len(factor) - 1)
-        for i, a in enumerate(polynomial):
-            for j, b in enumerate(factor):
-                product[i + j] += a * b
-        polynomial = product
-    return polynomial[:-1]
