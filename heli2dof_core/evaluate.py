@@ -121,7 +121,13 @@ class Spec(Shown):
             return pi if pi is None or isinstance(pi, PIGains) else PIGains(*_two(pi, axis, "(kp, ti)"))
 
         structure = given(coupling=coupling, lead=lead)
-        loops = given(outer=outer, pitch=gains(pitch, "pitch"), yaw=gains(yaw, "yaw"), pairing=pairing, decoupler=decoupler)
+        loops = given(
+            outer=outer,
+            pitch=gains(pitch, "pitch"),
+            yaw=gains(yaw, "yaw"),
+            pairing=pairing,
+            decoupler=decoupler,
+        )
         scenario = given(duration=duration)
         if reference is not None:
             scenario |= zip(("theta", "psi"), _two(reference, "reference", "(theta, psi)"), strict=True)
@@ -146,7 +152,9 @@ class Spec(Shown):
 def _two(values: Sequence[T], field: str, what: str) -> Sequence[T]:
     """Both values, or InvalidInputError."""
     if len(values) != 2:
-        raise InvalidInputError(f"{field} is {tuple(values)!r}", field=field, hint=f"Give two values, {what}.")
+        raise InvalidInputError(
+            f"{field} is {tuple(values)!r}", field=field, hint=f"Give two values, {what}."
+        )
     return values
 
 

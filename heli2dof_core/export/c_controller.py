@@ -172,7 +172,9 @@ def _step(controller: _Controller, *, proportional: bool, feedforward: bool) -> 
     ]
     asked += ["            u -= K[i][2 + j] * state->rates[j];"]
     asked += ["            u += PROPORTIONAL[i][j] * error[j];"] * proportional
-    asked += ["            u += FEEDFORWARD[i][j] * (state->reference[j] - OPERATING_POINT[j]);"] * feedforward
+    asked += [
+        "            u += FEEDFORWARD[i][j] * (state->reference[j] - OPERATING_POINT[j]);"
+    ] * feedforward
     asked += ["            u += INTEGRAL[i][j] * state->integral[j];"] * integrates + ["        }"]
     if controller.limited:
         asked += ["        voltages[i] = u > LIMIT[i] ? LIMIT[i] : u < -LIMIT[i] ? -LIMIT[i] : u;"]

@@ -118,9 +118,7 @@ def assess(
     )
 
 
-def _remarks(
-    placement: Placement, wanted: Complexes, verdict: Verdict, *, aimed: bool
-) -> Iterator[Finding]:
+def _remarks(placement: Placement, wanted: Complexes, verdict: Verdict, *, aimed: bool) -> Iterator[Finding]:
     if isinstance(placement, FullRankPlacement) and placement.weakest < NEARLY_DEPENDENT:
         yield Finding(
             "nearly_uncontrollable",

@@ -116,7 +116,9 @@ def _repeated(A: Floats, B: Floats) -> tuple[str, int]:
     value = complex(centre) * speed
     tiny = RANK_TOLERANCE * speed
     real = 0.0 if abs(value.real) <= tiny else value.real
-    return f"{real:.4g}" if abs(value.imag) <= tiny else f"{complex(real, value.imag):.4g}", max(2, independent)
+    return f"{real:.4g}" if abs(value.imag) <= tiny else f"{complex(real, value.imag):.4g}", max(
+        2, independent
+    )
 
 
 def krylov(A: Floats, b: Floats) -> Floats:

@@ -67,14 +67,28 @@ def require_stabilizing(task: Regulator, K: Floats, X: Floats) -> None:
 
 def refusal(task: Regulator) -> MethodUnavailableError:
     """Why there is no stabilizing solution: a mode that the inputs do not reach, or that Q does not see."""
-    message, field, hint = "no stabilizing solution of the Riccati equation was found", "weights", "Change them."
+    message, field, hint = (
+        "no stabilizing solution of the Riccati equation was found",
+        "weights",
+        "Change them.",
+    )
     for value, reached, seen in _modes(task):
-        words = f"{value.real + 0.0:.3g}" if not value.imag else f"{value.real + 0.0:.3g} ± {abs(value.imag):.3g}j"
+        words = (
+            f"{value.real + 0.0:.3g}"
+            if not value.imag
+            else f"{value.real + 0.0:.3g} ± {abs(value.imag):.3g}j"
+        )
         if not reached:
-            message, field = f"the inputs do not reach the mode at {words}, which does not decay by itself", "B"
+            message, field = (
+                f"the inputs do not reach the mode at {words}, which does not decay by itself",
+                "B",
+            )
             hint = "Add an input, or take that mode out of the model."
             if task.integrators and abs(value) == 0:
-                message, field = "the inputs cannot hold all these outputs at once: an integral runs away", "C"
+                message, field = (
+                    "the inputs cannot hold all these outputs at once: an integral runs away",
+                    "C",
+                )
                 hint = "Regulate at most as many outputs as there are inputs, and none that the plant blocks at rest."
             break
         if not seen:

@@ -78,7 +78,8 @@ def _in_floats(A: Floats, B: Floats, K: Floats) -> tuple[Complexes, float]:
     error = (p + 2) * EPS * np.linalg.norm(terms * units / units[:, None])
     error += 2 * n * EPS * np.linalg.norm(matrix)
     try:
-        condition = np.linalg.norm(vectors) * np.linalg.norm(np.linalg.inv(vectors))
+        with np.errstate(over="ignore"):
+            condition = np.linalg.norm(vectors) * np.linalg.norm(np.linalg.inv(vectors))
     except np.linalg.LinAlgError:
         return found, np.inf
     return found, float(condition * error)

@@ -163,7 +163,9 @@ def test_a_recorded_rig_keeps_its_recorded_voltages_until_the_first_ones_arrive(
 
 
 @pytest.mark.parametrize("start", [0.9, -0.9, 0.7, 100.0])
-@pytest.mark.parametrize("digital", [Digital(), replace(EXACT, delay=True, sample_time=0.01)], ids=["own", "late"])
+@pytest.mark.parametrize(
+    "digital", [Digital(), replace(EXACT, delay=True, sample_time=0.01)], ids=["own", "late"]
+)
 def test_a_start_beyond_a_stop_is_a_start_at_it(design, start, digital):
     """Nothing jumps: as if the start had been given at the stop, for rig, encoders, filters and voltages alike."""
     loop, limits = close_loop(design), replace(LIMITS, theta=0.7)
@@ -176,7 +178,9 @@ def test_a_start_beyond_a_stop_is_a_start_at_it(design, start, digital):
     own, continuous = run(start, -0.5 * side)
     at_stop, _ = run(0.7 * side)
     assert own.angles[0, 0] == 0.7 * side
-    assert continuous.angles[0, 0] == pytest.approx(0.7 * side, rel=1e-11)  # just inside, if it leaves at once
+    assert continuous.angles[0, 0] == pytest.approx(
+        0.7 * side, rel=1e-11
+    )  # just inside, if it leaves at once
     np.testing.assert_array_equal(own.states, at_stop.states)
     np.testing.assert_array_equal(own.voltages, at_stop.voltages)
     assert np.max(np.abs(np.diff(own.angles[0]))) < 0.02
