@@ -27,15 +27,15 @@ def equilibrated(matrix: NDArray[Any]) -> NDArray[Any]:
     powers of 2, so that nothing is rounded.
     """
     size = np.abs(np.asarray(matrix)).astype(np.float64)
-    shifts = np.zeros((*size.shape[:-2], size.shape[-2], 1)), np.zeros((*size.shape[:-2], 1, size.shape[-1]))
+    shifts = [np.zeros_like(size[..., :1]), np.zeros_like(size[..., :1, :])]
     with np.errstate(over="ignore", under="ignore"):
         for _ in range(SWEEPS):
             largest = 0.0
-            for axis, shift in zip((-1, -2), shifts, strict=True):
+            for side, axis in enumerate((-1, -2)):
                 total = np.sum(size, axis=axis, keepdims=True)
-                inverse = np.where(total > 0, -np.log2(np.where(total > 0, total, 1.0)), 0.0)
+                inverse = -np.log2(np.where(total > 0, total, 1.0))
                 size = size * np.exp2(inverse)
-                shift += inverse
+                shifts[side] += inverse
                 largest = float(np.max(np.abs(inverse), initial=0.0))
             if largest < 0.01:
                 break

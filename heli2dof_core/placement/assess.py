@@ -138,6 +138,6 @@ def _remarks(placement: Placement, wanted: Complexes, verdict: Verdict, *, aimed
         yield Finding(
             "rounded_closed_loop",
             "info",
-            "The poles told are those of A − BK computed without rounding. Rounded to floating point, A − BK can have "
-            f"poles that are off by {min(verdict.rounding, 1e300):.1g} or more, and so have small errors of the model.",
+            "The poles told are those of A − BK computed without rounding. Rounded to floating point, A − BK can "
+            f"have others, by {min(verdict.rounding, size):.1g} or more: so sensitive are they to the model.",
         )

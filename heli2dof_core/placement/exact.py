@@ -14,7 +14,9 @@ if TYPE_CHECKING:  # SymPy is imported on the first use
     from sympy.polys.matrices import DomainMatrix
 
 PRECISION = 120
-"""Bits with which roots are looked for at first; doubled where they lie too close for that."""
+"""Bits with which roots are looked for at least; doubled where they lie too close for that."""
+BITS_PER_ROOT = 40
+"""Bits per root: where n of them coincide but for an error ε of the coefficients, they are told to ε^(1/n) only."""
 MOST_PRECISION = 1920
 NOWHERE: Complexes = np.zeros(0, dtype=np.complex128)
 
@@ -88,13 +90,15 @@ def _simple_roots(coefficients: Sequence[Any], near: Complexes) -> list[Any]:
     from mpmath import mp, mpc, mpf
     from mpmath.libmp import NoConvergence
 
-    degree, precision = len(coefficients) - 1, PRECISION
+    degree = len(coefficients) - 1
+    precision = max(PRECISION, BITS_PER_ROOT * degree)
     size = float(np.max(np.abs(near), initial=0.0)) or 1.0
     apart = 1e-9 * size * np.exp(1j * (1.0 + np.arange(degree)))  # equal guesses would stay equal
     start = near[:degree] + apart if len(near) == degree else None
     while precision <= MOST_PRECISION:
-        with mp.workprec(precision):
+        with mp.workprec(2 * precision):
             polynomial = [mpf(int(c.numerator)) / int(c.denominator) for c in coefficients]
+        with mp.workprec(precision):
             guesses = None if start is None else [mpc(complex(p)) for p in start]
             try:
                 return list(mp.polyroots(polynomial, maxsteps=100, extraprec=precision, roots_init=guesses))

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from ..controllability import scan
 from ..errors import InvalidInputError
-from ..signals import Complexes, Floats
+from ..signals import Floats
 from .exact import exact_coefficients, exact_matrix, float_matrix
 from .groups import Group, assign, require_groups
 from .method import Placement, Task, require_system

@@ -66,11 +66,11 @@ def regulate(A: Floats, B: Floats, Q: Floats, R: Floats, integrate: Floats | Non
         integrators = len(integrate)
         whole = np.block([[A, np.zeros((len(A), integrators))], [integrate, np.zeros((integrators,) * 2)]])
         inputs = np.vstack([B, np.zeros((integrators, B.shape[1]))])
-    task = Regulator(whole, inputs, np.diag(Q), np.diag(R), integrators)
+    task, units, volts = Regulator(whole, inputs, np.diag(Q), np.diag(R), integrators).in_own_units()
+    weights = np.diag(task.states), np.diag(task.inputs)
     try:
-        K, X, _ = control.lqr(whole, inputs, Q, R, method="scipy")
+        K, X, _ = control.lqr(task.A, task.B, *weights, method="scipy")
     except (ValueError, control.ControlArgument) as error:  # a LinAlgError is a ValueError
         raise refusal(task) from error
-    gain = np.asarray(K, dtype=float)
-    require_stabilizing(task, gain, np.asarray(X, dtype=float))
-    return gain
+    require_stabilizing(task, np.asarray(K, dtype=float), np.asarray(X, dtype=float))
+    return volts[:, None] * np.asarray(K, dtype=float) / units

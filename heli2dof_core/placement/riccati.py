@@ -17,7 +17,7 @@ from .verdict import judge
 NEAR_AXIS = 1e-6
 """Share of the fastest pole: where the slowest closed-loop pole decays less, floats do not tell whether it does."""
 RESIDUAL = 1e-6
-"""Share of the Riccati equation's terms by which its solution may miss it."""
+"""Share of the Riccati equation's terms by which its solution may miss it, in units of the system's own."""
 MOST_EXACT = 8
 """States up to which the Hamiltonian matrix's polynomial is computed exactly: 0.1 s."""
 UNREACHED = 1e-8
@@ -32,6 +32,7 @@ class Regulator:
         A, B: n×n, n×p.
         states, inputs: the diagonals of Q (≥ 0) and R (> 0).
         integrators: how many of the states, the last ones, are integrals of outputs.
+        speed: the unit of A's eigenvalues, rad/s.
     """
 
     A: Floats
@@ -39,14 +40,25 @@ class Regulator:
     states: Floats
     inputs: Floats
     integrators: int = 0
+    speed: float = 1.0
+
+    def in_own_units(self) -> tuple[Regulator, Floats, Floats]:
+        """The same problem with R = I in units in which states and time are of one size, and D and E of K = E K' D⁻¹.
+
+        Solvers lose digits where states are in units far apart.
+        """
+        E = 1 / np.sqrt(self.inputs)
+        A, B, units, speed = in_own_units(self.A, self.B * E)
+        own = Regulator(A, B, self.states * units**2, np.ones(len(E)), self.integrators, self.speed * speed)
+        return own, units, E
 
 
 def require_stabilizing(task: Regulator, K: Floats, X: Floats) -> None:
     """Raises MethodUnavailableError unless K = R⁻¹BᵀX comes from the stabilizing solution X.
 
-    It exists if and only if all modes that do not decay can be controlled and those on the imaginary axis are seen by Q
-    (Kučera, IEEE TAC 17 (1972) 344–347); then the eigenvalues of A − BK are those of the Hamiltonian matrix in the
-    left half plane. What a solver returns otherwise looks like a gain, too.
+    It exists if and only if all modes that do not decay can be controlled and those on the imaginary axis are seen
+    by Q (Kučera, IEEE TAC 17 (1972) 344–347); then the eigenvalues of A − BK are those of the Hamiltonian matrix in
+    the left half plane. What a solver returns otherwise looks like a gain, too.
     """
     if not (np.all(np.isfinite(K)) and np.all(np.isfinite(X))):
         raise refusal(task)
@@ -67,33 +79,20 @@ def require_stabilizing(task: Regulator, K: Floats, X: Floats) -> None:
 
 def refusal(task: Regulator) -> MethodUnavailableError:
     """Why there is no stabilizing solution: a mode that the inputs do not reach, or that Q does not see."""
-    message, field, hint = (
-        "no stabilizing solution of the Riccati equation was found",
-        "weights",
-        "Change them.",
-    )
+    message, field, hint = "none was found", "weights", "Change them."
     for value, reached, seen in _modes(task):
-        words = (
-            f"{value.real + 0.0:.3g}"
-            if not value.imag
-            else f"{value.real + 0.0:.3g} ± {abs(value.imag):.3g}j"
-        )
+        words = f"{value.real + 0.0:.3g}" + (f" ± {abs(value.imag):.3g}j" if value.imag else "")
+        if not reached and task.integrators and value == 0:
+            message, field = "the inputs cannot hold all these outputs at once: an integral runs away", "C"
+            hint = "Regulate at most as many outputs as inputs, and none that the plant blocks at rest."
+            break
         if not reached:
-            message, field = (
-                f"the inputs do not reach the mode at {words}, which does not decay by itself",
-                "B",
-            )
-            hint = "Add an input, or take that mode out of the model."
-            if task.integrators and abs(value) == 0:
-                message, field = (
-                    "the inputs cannot hold all these outputs at once: an integral runs away",
-                    "C",
-                )
-                hint = "Regulate at most as many outputs as there are inputs, and none that the plant blocks at rest."
+            message = f"the inputs do not reach the mode at {words}, which does not decay by itself"
+            field, hint = "B", "Add an input, or take that mode out of the model."
             break
         if not seen:
             message = f"the weights do not see the mode at {words}, so that the optimum leaves it there"
-            field, hint = "weights", "Give weight to a state that this mode moves."
+            hint = "Give weight to a state that this mode moves."
             break
     return MethodUnavailableError(
         f"the Riccati equation has no stabilizing solution: {message}", field=field, hint=hint
@@ -117,7 +116,7 @@ def _modes(task: Regulator) -> list[tuple[complex, bool, bool]]:
             continue
         shifted = A - value * np.eye(len(A))
         seen = value.real > 0 or _full(np.vstack([shifted, np.diag(Q)]))
-        found.append((value * speed, _full(np.hstack([shifted, B])), seen))
+        found.append((value * speed * task.speed, _full(np.hstack([shifted, B])), seen))
     return found
 
 
@@ -150,10 +149,8 @@ def _decays(task: Regulator, slowest: float) -> bool:
 
 
 def _residual(task: Regulator, X: Floats) -> float:
-    """‖AᵀX + XA − XBR⁻¹BᵀX + Q‖ as a share of its terms, entry by entry in size."""
+    """‖AᵀX + XA − XBR⁻¹BᵀX + Q‖ as a share of its terms' size."""
     A, B, Q = task.A, task.B, np.diag(task.states)
-    left, gain = A.T @ X, X @ B / task.inputs
-    residual = left + left.T - gain @ B.T @ X + Q
-    size = np.abs(A.T) @ np.abs(X)
-    terms = size + size.T + np.abs(gain) @ np.abs(B.T @ X) + Q
-    return float(np.max(np.abs(residual) / np.where(terms > 0, np.max(terms, axis=1, keepdims=True), 1.0)))
+    left, right = A.T @ X, X @ B / task.inputs @ B.T @ X
+    size = 2 * np.linalg.norm(left) + np.linalg.norm(right) + np.linalg.norm(Q)
+    return float(np.linalg.norm(left + left.T - right + Q) / (size or 1.0))

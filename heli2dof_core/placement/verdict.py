@@ -44,12 +44,15 @@ class Verdict:
 def judge(A: Floats, B: Floats, K: Floats, wanted: Complexes, *, condition: bool = False) -> Verdict:
     """The poles of A − BK beside those asked for.
 
-    Rounding moves eigenvalues by κ(V) ‖E‖ at most (Bauer and Fike, Numer. Math. 2 (1960) 137), where E is what rounding
-    the products and LAPACK's backward error make. Where that is more than `DOUBTFUL`, as at poles that coincide or in
-    systems that are nearly uncontrollable, the characteristic polynomial is computed exactly.
+    Rounding moves eigenvalues by κ(V) ‖E‖ at most (Bauer and Fike, Numer. Math. 2 (1960) 137), where E is what
+    rounding the products and LAPACK's backward error make. Where that is more than
+    `DOUBTFUL`, as at poles that coincide or in systems that are nearly uncontrollable, the characteristic polynomial
+    is computed exactly.
 
     Args:
-        A, B, K: n×n, n×p, p×n.
+        A: n×n.
+        B: n×p.
+        K: p×n.
         wanted: n poles.
         condition: also the eigenvectors' condition, where it cannot be had from floats either.
     """

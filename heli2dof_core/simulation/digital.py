@@ -65,7 +65,7 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
 
 
 def standing_voltages(loop: Loop, system: NonlinearLoop) -> Floats:
-    """What the motors have before the controller's first voltages arrive: the trim fed forward, within the limits, V."""
+    """What the motors have until the controller's first voltages arrive: the trim fed forward, within the limits."""
     trim = loop.design.plant.trim * system.experiment[FED]
     return np.clip(trim, -system.limits, system.limits)
 

@@ -102,7 +102,8 @@ def member(
     """The member of the family with this structure, over any field: that of the symbols, or the rational numbers.
 
     Args:
-        A, B: 4×4 and 4×2, of the rig.
+        A: the rig's, 4×4.
+        B: the rig's, 4×2.
         structure: which member; its own `shift` is not looked at.
         polynomials: (d₁₀, d₁₁), (d₂₀, d₂₁).
         shift: of the basis, an element of the field; None takes the one that gives the structure its name.

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import mpmath
 import numpy as np
+from scipy.linalg import block_diag
 from sympy import QQ
 from sympy.polys.matrices import DomainMatrix
 
@@ -128,13 +129,9 @@ def single_input(rng: np.random.Generator) -> str:
     sizes = rng.integers(1, 3, int(rng.integers(2, 4)))
     values = rng.integers(-1, 2, len(sizes)).astype(float)
     n = int(np.sum(sizes))
-    A, at = np.zeros((n, n)), 0
-    for size, value in zip(sizes, values, strict=True):
-        for k in range(at, at + size):
-            A[k, k] = value
-            if k + 1 < at + size:
-                A[k, k + 1] = 1.0
-        at += size
+    A = block_diag(
+        *(v * np.eye(size) + np.diag(np.ones(size - 1), 1) for size, v in zip(sizes, values, strict=True))
+    )
     lower = np.tril(rng.integers(-2, 3, (n, n)), -1) + np.eye(n)
     inverse = np.rint(np.linalg.inv(lower))
     units = powers(rng, n)
@@ -168,10 +165,7 @@ def regulated(rng: np.random.Generator) -> str:
     ]
     chosen = [blocks[i] for i in rng.integers(0, len(blocks), int(rng.integers(1, 4)))]
     n = sum(len(block) for block in chosen)
-    A, at = np.zeros((n, n)), 0
-    for block in chosen:
-        A[at : at + len(block), at : at + len(block)] = block
-        at += len(block)
+    A = block_diag(*chosen)
     B = rng.integers(-2, 3, (n, int(rng.integers(1, min(n, 2) + 1)))).astype(float)
     if not np.all(np.any(B, axis=0)) or exact_rank(B) < B.shape[1]:
         return ""
@@ -202,7 +196,7 @@ def regulated(rng: np.random.Generator) -> str:
 
 
 def rigs(rng: np.random.Generator) -> str:
-    """Rigs whose motors push nearly alike, or hardly, in every structure, shifted or not: no other error than refusals."""
+    """Rigs whose motors push nearly alike, or hardly, in every structure, shifted or not."""
     spec = Spec.from_preset()
     p, kind = spec.parameters, rng.integers(3)
     if kind == 0:
