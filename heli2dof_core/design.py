@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import hypot, sqrt
+from math import hypot, isfinite, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,7 +21,7 @@ from .placement.registry import method as method_named
 from .placement.verdict import Verdict, eigenvector_condition, judge
 from .plant import Plant
 from .poles import PoleSet
-from .remarks import NEARLY_PARALLEL, design_remarks
+from .remarks import design_remarks
 from .signals import INPUTS, OUTPUTS, STATES, C, Complexes, Floats
 from .tables import Shown, Table, latex_matrix, number, poles
 
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     import control
 
 FULL_RANK = "full-rank"
-SMALLEST = 1e-100
-"""|γ|, (N·m/V)², below which powers of it are no longer floats with all their digits."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -182,17 +180,17 @@ def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats
         StructureUnavailableError: the rig has no such structure, or K is beyond the floats' range.
     """
     require_structure(plant.parameters, structure)
-    if plant.parameters.independence < NEARLY_PARALLEL or abs(plant.parameters.gamma) < SMALLEST:
+    if plant.nearly_parallel:
         return _exact_gain(plant, poles, structure)
     arguments = (*poles.coefficients, *plant.parameters.as_dict().values(), plant.theta_0)
     try:
         if structure.shift is None:
-            K = np.array(gain(structure)(*arguments))
+            rows = gain(structure)(*arguments)
         else:
-            K = np.array(gain(structure.family, shifted=True)(*arguments, structure.shift))
+            rows = gain(structure.family, shifted=True)(*arguments, structure.shift)
     except ArithmeticError:
         return _exact_gain(plant, poles, structure)
-    return K if np.all(np.isfinite(K)) else _exact_gain(plant, poles, structure)
+    return np.array(rows) if isfinite(sum(map(sum, rows))) else _exact_gain(plant, poles, structure)
 
 
 def _exact_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats:

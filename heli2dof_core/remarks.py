@@ -8,14 +8,12 @@ from itertools import combinations
 import numpy as np
 
 from .findings import Finding
-from .plant import Plant
+from .plant import NEARLY_PARALLEL, Plant
 from .poles import PoleSet
 from .signals import Complexes, Floats
 
 COINCIDENT = 1e-6
 """Poles closer than this share of their size count as one."""
-NEARLY_PARALLEL = 1e-2
-"""Relative |γ| below which the motors are said to push nearly alike."""
 FAR_OUT = 1e3
 """Poles beyond this, rad/s, are remarked on: a lab rig's motors and sensors end far below."""
 

@@ -111,8 +111,9 @@ def _simple_roots(coefficients: Sequence[Any], near: Complexes) -> list[Any]:
 def exact_eigenvectors(matrix: DomainMatrix, values: Sequence[Any]) -> Complexes | None:
     """Eigenvectors of length 1 as columns, for eigenvalues as `exact_eigenvalues` finds them.
 
-    By one step of inverse iteration in `PRECISION` bits. None where an eigenvalue occurs more than once: of such
-    ones a matrix may have too few.
+    By one step of inverse iteration, whose shift misses the eigenvalue in the last of `PRECISION` bits; four times as
+    many are computed with, which leaves room for units far apart. None where an eigenvalue occurs more than once: of
+    such ones a matrix may have too few.
     """
     from mpmath import mp
 
@@ -120,14 +121,14 @@ def exact_eigenvectors(matrix: DomainMatrix, values: Sequence[Any]) -> Complexes
     if len({complex(v) for v in values}) < n and len(set(values)) < n:
         return None
     columns = []
-    with mp.workprec(PRECISION):
+    with mp.workprec(4 * PRECISION):
         rows = [[mp.mpf(int(x.numerator)) / int(x.denominator) for x in row] for row in matrix.to_list()]
         size = max((abs(x) for row in rows for x in row), default=mp.mpf(1)) or mp.mpf(1)
         start = mp.matrix([mp.mpf(1) + mp.mpf(i) / (3 * n) for i in range(n)])
         for value in values:
             shifted = mp.matrix(rows)
             for i in range(n):
-                shifted[i, i] -= value + size * mp.mpf(2) ** (-PRECISION // 2)
+                shifted[i, i] -= value + size * mp.mpf(2) ** -PRECISION
             vector = mp.lu_solve(shifted, start)
             columns.append([complex(x / mp.norm(vector)) for x in vector])
     return np.array(columns).T

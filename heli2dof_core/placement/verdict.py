@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -78,14 +79,18 @@ def _in_floats(A: Floats, B: Floats, K: Floats) -> tuple[Complexes, float]:
     matrix, units = balanced(closed)
     values, vectors = spectrum(matrix)
     found = np.array(values)
-    error = (p + 2) * EPS * np.linalg.norm(terms * units / units[:, None])
-    error += 2 * n * EPS * np.linalg.norm(matrix)
+    error = (p + 2) * EPS * _size(terms * units / units[:, None]) + 2 * n * EPS * _size(matrix)
     try:
         with np.errstate(over="ignore"):
-            condition = np.linalg.norm(vectors) * np.linalg.norm(np.linalg.inv(vectors))
+            condition = _size(vectors) * _size(np.linalg.inv(vectors))
     except np.linalg.LinAlgError:
         return found, np.inf
     return found, float(condition * error)
+
+
+def _size(matrix: Floats | Complexes) -> float:
+    """Frobenius norm; for few rows NumPy's takes three times as long."""
+    return sqrt(np.vdot(matrix, matrix).real)
 
 
 def _exactly(

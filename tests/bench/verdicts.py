@@ -77,7 +77,7 @@ def ranks(rng: np.random.Generator) -> str:
     G = (rng.integers(-5, 6, (n, r)) @ rng.integers(-5, 6, (r, m))).astype(float)
     G = G * powers(rng, n)[:, None] * powers(rng, m)
     if rng.random() < 0.5:  # and with every entry rounded
-        G = G / 3.0 if r == min(n, m) else G
+        G = G / 3.0 if exact_rank(G) == min(n, m) else G
     if numeric_rank(G) != exact_rank(G):
         return f"rank {numeric_rank(G)} of {G.tolist()}"
     if n == m:
