@@ -139,5 +139,9 @@ def _remarks(placement: Placement, wanted: Complexes, verdict: Verdict, *, aimed
             "rounded_closed_loop",
             "info",
             "The poles told are those of A − BK computed without rounding. Rounded to floating point, A − BK can "
-            f"have others, by {min(verdict.rounding, size):.1g} or more: so sensitive are they to the model.",
+            f"have others, {_apart(verdict.rounding, size)} away: so sensitive are they to the model.",
         )
+
+
+def _apart(distance: float, size: float) -> str:
+    return f"up to {distance:.1g}" if distance < size else "as far as they are large and more"

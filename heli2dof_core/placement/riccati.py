@@ -62,7 +62,8 @@ def require_stabilizing(task: Regulator, K: Floats, X: Floats) -> None:
     """
     if not (np.all(np.isfinite(K)) and np.all(np.isfinite(X))):
         raise refusal(task)
-    poles = judge(task.A, task.B, K, np.linalg.eigvals(task.A - task.B @ K)).poles
+    guesses = np.linalg.eigvals(task.A - task.B @ K).astype(np.complex128)
+    poles = judge(task.A, task.B, K, guesses).poles
     fastest = max(float(np.max(np.abs(poles))), float(np.max(np.abs(np.linalg.eigvals(task.A)))))
     slowest = -float(np.max(poles.real))
     if slowest <= 0:

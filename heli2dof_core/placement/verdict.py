@@ -7,6 +7,7 @@ from math import sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..eigenvalues import balanced, eigenvectors, spectrum
 from ..poles import match_poles
@@ -88,7 +89,7 @@ def _in_floats(A: Floats, B: Floats, K: Floats) -> tuple[Complexes, float]:
     return found, float(condition * error)
 
 
-def _size(matrix: Floats | Complexes) -> float:
+def _size(matrix: NDArray[Any]) -> float:
     """Frobenius norm; for few rows NumPy's takes three times as long."""
     return sqrt(np.vdot(matrix, matrix).real)
 
