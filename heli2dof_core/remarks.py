@@ -8,14 +8,12 @@ from itertools import combinations
 import numpy as np
 
 from .findings import Finding
-from .plant import Plant
+from .plant import NEARLY_PARALLEL, Plant
 from .poles import PoleSet
 from .signals import Complexes, Floats
 
 COINCIDENT = 1e-6
 """Poles closer than this share of their size count as one."""
-NEARLY_PARALLEL = 1e-2
-"""Relative |γ| below which the motors are said to push nearly alike."""
 FAR_OUT = 1e3
 """Poles beyond this, rad/s, are remarked on: a lab rig's motors and sensors end far below."""
 
@@ -28,7 +26,7 @@ def design_remarks(
     Where the method chose its own poles (error None), the remarks are on those.
     """
     if error is None:
-        return (_OWN_POLES, *_on_stability(found.tolist()), *_on_plant(plant))
+        return (_OWN_POLES, *_on_stability(found.tolist(), placed=False), *_on_plant(plant))
     wanted = poles.values
     return (
         *_on_stability(wanted),
@@ -41,17 +39,17 @@ def design_remarks(
 _OWN_POLES = Finding(
     "own_poles",
     "info",
-    "This method chooses its own poles, from weights: those that you placed are not used.",
+    "LQR computes its poles from the weights Q and R. The poles that you placed are not used.",
 )
 
 
-def _on_stability(poles: Sequence[complex]) -> Iterator[Finding]:
+def _on_stability(poles: Sequence[complex], *, placed: bool = True) -> Iterator[Finding]:
     if any(p.real > 0 for p in poles):
         yield Finding(
             "right_half_plane",
             "error",
             "A pole lies in the right half plane: without an outer loop the helicopter runs away. "
-            "Drag it left of the imaginary axis.",
+            + ("Place it left of the imaginary axis." if placed else "Change the weights."),
         )
     elif any(p.real == 0 for p in poles):
         yield Finding(
@@ -96,8 +94,7 @@ def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Fi
 
 
 def _on_plant(plant: Plant) -> Iterator[Finding]:
-    p = plant.parameters
-    share = abs(p.gamma) / (abs(p.K_pp * p.K_yy) + abs(p.K_py * p.K_yp))
+    share = plant.parameters.independence
     if share < NEARLY_PARALLEL:
         yield Finding(
             "nearly_uncontrollable",
@@ -112,8 +109,8 @@ def _on_accuracy(poles: Sequence[complex], error: float) -> Iterator[Finding]:
         yield Finding(
             "pole_error",
             "warning",
-            f"The computed poles miss the wanted ones by up to {error:.2g} rad/s: poles that coincide, "
-            "or lie far out, are sensitive to rounding.",
+            f"K places the poles with an error of up to {error:.2g} rad/s: poles that coincide, or lie far out, "
+            "are sensitive to rounding K.",
         )
 
 

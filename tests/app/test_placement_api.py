@@ -94,7 +94,7 @@ def test_a_dyadic_method_on_the_helicopter_explains_why_it_cannot_be(client):
     body = {"A": gains["A"], "B": gains["B"], "poles": PAPER["poles"], "method": "ackermann"}
     problem = post(client, "place", body, status=422)
     assert problem["code"] == "method_unavailable"
-    assert "2 independent eigenvectors" in problem["detail"] and "first feedback" in problem["detail"]
+    assert "2 independent eigenvectors" in problem["detail"] and "several inputs" in problem["hint"]
 
 
 @pytest.mark.parametrize("preset", PRESETS)
