@@ -18,6 +18,7 @@ from .remarks import FAR_OUT
 from .signals import AXES, INPUTS, OUTPUTS
 from .simulation.response import Response
 from .spec import Digital, Limits, Scenario
+from .tables import number
 
 UNLIKE, UNLIKE_AT_LIMITS = 1.25, 1.05
 """Ratio of two settling times from which rig and linear model are said to differ; and where a motor is at its limit,
@@ -87,9 +88,9 @@ def _on_delay(margins: tuple[Margins, Margins], scenario: Scenario) -> Iterator[
         yield Finding(
             "short_delay_margin",
             "warning",
-            f"The {axis} motor's loop tolerates {_time(short[axis])} of dead time. A digital controller with {usual} "
-            f"sample time of {_time(sample)} adds up to {_time(DEAD_SAMPLES * sample)}. Place slower poles or lower "
-            "the gains.",
+            f"The {axis} motor's delay margin is {_time(short[axis])}. A digital controller with {usual} sample time of "
+            f"{_time(sample)} adds up to {_time(DEAD_SAMPLES * sample)} of dead time. Place slower poles or lower the "
+            "gains.",
         )
 
 
@@ -115,9 +116,9 @@ def _on_slow_poles(loop: Loop) -> Iterator[Finding]:
         yield Finding(
             "slow_pole",
             "warning",
-            f"The integral action adds a slow pole at {slowest:.2g} rad/s, ".replace("-", "−")
-            + f"{placed / slowest:.0f} times slower than the slowest placed pole: what is left of an error takes about "
-            f"{_time(-4 / slowest)} to die out. Tune the loops for these poles.",
+            f"The integral action adds a slow pole at −{-slowest:.2g} rad/s, {min(placed / slowest, 999):.0f} times slower "
+            "than the slowest placed pole. The last of an error takes about "
+            f"{number(-4 / slowest, 2)} s to decay. Tune the loops for these poles.",
         )
 
 

@@ -65,7 +65,7 @@ def require_controllable(parameters: Parameters) -> None:
     products = abs(p.K_pp * p.K_yy) + abs(p.K_py * p.K_yp)
     if abs(p.gamma) <= NEGLIGIBLE * products:
         raise UncontrollableError(
-            "the rig is not controllable: K_pp K_yy = K_py K_yp, so both motors push alike",
+            "the rig is not controllable: K_pp K_yy = K_py K_yp, so both motors act alike",
             field="parameters",
             value=p.gamma,
             hint="Change one thrust constant so that K_pp K_yy and K_py K_yp differ.",

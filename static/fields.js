@@ -105,8 +105,8 @@ export class NumberField {
   /** @param {number} v @returns {string} empty where it can be taken */
   #objection(v) {
     const { min, max, positive, integer } = this.options;
-    if (!Number.isFinite(v)) return 'a number, please';
-    if (integer && !Number.isInteger(v)) return 'a whole number, please';
+    if (!Number.isFinite(v)) return 'enter a number';
+    if (integer && !Number.isInteger(v)) return 'enter a whole number';
     if (positive && v <= 0) return 'must be positive';
     return v < min || v > max ? `${significant(min, 3)} to ${significant(max, 3)}` : '';
   }

@@ -60,3 +60,9 @@ export const degrees = (rad, decimals = 1) => (rad === undefined ? '–' : `${fi
 
 /** @param {number|undefined} s */
 export const seconds = (s) => (s === undefined ? '–' : s < 0.1 ? `${fixed(1000 * s, 0)} ms` : `${fixed(s, 2)} s`);
+
+/** Relative difference from which two figures are told apart. */
+const NOTABLE = 0.05;
+
+/** @param {number|undefined} a @param {number|undefined} b @param {number} [least] below this size nothing differs */
+export const differs = (a, b, least = 0) => a !== b && (a === undefined || b === undefined || Math.abs(a - b) > Math.max(least, NOTABLE * Math.max(Math.abs(a), Math.abs(b))));

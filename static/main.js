@@ -129,7 +129,7 @@ function viewOf(view) {
 /** Quietly, once for each part. @param {unknown} error */
 function report(error) {
   console.error(error);
-  queueMicrotask(() => store.set({ fault: say`A part of this page could not be drawn: ${error instanceof Error ? error.message : error}. All else goes on.` }));
+  queueMicrotask(() => store.set({ fault: say`A part of this page could not be drawn: ${error instanceof Error ? error.message : error}. Everything else works.` }));
 }
 
 /** @type {Promise<import('./panels/tour.js').Tour>|null} */ let tours = null;

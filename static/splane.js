@@ -5,6 +5,7 @@
  */
 import { cloudWords, SPREADS } from './cloud.js';
 import { h, setText, svg } from './dom.js';
+import { loopPaths } from './loop_paths.js';
 import { placesPoles } from './methods.js';
 import { drawingUnit } from './picture_scale.js';
 import { drawCloud } from './splane_cloud.js';
@@ -24,6 +25,8 @@ export class SPlane {
   /** @type {number|null} */ #active = null;
   /** @type {import('./splane_math.js').View|null} */ #drawn = null;
   /** @type {import('./types.js').Requirements|null} */ #asked = null;
+  /** @type {import('./types.js').Reply|null} whose paths they are */ #solved = null;
+  /** @type {import('./loop_paths.js').Paths|null} */ #paths = null;
 
   /** @param {HTMLElement} root @param {import('./store.js').Store} store */
   constructor(root, store) {
@@ -39,15 +42,15 @@ export class SPlane {
       this.grid, this.forbidden);
     this.svg = svg('svg', { class: 'splane-svg', 'data-testid': 'splane', role: 'group', 'aria-label': 'Poles in the s-plane' }, this.marks.nodes);
     this.readout = new Readout();
-    this.spread = h('select', { 'data-testid': 'spread', 'aria-label': 'Uncertainty of the rig', title: 'The same controller on rigs whose parameters differ by so much: their poles as dots, their responses as bands',
-      onchange: () => store.set({ spread: Number(this.spread.value) }) }, SPREADS.map((v) => h('option', { value: v }, v ? `± ${100 * v} %` : 'exact rig')));
+    this.spread = h('select', { 'data-testid': 'spread', 'aria-label': 'Model uncertainty', title: 'Model uncertainty: the same controller on rigs whose parameters differ by so much; their poles as dots, their responses as bands',
+      onchange: () => store.set({ spread: Number(this.spread.value) }) }, SPREADS.map((v) => h('option', { value: v }, v ? `± ${100 * v} %` : 'none')));
     this.cloud = h('canvas', { class: 'cloud', hidden: true, 'aria-hidden': 'true' });
     this.cloudText = h('div', { class: 'cloud-words', 'data-testid': 'cloud-words', role: 'status' });
     const button = (/** @type {string} */ text, /** @type {string} */ name, /** @type {string} */ key, /** @type {string} */ id, /** @type {() => void} */ act) =>
       h('button', { type: 'button', title: `${name} (${key}, on a pole)`, 'aria-label': name, 'data-testid': id, onclick: act }, text);
     const tools = h('div', { class: 'splane-tools' },
       button('+', 'Zoom in', '+', 'zoom-in', () => this.#zoomBy(1.4)), button('\u2212', 'Zoom out', '\u2212', 'zoom-out', () => this.#zoomBy(1 / 1.4)),
-      button('Fit', 'Fit all poles into view', 'F', 'fit', () => this.fit()), this.spread, (this.key = h('div', { class: 'splane-key', 'data-testid': 'splane-key' },
+      button('Fit', 'Fit all poles into view', 'F', 'fit', () => this.fit()), h('label', { class: 'uncertainty' }, h('span', { title: 'Model uncertainty' }, 'uncertainty'), this.spread), (this.key = h('div', { class: 'splane-key', 'data-testid': 'splane-key' },
       h('span', { title: 'poles of the whole loop: PI moves the poles that you placed' }, sample('loop'), (this.loopName = h('span'))),
       h('span', { title: 'poles of the rig without feedback' }, sample('open'), 'open loop'))));
     this.bar = new RequirementsBar(store);
@@ -61,7 +64,8 @@ export class SPlane {
     const held = this.gestures.held;
     if (index === this.#active || (held !== null && index !== held)) return;
     this.#active = index;
-    this.readout.draw(this.store.state, index, this.view, this.unit);
+    this.readout.draw(this.store.state, index, this.view, this.unit, this.#target());
+    this.#link(true);
   };
 
   /** Takes a view that the user chose; it stays until asked to fit. */
@@ -105,8 +109,22 @@ export class SPlane {
   }
 
   /** What is read beside the pole in question. @param {State} state */
-  renderReadout({ design, requirements }) {
-    this.readout.write({ design, requirements }, this.#active);
+  renderReadout({ design, reply, answered, requirements }) {
+    this.readout.write({ design, reply, answered, requirements }, this.#active, this.#target());
+  }
+
+  /** Where the PI loops take the pole in question; of what is shown last, as all figures are. */
+  #target() {
+    const { reply, answered } = this.store.state;
+    if (this.#active === null || !placesPoles(this.store.state)) return undefined;
+    if (reply !== this.#solved) [this.#solved, this.#paths] = [reply, loopPaths(reply, answered)];
+    return this.#paths?.[this.#active].at(-1);
+  }
+
+  /** Draws the way of the pole in question to its pole of the whole loop. @param {boolean} fresh */
+  #link(fresh) {
+    const to = this.#target();
+    this.marks.drawPath(to && this.#active !== null && this.#paths ? { index: this.#active, path: this.#paths[this.#active] } : null, this.view, fresh);
   }
 
   /** @param {State} state */
@@ -125,7 +143,8 @@ export class SPlane {
     drawPins(this.svg, this.view, pins);
     drawCloud(this.cloud, this.view, this.unit, spread ? cloud : null);
     setText(this.cloudText, spread ? cloudWords(cloud, design.scenario) : '');
-    this.readout.draw(state, this.#active, this.view, this.unit);
+    this.readout.draw(state, this.#active, this.view, this.unit, this.#target());
+    this.#link(fresh);
     this.bar.render(state);
   }
 }

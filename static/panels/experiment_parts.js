@@ -171,7 +171,7 @@ export class AccuracyPart {
     this.tolerance = h('select', { 'data-testid': 'experiment-tolerance', 'data-field': 'scenario.rtol', onchange: () => fields.edit((s) => withOption(s, { rtol: Number(this.tolerance.value) })) },
       TOLERANCES.map(([value, text]) => h('option', { value }, text)));
     this.node = h('div', { class: 'row foot' }, h('label', { class: 'select', title: 'relative tolerance of the adaptive integration; where a finer one changes the picture, the picture was wrong' }, 'tolerance', this.tolerance),
-      h('span', { class: 'aside' }, 'Linear responses know the start alone.'));
+      h('span', { class: 'aside' }, 'Linear responses use only the start angles; limits, stops, sampling and disturbances are left out.'));
   }
 
   /** @param {Design} design */

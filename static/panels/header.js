@@ -65,7 +65,7 @@ export class HeaderPanel {
     this.source.title = source;
     this.locked.hidden = !locks.length;
     setText(this.locked, locks.length ? say`locked: ${lockNames(locks)}` : '');
-    setAttr(this.locked, 'title', 'Locked by the link with which this page was opened');
+    setAttr(this.locked, 'title', 'Locked by the link that opened this page');
     this.undo.disabled = !canUndo;
     this.redo.disabled = !canRedo;
     this.status.className = `connection ${connection}`;
