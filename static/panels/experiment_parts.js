@@ -2,7 +2,7 @@
 import { h, setText, symbol } from '../dom.js';
 import { DIGITAL, STANDARD, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../experiment.js';
 import { Choice, NumberField } from '../fields.js';
-import { DEGREE, forField } from '../format.js';
+import { DEGREE, inField } from '../format.js';
 
 /**
  * @typedef {import('../types.js').Scenario} Scenario
@@ -64,7 +64,7 @@ export class StartPart {
       const angle = scenario.initial?.[AXES[i]];
       const rest = tidy((i ? 0 : theta0) * DEGREE);
       field.set(angle === undefined ? NaN : tidy(angle * DEGREE));
-      field.setBlank(forField(rest), rest);
+      field.setBlank(inField(rest), rest);
     });
   }
 }
@@ -100,7 +100,7 @@ export class LimitsPart {
     this.tracking.disable(idle);
     this.tracking.set(scenario.tracking_time === undefined ? NaN : tidy(1000 * scenario.tracking_time));
     const [first, second] = [tidy(1000 * loops.pitch.ti), tidy(1000 * loops.yaw.ti)];
-    this.tracking.setBlank(first === second && !own ? forField(first) : 'Tᵢ', first);
+    this.tracking.setBlank(first === second && !own ? inField(first) : 'Tᵢ', first);
   }
 }
 

@@ -29,6 +29,7 @@ class PairEditor {
     return new NumberField({
       label: `${NAMES[this.pair]} pole ${index + 1}`, testid: `pole-field-${index}`, field: `poles.${index}`, min: -LIMIT, max: LIMIT, slider: { min: -20, max: 4 },
       onInput: (v, stamp) => store.edit((d) => ({ ...d, poles: this.#changed(d.poles, k, v) }), { gesture: `pole-field-${index}`, stamp }),
+      onComplex: (p, stamp) => store.edit((d) => ({ ...d, poles: setComplex(d.poles, index, p) }), { gesture: `pole-field-${index}`, stamp }),
       onCommit: () => store.commit(),
     });
   }
