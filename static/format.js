@@ -80,7 +80,7 @@ export const decibel = (ratio) => (ratio === undefined || !(ratio > 0) ? '–' :
 export const degrees = (rad, decimals = 1) => (rad === undefined ? '–' : `${fixed(rad * DEGREE, decimals)}°`);
 
 /** @param {number|undefined} s */
-export const seconds = (s) => (s === undefined ? '–' : s < 0.1 ? `${fixed(1000 * s, 0)} ms` : `${fixed(s, 2)} s`);
+export const seconds = (s) => (s === undefined ? '–' : s < 0.1 ? `${fixed(1000 * s, s < 0.01 ? 1 : 0)} ms` : `${fixed(s, 2)} s`);
 
 /** Relative difference from which two figures are told apart. */
 const NOTABLE = 0.05;

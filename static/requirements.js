@@ -70,7 +70,7 @@ export function verdictOf(reply, axis, r) {
   if (!isAsked(r) || !own) return null;
   const [settling, overshoot] = [misses(own.settling_time, r.settling), misses(own.overshoot, r.overshoot)];
   const words = [settling && (own.settling_time === undefined ? t('not settled') : say`settles in ${seconds(own.settling_time)}`), overshoot && say`overshoots by ${fixed(own.overshoot, 1)} %`];
-  return { met: !settling && !overshoot, settling, overshoot, text: words.filter(Boolean).join(', ') || t('meets the requirements') };
+  return { met: !settling && !overshoot, settling, overshoot, text: words.filter(Boolean).join(', ') || t('requirements met') };
 }
 
 /** The axes that miss what is asked, in words. @param {import('./types.js').Reply|null} reply @param {Requirements} r @returns {string[]} */

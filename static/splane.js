@@ -16,6 +16,7 @@ import { fit, outgrown, zoom } from './splane_math.js';
 import { drawPins } from './splane_pins.js';
 import { Readout } from './splane_readout.js';
 import { drawForbidden, hatchings, RequirementsBar } from './splane_requirements.js';
+import { say } from './words.js';
 
 export class SPlane {
   view = { cx: -5, cy: 0, scale: 20, width: 0, height: 0 };
@@ -43,14 +44,14 @@ export class SPlane {
     this.svg = svg('svg', { class: 'splane-svg', 'data-testid': 'splane', role: 'group', 'aria-label': 'Poles in the s-plane' }, this.marks.nodes);
     this.readout = new Readout();
     this.spread = h('select', { 'data-testid': 'spread', 'aria-label': 'Model uncertainty', title: 'Model uncertainty: the same controller on rigs whose parameters differ by so much; their poles as dots, their responses as bands',
-      onchange: () => store.set({ spread: Number(this.spread.value) }) }, SPREADS.map((v) => h('option', { value: v }, v ? `± ${100 * v} %` : 'none')));
+      onchange: () => store.set({ spread: Number(this.spread.value) }) }, SPREADS.map((v) => h('option', { value: v }, v ? say`uncertainty ± ${100 * v} %` : 'uncertainty: none')));
     this.cloud = h('canvas', { class: 'cloud', hidden: true, 'aria-hidden': 'true' });
     this.cloudText = h('div', { class: 'cloud-words', 'data-testid': 'cloud-words', role: 'status' });
     const button = (/** @type {string} */ text, /** @type {string} */ name, /** @type {string} */ key, /** @type {string} */ id, /** @type {() => void} */ act) =>
       h('button', { type: 'button', title: `${name} (${key}, on a pole)`, 'aria-label': name, 'data-testid': id, onclick: act }, text);
     const tools = h('div', { class: 'splane-tools' },
       button('+', 'Zoom in', '+', 'zoom-in', () => this.#zoomBy(1.4)), button('\u2212', 'Zoom out', '\u2212', 'zoom-out', () => this.#zoomBy(1 / 1.4)),
-      button('Fit', 'Fit all poles into view', 'F', 'fit', () => this.fit()), h('label', { class: 'uncertainty' }, h('span', { title: 'Model uncertainty' }, 'uncertainty'), this.spread), (this.key = h('div', { class: 'splane-key', 'data-testid': 'splane-key' },
+      button('Fit', 'Fit all poles into view', 'F', 'fit', () => this.fit()), this.spread, (this.key = h('div', { class: 'splane-key', 'data-testid': 'splane-key' },
       h('span', { title: 'poles of the whole loop: PI moves the poles that you placed' }, sample('loop'), (this.loopName = h('span'))),
       h('span', { title: 'poles of the rig without feedback' }, sample('open'), 'open loop'))));
     this.bar = new RequirementsBar(store);

@@ -3,7 +3,7 @@ import { h, setText } from './dom.js';
 import { fixed, seconds } from './format.js';
 import { character, isComplex, pairOf, partner } from './poles.js';
 import { AXES, guideWords, isAsked } from './requirements.js';
-import { bounds, toPixel } from './splane_math.js';
+import { toPixel } from './splane_math.js';
 import { say, t } from './words.js';
 
 const NAMES = ['pitch', 'yaw'];
@@ -28,14 +28,14 @@ export function readoutLines({ design, reply, requirements }, index, to) {
   const own = reply?.axis_steps?.[axis]?.nonlinear.metrics?.[axis];
   const guide = isAsked(requirements) ? guideWords(p, requirements) : '';
   const pi = design?.outer === 'pi';
-  const step = !own ? '' : own.settling_time === undefined ? say`${NAMES[pair]} step not settled, overshoot ${fixed(own.overshoot, 0)} %` : say`${NAMES[pair]} step ${figures(own.settling_time, own.overshoot)}`;
+  const step = !own ? '' : own.settling_time === undefined ? say`not settled, overshoot ${fixed(own.overshoot, 0)} %` : figures(own.settling_time, own.overshoot);
   return [
     two ? say`${NAMES[pair]} poles ${first}, ${first + 1}` : say`${NAMES[pair]} pole ${index + 1}`,
     two ? `${fixed(p.re)} \u00b1 ${fixed(Math.abs(p.im))}j rad/s` : `${fixed(p.re)} rad/s`,
     `ζ ${fixed(zeta)}   ωₙ ${fixed(wn)} rad/s`,
     settling === undefined ? t('alone: grows, unstable') : say`alone: ${figures(settling, overshoot)}`,
     pi && to ? say`with PI: goes to ${pairText(to)} rad/s` : '',
-    step && (pi ? say`with PI: ${step}` : step),
+    step && (pi ? say`with PI: ${step}` : say`step: ${step}`),
     guide && say`guide: alone ${guide} than asked`,
   ];
 }
@@ -45,13 +45,17 @@ const pairText = (p) => (Math.abs(p.im) > 1e-9 * Math.hypot(p.re, p.im) ? `${fix
 
 export class Readout {
   #width = 190;
+  #height = 110;
+  /** @type {{x: number, y: number, width: number, unit: number}|null} */ #at = null;
   /** @type {number|null} whose lines they are */ #told = null;
 
   constructor() {
     this.lines = Array.from({ length: 7 }, () => h('div'));
     this.node = h('div', { class: 'readout', hidden: true, 'data-testid': 'readout' }, this.lines);
     new ResizeObserver(([entry]) => {
-      if (entry.contentRect.width) this.#width = entry.borderBoxSize[0].inlineSize;
+      if (!entry.contentRect.width) return;
+      [this.#width, this.#height] = [entry.borderBoxSize[0].inlineSize, entry.borderBoxSize[0].blockSize];
+      this.#place();
     }).observe(this.node);
   }
 
@@ -63,10 +67,17 @@ export class Readout {
     if (!dragging || index !== this.#told) this.write(state, index, to);
     const p = design.poles[index];
     const [x, y] = toPixel(view, p).map((v) => v * unit);
-    const b = bounds(view);
-    const low = p.im > (b.top + b.bottom) / 2 + (b.top - b.bottom) / 4;
-    const column = Math.max(4, Math.min(x + 24 * unit, view.width * unit - this.#width - 4));
-    this.node.style.transform = `translate(${column}px, ${y + (low ? 26 : -26) * unit}px) translateY(${low ? '0' : '-100%'})`;
+    this.#at = { x, y, width: view.width * unit, unit };
+    this.#place();
+  }
+
+  /** Above the pole, or below it where there is no room; all of it in the plane. */
+  #place() {
+    if (!this.#at) return;
+    const { x, y, width, unit } = this.#at;
+    const above = y - 26 * unit - this.#height;
+    const column = Math.max(4, Math.min(x + 24 * unit, width - this.#width - 4));
+    this.node.style.transform = `translate(${column}px, ${above < 2 ? y + 26 * unit : above}px)`;
   }
 
   /** What is read, which changes oftener in a drag than it can be read. @param {Known} known @param {number|null} index @param {import('./types.js').Complex} [to] where the PI loops take the pole */

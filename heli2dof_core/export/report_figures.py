@@ -38,10 +38,10 @@ def significant(value: float | None, digits: int = 4) -> str:
 
 
 def seconds(value: float | None) -> str:
-    """Seconds with two decimals, milliseconds below 0.1 s."""
+    """Seconds with two decimals; milliseconds below 0.1 s, with one decimal below 10 ms."""
     if value is None:
         return DASH
-    return f"{fixed(1e3 * value, 0)} ms" if value < 0.1 else f"{fixed(value)} s"
+    return f"{fixed(1e3 * value, 1 if value < 0.01 else 0)} ms" if value < 0.1 else f"{fixed(value)} s"
 
 
 def angle(value: float | None, decimals: int = 1) -> str:

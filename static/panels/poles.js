@@ -60,7 +60,7 @@ class PairEditor {
     this.verdict.hidden = !verdict;
     if (!verdict) return;
     this.verdict.classList.toggle('missed', !verdict.met);
-    setText(this.verdict, say`${verdict.met ? '✓' : '✕'} step ${verdict.text}`);
+    setText(this.verdict, verdict.met ? `✓ ${verdict.text}` : say`✕ step ${verdict.text}`);
   }
 }
 

@@ -145,6 +145,7 @@ def test_the_curves_are_both_steps_by_both_models():
         (significant(0.00001234, 3), "1.2e−5"),
         (significant(12.345, 3), "12.3"),
         (seconds(0.0123), "12 ms"),
+        (seconds(0.0017), "1.7 ms"),
         (seconds(1.5), "1.50 s"),
         (decibel(2.0), "6.0 dB"),
     ],

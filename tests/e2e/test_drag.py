@@ -76,7 +76,7 @@ def test_a_finger_drags_a_pole_and_its_meaning_is_read_beside_it(phone: tuple[Pa
     for k in range(1, 9):
         fingers.send("touchMove", (x - 14 - 5 * k, y + 18))
     expect(page.get_by_test_id("readout")).to_contain_text(
-        re.compile("pitch pole 1.*ζ 1.00.*alone: settles in.*with PI: goes to.*with PI: pitch step settles in", re.S)
+        re.compile("pitch pole 1.*ζ 1.00.*alone: settles in.*with PI: goes to.*with PI: settles in", re.S)
     )
     assert state(page)["dragging"] is True
     fingers.send("touchEnd")
