@@ -82,7 +82,7 @@ class Proof(Model):
 
 
 class Erratum(Model):
-    """One mistake with its proof: an erratum of the paper where its own numbers confirm it, else unclear in our copy."""
+    """One mistake with its proof: an erratum where the paper's own numbers confirm it, else unclear in our copy."""
 
     name: str
     where: str

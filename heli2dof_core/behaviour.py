@@ -1,5 +1,4 @@
-"""What can be said of a design once its whole loop has been closed and stepped: whether it settles, how the rig differs
-from the linear model, and what dead time, gains and slow poles ask of the hardware."""
+"""Remarks on the closed loop: settling, rig against linear model, delay margin, gains and slow poles."""
 
 from __future__ import annotations
 
@@ -88,9 +87,9 @@ def _on_delay(margins: tuple[Margins, Margins], scenario: Scenario) -> Iterator[
         yield Finding(
             "short_delay_margin",
             "warning",
-            f"The {axis} motor's delay margin is {_time(short[axis])}. A digital controller with {usual} sample time of "
-            f"{_time(sample)} adds up to {_time(DEAD_SAMPLES * sample)} of dead time. Place slower poles or lower the "
-            "gains.",
+            f"The {axis} motor's delay margin is {_time(short[axis])}. A digital controller with {usual} sample "
+            f"time of {_time(sample)} adds up to {_time(DEAD_SAMPLES * sample)} of dead time. Place slower poles "
+            "or lower the gains.",
         )
 
 
@@ -104,8 +103,8 @@ def _on_gain(loop: Loop, limits: Limits) -> Iterator[Finding]:
         yield Finding(
             "high_gain",
             "warning",
-            f"One degree of {AXES[axis]} error asks the {AXES[motor]} motor for {volts[motor, axis]:.3g} V; its limit "
-            f"is {bounds[motor]:g} V. Place slower poles.",
+            f"One degree of {AXES[axis]} error asks the {AXES[motor]} motor for {volts[motor, axis]:.3g} V; its "
+            f"limit is {bounds[motor]:g} V. Place slower poles.",
         )
 
 
@@ -116,9 +115,9 @@ def _on_slow_poles(loop: Loop) -> Iterator[Finding]:
         yield Finding(
             "slow_pole",
             "warning",
-            f"The integral action adds a slow pole at −{-slowest:.2g} rad/s, {min(placed / slowest, 999):.0f} times slower "
-            "than the slowest placed pole. The last of an error takes about "
-            f"{number(-4 / slowest, 2)} s to decay. Tune the loops for these poles.",
+            f"The integral action adds a slow pole at −{-slowest:.2g} rad/s, {min(placed / slowest, 999):.0f} times "
+            f"slower than the slowest placed pole. The last of an error takes about {number(-4 / slowest, 2)} s "
+            "to decay. Tune the loops for these poles.",
         )
 
 
@@ -130,12 +129,16 @@ def _on_settling(loop: Loop, axes: Mapping[str, Experiment]) -> Iterator[Finding
             continue
         own, ideal = (metrics.axes[signal.name] for _, metrics in (each.rig, each.linear))
         if own.settling_time is None:
-            linear = "" if ideal.settling_time is None else f" (linear: settled in {_time(ideal.settling_time)})"
+            linear = (
+                "" if ideal.settling_time is None else f" (linear: settled in {_time(ideal.settling_time)})"
+            )
             error = f"{abs(degrees(own.steady_state_error)):.2g}°"
             parts.append((AXES[i], error, linear))
     if parts:
         end = _time(float(next(iter(axes.values())).rig[0].t[-1]))
-        names = " and ".join(f"{axis} ends {error} from its reference{linear}" for axis, error, linear in parts)
+        names = " and ".join(
+            f"{axis} ends {error} from its reference{linear}" for axis, error, linear in parts
+        )
         advice = "Watch longer, or place faster poles."
         if not loop.has_integrators and any(linear for *_, linear in parts):
             advice = "Without integral action such an error stays: close the PI loops."
@@ -166,7 +169,8 @@ def _on_models(axes: Mapping[str, Experiment], scenario: Scenario) -> Iterator[F
         yield Finding(
             "unlike_linear",
             "warning",
-            f"The rig differs from the linear model: {', '.join(parts)}. The linear model leaves out {cause}.{advice}",
+            f"The rig differs from the linear model: {', '.join(parts)}. "
+            f"The linear model leaves out {cause}.{advice}",
         )
 
 

@@ -171,7 +171,8 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
         yield Finding(
             "poorly_damped",
             "warning",
-            f"The whole loop rings: its least damping ratio is {damping:.2f}. Lower the gains or raise the integral times.",
+            f"The whole loop rings: its least damping ratio is {damping:.2f}. Lower the gains or raise the "
+            "integral times.",
         )
 
 

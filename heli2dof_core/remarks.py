@@ -74,8 +74,8 @@ def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Fi
         yield Finding(
             "repeated_poles",
             "info",
-            f"Two poles coincide at {_words(repeated[0])} rad/s. This works, but is sensitive: a model error ε moves a "
-            "double pole by about √ε.",
+            f"Two poles coincide at {_words(repeated[0])} rad/s. This works, but is sensitive: a model error ε "
+            "moves a double pole by about √ε.",
         )
     own = plant.poles.tolist()
     at_open = [p for p in poles if p != 0 and min(abs(q - p) for q in own) <= COINCIDENT * max(abs(p), 1.0)]
@@ -90,8 +90,8 @@ def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Fi
         yield Finding(
             "far_out",
             "warning",
-            f"A pole lies {largest:.3g} rad/s out: one degree of error asks for {volts:.3g} V. Noise, dead time and motor "
-            "lag, which the model leaves out, dominate there. Place slower poles.",
+            f"A pole lies {largest:.3g} rad/s out: one degree of error asks for {volts:.3g} V. Noise, dead time "
+            "and motor lag, which the model leaves out, dominate there. Place slower poles.",
         )
 
 

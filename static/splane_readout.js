@@ -46,7 +46,7 @@ const pairText = (p) => (Math.abs(p.im) > 1e-9 * Math.hypot(p.re, p.im) ? `${fix
 export class Readout {
   #width = 190;
   #height = 110;
-  /** @type {{x: number, y: number, width: number, unit: number}|null} */ #at = null;
+  /** @type {{x: number, y: number, width: number, height: number, unit: number}|null} */ #at = null;
   /** @type {number|null} whose lines they are */ #told = null;
 
   constructor() {
@@ -67,17 +67,18 @@ export class Readout {
     if (!dragging || index !== this.#told) this.write(state, index, to);
     const p = design.poles[index];
     const [x, y] = toPixel(view, p).map((v) => v * unit);
-    this.#at = { x, y, width: view.width * unit, unit };
+    this.#at = { x, y, width: view.width * unit, height: view.height * unit, unit };
     this.#place();
   }
 
   /** Above the pole, or below it where there is no room; all of it in the plane. */
   #place() {
     if (!this.#at) return;
-    const { x, y, width, unit } = this.#at;
-    const above = y - 26 * unit - this.#height;
+    const { x, y, width, height, unit } = this.#at;
+    const [above, below] = [y - 26 * unit - this.#height, y + 26 * unit];
+    const row = above >= 2 ? above : below + this.#height <= height - 2 ? below : 2; // beside the pole where neither has room
     const column = Math.max(4, Math.min(x + 24 * unit, width - this.#width - 4));
-    this.node.style.transform = `translate(${column}px, ${above < 2 ? y + 26 * unit : above}px)`;
+    this.node.style.transform = `translate(${column}px, ${row}px)`;
   }
 
   /** What is read, which changes oftener in a drag than it can be read. @param {Known} known @param {number|null} index @param {import('./types.js').Complex} [to] where the PI loops take the pole */

@@ -15,6 +15,7 @@ from ..parameters import PARAMETER_INFO
 from ..placement.registry import METHODS
 from ..signals import AXES, INPUTS, OUTPUTS, Floats
 from ..simulation.response import Response
+from ..spec import Model
 from .format import Format
 from .markup import figure, formula, indexed, matrix, paragraph, pole, section, table
 from .origin import origin, preset_of
@@ -182,9 +183,7 @@ def _responses(spec: Spec, report: Report) -> Iterator[str]:
     trim, reference = report.design.plant.trim, report.step["nonlinear"].response.reference
     bounds, pictures = (spec.limits.V_p, spec.limits.V_y), []
     for i, signal in enumerate(OUTPUTS):
-        curves = [
-            Curve(t, np.degrees(response.angles[i]), kind) for t, response, kind in _traces(report)
-        ]
+        curves = [Curve(t, np.degrees(response.angles[i]), kind) for t, response, kind in _traces(report)]
         curves.append(Curve(curves[0].x, np.full(len(curves[0].x), degrees(reference[i])), "mark"))
         pictures.append(figure(chart(signal.meaning, "t, s", f"{signal.symbol}, °", curves), signal.meaning))
     for i, signal in enumerate(INPUTS):
@@ -199,9 +198,9 @@ def _responses(spec: Spec, report: Report) -> Iterator[str]:
         pictures.append(figure(chart(signal.meaning, "t, s", f"{signal.symbol}, V", curves), signal.meaning))
     yield f'<div class="plots">{"".join(pictures)}</div>'
     yield paragraph(
-        "Thick: pitch step; thin: yaw step, each alone on the nonlinear rig. Dashed and dotted: the same by the linear "
-        "model, without limits, the trim added to its voltages, where it fits in the picture. Grey: references and "
-        "voltage limits.",
+        "Thick: pitch step; thin: yaw step, each alone on the nonlinear rig. Dashed and dotted: the same by the "
+        "linear model, without limits, the trim added to its voltages, where it fits in the picture. Grey: references "
+        "and voltage limits.",
         "about",
     )
 
@@ -209,7 +208,8 @@ def _responses(spec: Spec, report: Report) -> Iterator[str]:
 def _traces(report: Report) -> Iterator[tuple[Floats, Response, str]]:
     """The page's curves, those of the linear model below; without any step the rig at rest."""
     steps = report.axis_steps
-    for model, suffix in (("linear", "-linear"), ("nonlinear", "")):
+    models: tuple[tuple[Model, str], ...] = (("linear", "-linear"), ("nonlinear", ""))
+    for model, suffix in models:
         for axis, signal in zip(AXES, OUTPUTS, strict=True):
             if signal.name in steps:
                 response = steps[signal.name][model].response

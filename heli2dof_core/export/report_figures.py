@@ -12,6 +12,7 @@ from ..evaluate import Report, Step
 from ..margins import Margins
 from ..metrics import AxisMetrics
 from ..signals import AXES, OUTPUTS, Floats
+from ..spec import Model
 from .markup import paragraph, table
 
 DASH = "–"
@@ -111,7 +112,8 @@ def merit(report: Report) -> Iterator[str]:
     trim, columns = report.design.plant.trim, []
     for axis, signal in zip(AXES, OUTPUTS, strict=True):
         both = report.axis_steps.get(signal.name)
-        for model, label in (("nonlinear", f"{axis} step"), ("linear", "(linear)")):
+        models: tuple[tuple[Model, str], ...] = (("nonlinear", f"{axis} step"), ("linear", "(linear)"))
+        for model, label in models:
             step = None if both is None else both[model]
             own = None if step is None else step.metrics.axes.get(signal.name)
             columns.append(
@@ -120,8 +122,8 @@ def merit(report: Report) -> Iterator[str]:
     rows = [(row.name, *(cells[i] for _, cells in columns)) for i, row in enumerate(ROWS)]
     yield table(("", *(label for label, _ in columns)), rows)
     yield paragraph(
-        "Each axis is stepped alone. Settling: within 2 % of the step. Peak voltages include the trim; “limit” is the "
-        "share of time at the voltage limit. Effort: ∫ (V − V_trim)² dt.",
+        "Each axis is stepped alone. Settling: within 2 % of the step. Peak voltages include the trim; “limit” is "
+        "the share of time at the voltage limit. Effort: ∫ (V − V_trim)² dt.",
         "about",
     )
     yield from _margins(report)

@@ -18,7 +18,7 @@ MOST_POINTS = 400
 
 @dataclass(frozen=True)
 class Curve:
-    """One line: its values over x, and its class, which the style sheet draws: `pitch`, `yaw` (`…-linear`) or `mark`."""
+    """One line: values over x, and the class that the style draws: `pitch`, `yaw` (`…-linear`) or `mark`."""
 
     x: Floats
     y: Floats

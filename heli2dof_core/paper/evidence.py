@@ -1,8 +1,8 @@
-"""Which slips the paper's own printed numbers confirm. Our copy is damaged in places: what no number shows may be its fault."""
+"""Which slips the paper's own printed numbers confirm; what none of them shows may be a fault of our copy."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -39,9 +39,11 @@ class Evidence:
     shows: Callable[[], bool]
 
 
-def _hits(inertia: sp.Expr = as_printed.alpha, damping: sp.Expr = B_p, **changes: float) -> int:
+def _hits(
+    inertia: sp.Expr = as_printed.alpha, damping: sp.Expr = B_p, changes: Mapping[str, float] | None = None
+) -> int:
     """How many of K's eight printed entries such a formula gives to every printed digit."""
-    rig = preset("paper-as-computed").parameters.replaced(changes)
+    rig = preset("paper-as-computed").parameters.replaced(dict(changes or {}))
     formula: Any = as_printed.gain(inertia, damping)
     return int(np.sum(as_printed.number(formula, rig, printed_poles()).round(3) == printed_gain()))
 
@@ -53,21 +55,19 @@ def _damping_in_a() -> bool:
 
 
 def _damping_in_k() -> bool:
-    own = TABLE_I["B_y"].value
-    return _hits(damping=B_p, B_y=own) == 8 > _hits(damping=B_y, B_y=own)
+    own = {"B_y": TABLE_I["B_y"].value}
+    return _hits(damping=B_p, changes=own) == 8 > _hits(damping=B_y, changes=own)
 
 
 def _sign() -> bool:
     model = plant(preset("paper-as-computed").parameters)
-    minus, plus = (
-        np.max(np.linalg.eigvals(model.A + s * model.B @ printed_gain()).real) for s in (-1, 1)
-    )
+    minus, plus = (np.max(np.linalg.eigvals(model.A + s * model.B @ printed_gain()).real) for s in (-1, 1))
     return bool(minus < 0 < plus)
 
 
 def _table() -> bool:
     rig = {name: TABLE_I[name].value for name in ("l", "m", "J_y", "K_pp")}
-    return _hits() == 8 > _hits(**rig)
+    return _hits() == 8 > _hits(changes=rig)
 
 
 EVIDENCE = {

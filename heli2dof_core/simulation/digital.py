@@ -88,8 +88,9 @@ def _remarks(loop: Loop, scenario: Scenario, digital: Digital) -> Iterator[Findi
         yield Finding(
             "slow_sampling",
             "warning",
-            f"A sample time of {1e3 * digital.sample_time:g} ms is slow for a pole {fastest:.3g} rad/s out: the digital loop "
-            f"differs from the continuous one. Sample every {1e3 * SLOW_SAMPLING / fastest:.2g} ms or faster.",
+            f"A sample time of {1e3 * digital.sample_time:g} ms is slow for a pole {fastest:.3g} rad/s out: the "
+            f"digital loop differs from the continuous one. Sample every "
+            f"{1e3 * SLOW_SAMPLING / fastest:.2g} ms or faster.",
         )
     if scenario.anti_windup == "back-calculation" and loop.has_integrators and scenario.saturation:
         tracking = scenario.tracking_time or float(np.min(loop.integral_times))
@@ -98,5 +99,6 @@ def _remarks(loop: Loop, scenario: Scenario, digital: Digital) -> Iterator[Findi
                 "fast_tracking",
                 "warning",
                 f"A tracking time of {1e3 * tracking:.3g} ms is shorter than the sample time of "
-                f"{1e3 * digital.sample_time:g} ms: at a limit the integral overshoots in every sample. Choose a longer one.",
+                f"{1e3 * digital.sample_time:g} ms: at a limit the integral overshoots in every "
+                "sample. Choose a longer one.",
             )

@@ -35,7 +35,10 @@ from .response import Response, divergence
 ABSOLUTE_TOLERANCE = 0.1
 """Absolute tolerance of the integration as a share of the relative one (states are of order 1)."""
 
-_OUTCOMES = {1: "it takes too many steps; shorten the duration or loosen the tolerance", 2: "it switches between limits without end"}
+_OUTCOMES = {
+    1: "it takes too many steps; shorten the duration or loosen the tolerance",
+    2: "it switches between limits without end",
+}
 
 
 @dataclass(frozen=True)
@@ -193,7 +196,11 @@ def _remarks(x: Floats, saturated: tuple[float, float], impacts: float) -> Itera
     travel = float(x[STOP])
     stop = f"±{degrees(travel):.1f}°"
     if abs(x[START]) > travel:
-        yield Finding("starts_on_stop", "warning", "The start angle lies beyond the pitch travel. The rig starts on its stop.")
+        yield Finding(
+            "starts_on_stop",
+            "warning",
+            "The start angle lies beyond the pitch travel. The rig starts on its stop.",
+        )
     if impacts:
         yield Finding("travel_stop", "warning", f"Pitch hits a stop of its travel at {stop}.")
     if abs(x[REFERENCE]) > travel:

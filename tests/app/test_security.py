@@ -71,7 +71,9 @@ def test_every_answer_carries_the_safe_headers(client, path: str, status: int):
 def test_pages_load_from_their_own_origin_and_run_nothing_inline(client, path: str):
     reply = client.get(path)
     policy = directives(reply.headers["content-security-policy"])
-    report = {policies.hash_source(STYLE.encode())} if path == "/" else set()  # opened from a blob, it inherits this
+    report = (
+        {policies.hash_source(STYLE.encode())} if path == "/" else set()
+    )  # opened from a blob, it inherits this
     assert policy["script-src"] == policy["connect-src"] == {"'self'"}
     assert policy["style-src"] == {"'self'"} | report
     assert "unsafe" not in str(policy)

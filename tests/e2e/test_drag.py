@@ -292,7 +292,9 @@ def verdicts_are_those_of_the_table(page: Page) -> None:
     settled(page)
     crossed = []
     for pair, axis in (("pitch", "theta"), ("yaw", "psi")):
-        cells = [page.get_by_test_id(f"metric-{name}-{axis}").text_content() for name in ("settling", "overshoot")]
+        cells = [
+            page.get_by_test_id(f"metric-{name}-{axis}").text_content() for name in ("settling", "overshoot")
+        ]
         missed = any(cell.startswith("✕") for cell in cells)
         expect(page.get_by_test_id(f"verdict-{pair}")).to_contain_text("✕" if missed else "✓")
         if cells[0].startswith("✕"):

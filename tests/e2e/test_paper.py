@@ -45,7 +45,9 @@ def test_everything_of_the_reply_is_shown(page: Page, app: App):
     reproduced = sum(n["verdict"] == "reproduced" for n in paper["numbers"])
     differ = sum(n["verdict"] == "differs" for n in paper["numbers"])
     tally = page.get_by_test_id("paper-tally").inner_text()
-    assert f"{reproduced} of {reproduced + differ}" in tally and "8 errata" in tally and "4 more places" in tally
+    assert (
+        f"{reproduced} of {reproduced + differ}" in tally and "8 errata" in tally and "4 more places" in tally
+    )
     assert "−6.128" in page.get_by_test_id("paper-consequence").inner_text()
     for figure in (
         *("fig-1-side", "fig-1-top", "fig-2-drawing", "fig-3-drawing", "fig-4-plot", "fig-5-plot"),
