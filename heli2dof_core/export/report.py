@@ -199,8 +199,8 @@ def _responses(spec: Spec, report: Report) -> Iterator[str]:
     yield f'<div class="plots">{"".join(pictures)}</div>'
     yield paragraph(
         "Thick: pitch step; thin: yaw step, each alone on the nonlinear rig. Dashed and dotted: the same by the "
-        "linear model, without limits, the trim added to its voltages, where it fits in the picture. Grey: references "
-        "and voltage limits.",
+        "linear model, without limits, the trim added to its voltages, where it fits in the picture. Grey: "
+        "references and voltage limits.",
         "about",
     )
 
