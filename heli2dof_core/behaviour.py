@@ -116,8 +116,8 @@ def _on_slow_poles(loop: Loop) -> Iterator[Finding]:
             "slow_pole",
             "warning",
             f"The integral action adds a slow pole at {number(slowest, 2)} rad/s, {min(placed / slowest, 999):.0f} "
-            f"times slower than the slowest placed pole. The last of an error takes about {number(-4 / slowest, 2)} s "
-            "to decay. Tune the loops for these poles.",
+            f"times slower than the slowest placed pole. The last of an error takes about "
+            f"{number(-4 / slowest, 2)} s to decay. Tune the loops for these poles.",
         )
 
 

@@ -162,7 +162,7 @@ def test_tables_hold_the_numbers_and_fit():
     assert "Niederlinski" in run("rga").stdout
     robust = run("robustness", "--rigs", "600")
     assert "600 of 600 rigs" in robust.stdout and "rigs" not in robust.stderr
-    paper = run("paper").stdout
+    paper = " ".join(run("paper").stdout.split())
     assert (
         "8 errata are confirmed" in paper
         and "4 places are unclear" in paper
