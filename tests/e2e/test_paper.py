@@ -39,6 +39,8 @@ def test_everything_of_the_reply_is_shown(page: Page, app: App):
     for standing, list_id in (("confirmed", "errata"), ("unclear", "unclear")):
         listed = page.get_by_test_id(list_id).locator("a").evaluate_all("all => all.map((a) => a.hash)")
         assert listed == [f"#erratum-{e['name']}" for e in paper["errata"] if e["standing"] == standing]
+    symbols = page.locator("[data-testid=symbol-list] dt").all_text_contents()
+    assert len(symbols) == len(paper["symbols"]) and not [text for text in symbols if "(" in text]
     for i, j in [(i, j) for i in (1, 2) for j in (1, 2, 3, 4)]:
         assert "reproduced" in page.get_by_test_id(f"paper-number-k_{i}{j}").inner_text()
     assert page.locator("[data-verdict]").count() == len(paper["numbers"])
