@@ -63,7 +63,7 @@ def require_controllable(parameters: Parameters) -> None:
     """Raises UncontrollableError if γ = 0: the motors' torques are parallel."""
     if parameters.independence <= NEGLIGIBLE:
         raise UncontrollableError(
-            "the rig is not controllable: K_pp K_yy = K_py K_yp, so both motors push alike",
+            "the rig is not controllable: K_pp K_yy = K_py K_yp, so both motors act alike",
             field="parameters",
             value=parameters.gamma,
             hint="Change one thrust constant so that K_pp K_yy and K_py K_yp differ.",

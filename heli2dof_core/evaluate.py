@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from .behaviour import Experiment, behaviour_remarks
 from .couplings import Coupling, Lead, Structure
 from .design import FULL_RANK, Design, design
 from .errors import InvalidInputError
@@ -191,6 +192,7 @@ class Report(Shown):
     loop: Loop
     margins: tuple[Margins, Margins] | None
     sensitivity: Sensitivity | None
+    _spec: Spec
     _courses: Courses
     _alone: tuple[str, ...]
     _nonlinear: tuple[Step, ...]
@@ -209,8 +211,9 @@ class Report(Shown):
     def findings(self) -> tuple[Finding, ...]:
         """All remarks, the gravest first."""
         own = (self.design.findings, self.loop.findings, self.interaction.findings)
-        steps = [step for steps in (self.step, *self.axis_steps.values()) for step in steps.values()]
-        return merged(*own, *(step.response.findings for step in steps))
+        experiments = (self.step, *self.axis_steps.values())
+        steps = [step for both in experiments for step in both.values()]
+        return merged(*own, *(step.response.findings for step in steps), self._behaviour(experiments))
 
     def summary(self) -> str:
         """Stability, size of K and the rig's step."""
@@ -229,6 +232,13 @@ class Report(Shown):
             *self.step["nonlinear"].tables(),
             *((Table.of("findings", ("", "what"), findings),) if self.findings else ()),
         )
+
+    def _behaviour(self, experiments: Iterable[Mapping[Model, Step]]) -> tuple[Finding, ...]:
+        pairs = [
+            Experiment(*((each[model].response, each[model].metrics) for model in ("linear", "nonlinear")))
+            for each in experiments
+        ]
+        return behaviour_remarks(self.loop, self._spec.limits, self._spec.scenario, self.margins, pairs)
 
     def _both(self, n: int) -> dict[Model, Step]:
         nonlinear = self._nonlinear[n] if self._nonlinear else self._step(n, "nonlinear")
@@ -288,6 +298,7 @@ def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = No
         loop,
         loop_margins(loop),
         loop_sensitivity(loop),
+        spec,
         courses,
         tuple(scenarios)[1:],
         nonlinear,

@@ -96,7 +96,8 @@ def _remarks(loop: Loop, scenario: Scenario, digital: Digital) -> Iterator[Findi
             "slow_sampling",
             "warning",
             f"A sample time of {1e3 * digital.sample_time:g} ms is slow for a pole {fastest:.3g} rad/s out: the "
-            f"digital loop is not like the continuous one. Below {1e3 * SLOW_SAMPLING / fastest:.2g} ms it would be.",
+            f"digital loop differs from the continuous one. Sample every "
+            f"{1e3 * SLOW_SAMPLING / fastest:.2g} ms or faster.",
         )
     if scenario.anti_windup == "back-calculation" and loop.has_integrators and scenario.saturation:
         tracking = scenario.tracking_time or float(np.min(loop.integral_times))
@@ -105,5 +106,6 @@ def _remarks(loop: Loop, scenario: Scenario, digital: Digital) -> Iterator[Findi
                 "fast_tracking",
                 "warning",
                 f"A tracking time of {1e3 * tracking:.3g} ms is shorter than the sample time of "
-                f"{1e3 * digital.sample_time:g} ms: at a limit the integral overshoots with every sample.",
+                f"{1e3 * digital.sample_time:g} ms: at a limit the integral overshoots in every "
+                "sample. Choose a longer one.",
             )

@@ -67,7 +67,7 @@ def test_the_aeros_user_is_told_that_the_rga_advises_against_the_diagonal_pairin
     assert report.interaction.niederlinski == pytest.approx(1 / 0.299, rel=2e-3)
     advice = next(f for f in report.findings if f.code == "pairing_cross")
     assert advice.severity == "warning"
-    assert "not unstable" in advice.message
+    assert "does not make diagonal pairing unstable" in advice.message
     assert report.loop.stable
 
 

@@ -10,7 +10,8 @@ import pytest
 from heli2dof_core.couplings import Structure
 from heli2dof_core.paper.consequence import consequence
 from heli2dof_core.paper.equations import EQUATIONS
-from heli2dof_core.paper.errata import ERRATA
+from heli2dof_core.paper.errata import CONFIRMED, ERRATA
+from heli2dof_core.paper.evidence import EVIDENCE
 from heli2dof_core.paper.figures import figures
 from heli2dof_core.paper.glossary import TERMS
 from heli2dof_core.paper.proofs import christoffel
@@ -28,6 +29,18 @@ def test_every_erratum_is_proved(erratum):
     assert proof.holds
     assert proof.correct != proof.printed
     assert erratum.why and erratum.effect
+
+
+@pytest.mark.parametrize("erratum", CONFIRMED, ids=lambda e: e.name)
+def test_what_is_called_an_erratum_shows_in_the_papers_own_numbers(erratum):
+    assert erratum.evidence.shows()
+    assert "our copy" not in erratum.why.lower()
+
+
+def test_what_no_printed_number_shows_is_unclear_in_our_copy():
+    assert set(EVIDENCE) <= {erratum.name for erratum in ERRATA}
+    unclear = [erratum.name for erratum in ERRATA if erratum not in CONFIRMED]
+    assert unclear == ["kinetic-energy", "christoffel", "row-denominators", "units"]
 
 
 def test_nothing_numbered_is_left_out():

@@ -101,13 +101,13 @@ def test_what_a_field_cannot_mean_is_told_there_and_what_the_server_refuses_is_m
     for text, complaint in (
         ("0", "must be positive"),
         ("2000", "0.10 to 1000"),
-        ("fast", "a number, please"),
+        ("fast", "enter a number"),
     ):
         field.fill(text)
         expect(page.locator("#experiment-sample-time-error")).to_have_text(complaint)
     counts = page.get_by_test_id("experiment-encoder-theta")
     counts.fill("4096.5")
-    expect(page.locator("#experiment-encoder-theta-error")).to_have_text("a whole number, please")
+    expect(page.locator("#experiment-encoder-theta-error")).to_have_text("enter a whole number")
     counts.press("Enter")
     expect(counts).to_have_value("")
     assert scenario(page)["digital"] == {}
@@ -254,7 +254,7 @@ def test_what_limits_cost_stands_beside_the_linear_model(page: Page, app: App):
     page.get_by_test_id("experiment").click()
     page.get_by_test_id("experiment-saturation").uncheck()
     until(page, "s.saturation === false")
-    expect(page.get_by_test_id("findings")).to_contain_text("here the motors know no limits")
+    expect(page.get_by_test_id("findings")).to_contain_text("Voltage limits are off")
 
 
 @pytest.mark.parametrize("size", [(1280, 800), (1920, 1080)])

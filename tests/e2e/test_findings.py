@@ -48,13 +48,37 @@ def test_saturation_leads_to_its_plot_and_a_slow_sample_time_opens_its_field(pag
 
 
 def test_a_missed_requirement_is_in_the_summary_and_leads_to_its_pole(page: Page):
-    page.get_by_test_id("require-settling").fill("0.44")
+    page.get_by_test_id("require-settling").fill("0.78")
     finding = page.locator("#strip .list [data-code=requirement_missed] button")
-    expect(finding).to_contain_text("yaw 4 too slow")
+    expect(finding).to_contain_text("Requirement missed: the yaw step settles in 0.85 s.")
     finding.click()
     expect(page.get_by_test_id("pole-3")).to_be_focused()
     page.get_by_test_id("require-settling").fill("2")
     expect(finding).to_have_count(0)
+
+
+def test_an_unwise_design_is_not_green(page: Page):
+    expect(page.get_by_test_id("findings")).to_contain_text("No warnings.")
+    entered(page, "pole-field-0", "-900")
+    until(page, "s.findings.includes('high_gain') && s.findings.includes('short_delay_margin')")
+    expect(page.get_by_test_id("verdict")).to_have_class("verdict stable uneasy")
+    expect(page.get_by_test_id("remark-loops")).to_have_text("▲ slow")
+    assert {"slow_pole", "not_settled"} <= set(state(page)["findings"])
+
+
+def test_figures_of_another_design_are_dimmed_where_the_present_one_cannot_be_computed(page: Page):
+    dimmed = "(e) => Number(getComputedStyle(e).opacity) < 0.6"
+    places = ("[data-testid=metrics]", "[data-testid=k-matrix]", "#plots", "[data-testid=loop-poles]")
+    page.get_by_test_id("method").select_option("ackermann")
+    problem = "JSON.parse(document.documentElement.dataset.state).problem"
+    page.wait_for_function(f"() => {problem} === 'method_unavailable'")
+    for place in places:
+        assert page.locator(f"{place}, :has(> {place})").evaluate_all(f"all => all.some({dimmed})"), place
+    expect(page.get_by_test_id("verdict")).to_contain_text("last computed design")
+    page.get_by_test_id("method").select_option("full-rank/triangular/pitch")
+    until(page, "s.problem === null && s.settled")
+    for place in places:
+        assert not page.locator(f"{place}, :has(> {place})").evaluate_all(f"all => all.some({dimmed})"), place
 
 
 # The page's first frame comes before its first design: what fails there must still be told afterwards.

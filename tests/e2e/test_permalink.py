@@ -137,7 +137,7 @@ def test_a_link_restores_requirements(page: Page, app: App):
     reopened(page, link)
     expect(page.get_by_test_id("require-settling")).to_have_value("0.4")
     expect(page.get_by_test_id("require-overshoot")).to_have_value("")
-    expect(page.get_by_test_id("requirements-verdict")).to_have_text("✕ 3, 4")
+    expect(page.get_by_test_id("requirements-verdict")).to_have_text("✕ pitch, yaw")
     assert page.get_by_test_id("forbidden-settling").count() == 1
     page.get_by_test_id("require-settling").fill("")
     page.wait_for_function("() => !location.hash.includes('req.')")

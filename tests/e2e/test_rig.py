@@ -101,7 +101,7 @@ def test_what_no_rig_can_have_is_told_at_its_field_or_where_the_server_finds_it(
     for testid, text, complaint in (
         ("rig-J_p", "0", "1.0e−9 to 1.0e6"),
         ("rig-B_p", "-1", "0.00 to 1.0e6"),
-        ("rig-m", "heavy", "a number, please"),
+        ("rig-m", "heavy", "enter a number"),
         ("rig-limit-theta", "200", "0.057 to 183"),
     ):
         page.get_by_test_id(testid).fill(text)

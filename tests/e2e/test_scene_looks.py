@@ -155,7 +155,7 @@ def test_without_graphics_the_page_says_so_and_everything_else_works(chromium: B
     flags = ["--no-sandbox", "--disable-gpu", "--disable-software-rasterizer"]
     with launched(chromium.browser_type, *flags) as browser, opened(browser, app.url, moving=True) as page:
         expect(page.get_by_test_id("scene-notice")).to_have_text(
-            "This browser shows no WebGL, so the rig stays unseen. All else works."
+            "This browser has no WebGL, so the 3D view is off. Everything else works."
         )
         assert page.locator("iframe").count() == 0
         expect(page.get_by_test_id("camera")).to_have_count(0)

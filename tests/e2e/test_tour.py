@@ -36,6 +36,16 @@ def test_the_tour_comes_once_leads_through_five_steps_and_blocks_nothing(chromiu
         assert "main.js" in asked and "tour.js" not in asked
 
 
+def test_who_has_moved_a_pole_finds_no_tour_at_the_next_visit(chromium: Browser, app: App):
+    with visit(chromium, app, tour=True) as page:
+        expect(page.get_by_test_id("tour")).to_contain_text("1 of 5")
+        page.get_by_test_id("pole-0").focus()
+        page.keyboard.press("ArrowLeft")
+        settled(page)
+        expect(page.get_by_test_id("tour")).to_be_visible()  # it goes on where it is
+        assert page.evaluate("localStorage.getItem('heli2dof.tour')") == "done"
+
+
 def test_the_tour_by_keyboard_from_the_header(chromium: Browser, app: App):
     with opened(chromium, app.url) as page:
         button = page.get_by_test_id("tour-open")

@@ -19,12 +19,12 @@ test("an equation's anchor and its name in the contents follow from its number",
 test("the tally counts verdicts and proofs", () => {
   const paper = {
     numbers: [..."rrdgg"].map((c) => ({ verdict: { r: "reproduced", d: "differs", g: "given" }[c] })),
-    errata: [{ proof: { holds: true } }, { proof: { holds: false } }],
+    errata: [{ standing: "confirmed", proof: { holds: true } }, { standing: "confirmed", proof: { holds: false } }, { standing: "unclear", proof: { holds: true } }],
     equations: [{ status: "corrected" }, { status: "corrected" }, { status: "explained" }],
   };
   const c = countsOf(/** @type {any} */ (paper));
   assert.deepEqual([c.reproduced, c.derivable, c.differs, c.given, c.numbers], [2, 3, 1, 2, 5]);
-  assert.deepEqual([c.errata, c.proofs], [2, 1]);
+  assert.deepEqual([c.errata, c.unclear, c.proofs], [2, 1, 2]);
   assert.deepEqual(c.status, { corrected: 2, explained: 1 });
 });
 

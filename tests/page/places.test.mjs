@@ -4,7 +4,6 @@ import { test } from "node:test";
 
 import { placeBeside, stepIn } from "../../static/popup.js";
 import { readoutPlace } from "../../static/splane_readout.js";
-import { toPixel } from "../../static/splane_math.js";
 
 let seed = 7;
 const drawn = (low, high) => low + (high - low) * ((seed = (seed * 16807) % 2147483647) / 2147483647);
@@ -50,17 +49,24 @@ test("arrow keys walk through a grid as it is seen", () => {
   assert.deepEqual(["ArrowUp", "ArrowDown"].map((key) => stepIn(touching, 4, key)), [1, 6]);
 });
 
-test("a pole's lines stand clear of it, within the picture's width, on the side where there is room", () => {
+test("a pole's lines stand clear of it and within the plane, above it wherever there is room", () => {
+  const [width, height] = [190, 110];
+  let sides = [0, 0, 0];
   for (const unit of [1, 1.7]) {
-    const view = { cx: -5, cy: 2, scale: 20, width: 600, height: 400 };
-    for (let k = 0; k < 200; k++) {
-      const p = { re: drawn(-19, 9), im: drawn(-7, 11) };
-      const [x, y] = toPixel(view, p).map((v) => v * unit);
-      const { left, edge, below } = readoutPlace(view, p, unit, 190);
-      assert.ok(left >= 4 && left + 190 <= 600 * unit - 4 + 1e-9);
-      if (x + 24 * unit + 190 <= 600 * unit - 4) assert.ok(Math.abs(left - x - 24 * unit) < 1e-9);
-      assert.ok(Math.abs(edge - y - (below ? 26 : -26) * unit) < 1e-9);
-      assert.equal(below, y < 100 * unit, "below in the uppermost quarter alone");
+    for (const [plane, tall] of [[600, 400], [300, 180]]) {
+      for (let k = 0; k < 200; k++) {
+        const at = { x: drawn(0, plane * unit), y: drawn(0, tall * unit), width: plane * unit, height: tall * unit, unit };
+        const { left, top } = readoutPlace(at, width, height);
+        assert.ok(left >= 4 && left + width <= at.width - 4 + 1e-9);
+        assert.ok(top >= 2 && (top + height <= at.height - 2 + 1e-9 || top === 2), "all of it is seen");
+        if (at.x + 24 * unit + width <= at.width - 4) assert.ok(Math.abs(left - at.x - 24 * unit) < 1e-9);
+        const [above, below] = [at.y - 26 * unit, at.y + 26 * unit];
+        const side = top + height <= above + 1e-9 ? 0 : top >= below - 1e-9 ? 1 : 2;
+        sides[side]++;
+        assert.equal(side === 0, above - height >= 2, "above where it can");
+        if (side === 2) assert.ok(below + height > at.height - 2, "beside it where neither side has room");
+      }
     }
   }
+  assert.ok(sides.every((count) => count > 20), `each side was tried: ${sides}`);
 });
