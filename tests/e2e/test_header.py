@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser
 
-from tests.e2e.conftest import App, opened
+from tests.browser import opened
+from tests.e2e.conftest import App
 
 WIDTHS = (320, 390, 600, 760, 820, 900, 1024, 1100, 1180, 1280, 1366, 1500, 1600, 1920, 4000)
 
@@ -43,24 +44,14 @@ LOST = """() => {
 }"""
 
 
-@pytest.fixture(scope="module")
-def pages(chromium: Browser, app: App):
-    page = chromium.new_page(viewport={"width": 1280, "height": 800})
-    page.add_init_script("localStorage.setItem('heli2dof.tour', 'done')")
-    yield page
-    page.close()
-
-
 @pytest.mark.parametrize("link", ["", "#v1&lock=rig,poles,loops", "?projector"])
-def test_no_control_lies_over_another_at_any_width(pages: Page, app: App, link: str):
-    pages.set_viewport_size({"width": 1280, "height": 800})
-    pages.goto("about:blank")
-    opened(pages, app.url + link)
-    for lost in (False, True):
-        if lost:
-            pages.evaluate(LOST)
-        for width in WIDTHS:
-            pages.set_viewport_size({"width": width, "height": 900})
-            found = pages.evaluate(LAID_OUT)
-            assert found["count"] >= 14, (width, found)
-            assert not found["wrong"], (width, lost, found["wrong"])
+def test_no_control_lies_over_another_at_any_width(chromium: Browser, app: App, link: str):
+    with opened(chromium, app.url + link) as page:
+        for lost in (False, True):
+            if lost:
+                page.evaluate(LOST)
+            for width in WIDTHS:
+                page.set_viewport_size({"width": width, "height": 900})
+                found = page.evaluate(LAID_OUT)
+                assert found["count"] >= 14, (width, found)
+                assert not found["wrong"], (width, lost, found["wrong"])

@@ -37,7 +37,7 @@ def test_the_tour_comes_once_leads_through_five_steps_and_blocks_nothing(chromiu
 
 
 def test_who_has_moved_a_pole_finds_no_tour_at_the_next_visit(chromium: Browser, app: App):
-    with visit(chromium, app, tour=True) as page:
+    with opened(chromium, app.url, tour=True) as page:
         expect(page.get_by_test_id("tour")).to_contain_text("1 of 5")
         page.get_by_test_id("pole-0").focus()
         page.keyboard.press("ArrowLeft")
