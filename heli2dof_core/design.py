@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from math import hypot, sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .compiled import gain
+from .compiled import gain, steady_state_inverse
 from .couplings import Structure, require_structure
 from .eigenvalues import eigenvalues
+from .engine import engine
 from .findings import Finding
 from .interop import state_space
+from .layout import POLYNOMIAL_WORKSPACE, POLYNOMIALS, ROUNDING
 from .placement.assess import eigenvector_condition
 from .placement.lqr_integral import IntegralPlacement
 from .placement.method import Task, Weights
@@ -75,7 +78,9 @@ class Design(Shown):
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """Remarks on the poles and the gain."""
-        return design_remarks(self.plant, self.poles, self.K, self.closed_loop_poles, self.pole_error)
+        found = self.poles.values if self.aims else self.closed_loop_poles.tolist()
+        own = (found, self.stable, self.steady_state_determinant != 0)
+        return design_remarks(self.plant, self.K, *own, self.pole_error)
 
     @property
     def norm(self) -> float:
@@ -98,9 +103,47 @@ class Design(Shown):
         """Ĝ(0)⁻¹, 2×2, V/rad: the voltages v that hold one radian on either axis.
 
         It equals K's first two columns minus B₂⁻¹ A₂₁ and so exists even where a closed-loop pole
-        is 0 and Ĝ(0) does not; it is then singular.
+        is 0 and Ĝ(0) does not; it is then singular. Where K has a closed form, so has this: near 0 the
+        difference of the numbers would lose the digits that decide.
         """
-        return self.K[:, :2] - self.plant.statics
+        if self.structure is None:
+            return self.K[:, :2] - self.plant.statics
+        return _closed_form(steady_state_inverse, self.plant, self.poles, self.structure)
+
+    @cached_property
+    def steady_state_determinant(self) -> float:
+        """Its determinant, the product of the poles by det B₂⁻¹; 0 where a pole of A − BK lies at 0.
+
+        Where the closed form does not tell, `ROUNDING` does.
+        """
+        poles = self.poles.values
+        (a, b), (c, d) = self.steady_state_inverse.tolist()
+        if self.aims and not all(poles):
+            return 0.0
+        if self.structure is not None:
+            d_10, _, d_20, _ = self.poles.coefficients
+            (p, q), (r, s) = self.plant.B[2:].tolist()
+            return d_10 * d_20 / (p * s - q * r)
+        (e, f), (g, h) = (np.abs(self.K[:, :2]) + np.abs(self.plant.statics)).tolist()
+        determinant = a * d - b * c
+        return determinant if abs(determinant) > ROUNDING * (e * h + f * g) else 0.0
+
+    @cached_property
+    def steady_state(self) -> Floats | None:
+        """Ĝ(0), 2×2, rad/V; None where a pole of A − BK lies at 0."""
+        if not self.steady_state_determinant:
+            return None
+        (a, b), (c, d) = self.steady_state_inverse.tolist()
+        return np.array([[d, -b], [-c, a]]) / self.steady_state_determinant
+
+    @cached_property
+    def stable(self) -> bool:
+        """Whether all poles of A − BK lie left of the imaginary axis: those asked for, or the method's own."""
+        if self.aims:
+            return all(p.real < 0 for p in self.poles.values)
+        f = np.empty(POLYNOMIALS)
+        engine().describe(self.plant.A, self.plant.B, -self.K, f)
+        return bool(engine().stable(f, np.empty(POLYNOMIAL_WORKSPACE)))
 
     def to_control(self) -> control.StateSpace:
         """The inner loop alone, Ĝ(s) (Eq. 17): v_p, v_y of u = −Kx + v to θ, ψ, V to rad, deviations.
@@ -166,7 +209,11 @@ def design(
 def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats:
     """K by the closed form that the derivation gives, 2×4."""
     require_structure(plant.parameters, structure)
+    return _closed_form(gain, plant, poles, structure)
+
+
+def _closed_form(matrix: Callable[..., Any], plant: Plant, poles: PoleSet, structure: Structure) -> Floats:
     arguments = (*poles.coefficients, *plant.parameters.as_dict().values(), plant.theta_0)
     if structure.shift is None:
-        return np.array(gain(structure)(*arguments))
-    return np.array(gain(structure.family, shifted=True)(*arguments, structure.shift))
+        return np.array(matrix(structure)(*arguments))
+    return np.array(matrix(structure.family, shifted=True)(*arguments, structure.shift))

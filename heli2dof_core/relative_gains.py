@@ -23,15 +23,30 @@ def relative_gain_array(G: ArrayLike) -> NDArray[Any]:
     where there are no more inputs than outputs.
 
     Raises:
-        InvalidInputError: G is square and singular.
+        InvalidInputError: G is square and singular, or so near it that rounding decides.
     """
     gains = np.asarray(G)
     if gains.shape[-1] != gains.shape[-2]:
         return gains * np.swapaxes(np.linalg.pinv(gains), -1, -2)
-    try:
-        return gains * np.swapaxes(np.linalg.inv(gains), -1, -2)
-    except np.linalg.LinAlgError as error:
-        raise InvalidInputError("the gain matrix is singular, so it has no RGA", field="G") from error
+    if _singular(gains):
+        raise InvalidInputError(
+            "the gain matrix is singular, so it has no RGA",
+            field="G",
+            hint="A row or a column is a sum of the others: leave out an output and an input.",
+        )
+    return gains * np.swapaxes(np.linalg.inv(gains), -1, -2)
+
+
+def _singular(gains: NDArray[Any]) -> bool:
+    """Whether any matrix of the batch has no full rank, whatever the units of its rows and columns."""
+    size = np.abs(gains)
+    for axis in (-1, -2, -1, -2):
+        largest = np.max(size, axis=axis, keepdims=True)
+        if not np.all(largest > 0):
+            return True
+        gains, size = gains / largest, size / largest
+    sizes = np.linalg.svd(gains, compute_uv=False)
+    return bool(np.any(sizes[..., -1] <= gains.shape[-1] * np.finfo(float).eps * sizes[..., 0]))
 
 
 def niederlinski_index(G: ArrayLike, pairing: tuple[int, ...] | None = None) -> float | None:

@@ -53,8 +53,6 @@ def walk_through(design: Design) -> Walkthrough:
     shift = () if structure is None or structure.shift is None else (structure.shift,)
     values = (*plant.parameters.as_dict().values(), plant.theta_0)
     T, Q, constants = construction(family, shifted=bool(shift))(*values, *shift)
-    inverse = design.steady_state_inverse
-    regular = abs(np.linalg.det(inverse)) > 1e-12 * float(np.max(np.abs(inverse))) ** 2
     steps = Walkthrough(
         constants={
             **dict(zip(("alpha", "beta_0", "gamma_", "a"), map(float, constants), strict=True)),
@@ -62,7 +60,7 @@ def walk_through(design: Design) -> Walkthrough:
         },
         controllability_matrix=_controllability_matrix(plant),
         controllability_indices=scan(plant.A, plant.B).indices,
-        G_0=np.asarray(np.linalg.inv(inverse), dtype=np.float64) if regular else None,
+        G_0=design.steady_state,
     )
     if structure is None:
         return steps

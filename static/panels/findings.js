@@ -78,11 +78,13 @@ export class FindingsPanel {
   render(state) {
     const { reply, problem } = state;
     const kind = problem ? 'refused' : !reply ? 'waiting' : reply.stable ? 'stable' : 'unstable';
-    const worst = reply ? Math.max(...reply.loop_poles.map((p) => p.re)) : NaN;
+    // in a stable loop what is not left of the axis is the integrator of a loop that is switched off
+    const poles = (reply?.loop_poles ?? []).filter((p) => !reply?.stable || p.re < 0);
+    const worst = reply ? Math.max(...poles.map((p) => p.re)) : NaN;
     this.verdict.className = `verdict ${kind}`;
     setText(this.icon, { refused: '!', waiting: '…', stable: '✓', unstable: '✕' }[kind]);
     setText(this.word, { refused: 'Not computed', waiting: 'Waiting', stable: 'Stable', unstable: 'Unstable' }[kind]);
-    setText(this.detail, !reply || problem ? '' : reply.stable ? say`slowest of ${reply.loop_poles.length} poles at Re ${fixed(worst)}` : say`worst of ${reply.loop_poles.length} poles at Re ${fixed(worst)}`);
+    setText(this.detail, !reply || problem ? '' : reply.stable ? say`slowest of ${poles.length} poles at Re ${fixed(worst)}` : say`worst of ${reply.loop_poles.length} poles at Re ${fixed(worst)}`);
 
     const findings = findingsOf(state);
     const calm = state.design?.scenario.saturation === false ? 'Nothing to object; but here the motors know no limits.' : 'Nothing to object: the motors stay within their limits.';

@@ -169,7 +169,7 @@ def check_margins(loop):
         gains, phases, _, phase_crossovers, gain_crossovers, _ = control.stability_margins(
             system, returnall=True
         )
-        finite = gains[phase_crossovers > 1e-6]
+        finite = gains[gains > 1e-9]  # an integrator's crossing at ω = 0, with a gain of 0, is none
         above, below = finite[finite > 1], finite[finite < 1]
         for own, theirs in (
             (margins.gain_margin, above.min() if len(above) else None),
