@@ -199,7 +199,9 @@ class Sensitivity(Model):
     """Sensitivity peak and disk margin at both motors at once, rad/s; what the disk margin guarantees."""
 
     peak: float = Field(description="M_S, largest singular value of S(jω); never below 1")
-    peak_frequency: float | None = Field(None, description="rad/s; left out where it is approached at infinity alone")
+    peak_frequency: float | None = Field(
+        None, description="rad/s; left out where it is approached at infinity alone"
+    )
     disk_margin: float = Field(description="α, skew 0")
     disk_frequency: float | None = Field(None, description="rad/s; left out likewise")
     gain_low: float = Field(description="lowest factor on both gains that is borne")

@@ -45,7 +45,10 @@ def gain(structure: Structure, *, shifted: bool = False) -> Callable[..., Matrix
 
 @cache
 def steady_state_inverse(structure: Structure, *, shifted: bool = False) -> Callable[..., Matrix]:
-    """f as `gain`'s → Ĝ(0)⁻¹ = K's columns of θ and ψ less B₂⁻¹ A₂₁, 2×2: here what K shares with the rig has cancelled."""
+    """F as `gain`'s → Ĝ(0)⁻¹ = K's columns of θ and ψ less B₂⁻¹ A₂₁, 2×2.
+
+    Here what K shares with the rig has cancelled, which as a difference of numbers costs digits.
+    """
     from .symbolic.full_rank import full_rank, plant
     from .symbolic.names import PARAMETERS, c, d_10, d_11, d_20, d_21, theta_0
 

@@ -79,8 +79,8 @@ class Design(Shown):
     def findings(self) -> tuple[Finding, ...]:
         """Remarks on the poles and the gain."""
         found = self.poles.values if self.aims else self.closed_loop_poles.tolist()
-        own = (found, self.stable, self.steady_state_determinant != 0)
-        return design_remarks(self.plant, self.K, *own, self.pole_error)
+        verdict = {"stable": self.stable, "steady": self.steady_state_determinant != 0}
+        return design_remarks(self.plant, self.K, found, self.pole_error, **verdict)
 
     @property
     def norm(self) -> float:
@@ -114,19 +114,19 @@ class Design(Shown):
     def steady_state_determinant(self) -> float:
         """Its determinant, the product of the poles by det B₂⁻¹; 0 where a pole of A − BK lies at 0.
 
-        Where the closed form does not tell, `ROUNDING` does.
+        So it does where the product is nothing but rounding of K (`ROUNDING`), as in the loop's own verdict.
         """
-        poles = self.poles.values
-        (a, b), (c, d) = self.steady_state_inverse.tolist()
-        if self.aims and not all(poles):
-            return 0.0
+        A, B, K = self.plant.A[2:, :2], self.plant.B[2:], self.K[:, :2]
+        (p, q), (r, s) = B.tolist()
+        (a, b), (c, d) = (B @ self.steady_state_inverse).tolist()
+        (e, f), (g, h) = (np.abs(A) + np.abs(B) @ np.abs(K)).tolist()
         if self.structure is not None:
             d_10, _, d_20, _ = self.poles.coefficients
-            (p, q), (r, s) = self.plant.B[2:].tolist()
-            return d_10 * d_20 / (p * s - q * r)
-        (e, f), (g, h) = (np.abs(self.K[:, :2]) + np.abs(self.plant.statics)).tolist()
-        determinant = a * d - b * c
-        return determinant if abs(determinant) > ROUNDING * (e * h + f * g) else 0.0
+            product = d_10 * d_20
+        else:
+            product = a * d - b * c if not self.aims or all(self.poles.values) else 0.0
+        size = abs(a) * h + e * abs(d) + abs(b) * g + f * abs(c)
+        return product / (p * s - q * r) if abs(product) > ROUNDING * size else 0.0
 
     @cached_property
     def steady_state(self) -> Floats | None:
@@ -140,7 +140,7 @@ class Design(Shown):
     def stable(self) -> bool:
         """Whether all poles of A − BK lie left of the imaginary axis: those asked for, or the method's own."""
         if self.aims:
-            return all(p.real < 0 for p in self.poles.values)
+            return self.steady_state_determinant != 0 and all(p.real < 0 for p in self.poles.values)
         f = np.empty(POLYNOMIALS)
         engine().describe(self.plant.A, self.plant.B, -self.K, f)
         return bool(engine().stable(f, np.empty(POLYNOMIAL_WORKSPACE)))

@@ -46,7 +46,8 @@ def eigenvectors(A: Floats) -> Floats | Complexes:
 def resolvent(A: Floats, B: Floats, frequencies: Floats) -> Complexes:
     """(jωI − A)⁻¹ B at `frequencies` ω (rad/s), shape (n, rows of A, columns of B).
 
-    At an eigenvalue jω of A it does not exist; the value a few roundings beside it, which is very large, stands there.
+    At an eigenvalue jω of A it does not exist; there stands the value a few roundings beside it, which is very
+    large.
     """
     identity = np.eye(len(A))
     try:

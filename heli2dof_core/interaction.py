@@ -14,6 +14,7 @@ from .signals import INPUTS, OUTPUTS, C, Complexes, Floats
 from .spec import Pairing
 from .tables import Shown, Table, latex_matrix, number
 
+
 @dataclass(frozen=True, repr=False)
 class Interaction(Shown):
     """Interaction between the two loops at steady state.

@@ -83,7 +83,7 @@ class Loop(Shown):
 
     @cached_property
     def connected(self) -> tuple[int, ...]:
-        """The states of the loop: all but the integrals that drive no motor, as those of a PI loop whose gain is 0."""
+        """The states of the loop: all but integrals that drive no motor, as that of a PI loop whose gain is 0."""
         drives = [True] * 4 if self.integral is None else [True] * 4 + np.any(self.integral, axis=0).tolist()
         return tuple(i for i, drive in enumerate(drives) if drive)
 
@@ -184,7 +184,7 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
             AXES, (loop.outer.pitch, loop.outer.yaw), loop.integral_by_axis, strict=True
         ):
             if gains.kp == 0:
-                words = f"The {name} loop is open: its gain is 0. Its integrator drives nothing and counts for nothing."
+                words = f"The {name} loop is open: its gain is 0. Its integrator drives nothing and does not count."
                 yield Finding(f"{name}_loop_open", "warning", words)
             elif not integral.any():
                 words = f"The {name} loop does not integrate: its controller's integral reaches no motor."
@@ -211,14 +211,21 @@ def _instability(loop: Loop) -> Finding:
     crosses = slowest.real > sqrt(ROUNDING) * max(abs(loop.connected_poles))
     where = f"lies at {_words(slowest)} rad/s"
     if not crosses:
-        height = "0" if abs(slowest) <= sqrt(ROUNDING) * max(abs(loop.connected_poles)) else f"±{abs(slowest.imag):.3g}j rad/s"
+        height = (
+            "0"
+            if abs(slowest) <= sqrt(ROUNDING) * max(abs(loop.connected_poles))
+            else f"±{abs(slowest.imag):.3g}j rad/s"
+        )
         where = f"lies on the imaginary axis, at {height}"
     closed = [name for name, integral in zip(AXES, loop.integral_by_axis, strict=True) if integral.any()]
     if loop.design.integral is not None or not loop.design.stable or not closed:
         how = "unstable" if crosses else "not stable"
         return Finding("loop_unstable", "error", f"The whole loop is {how}: a pole of it {where}.")
     if len(closed) == 2:
-        loops, advice = "The PI loops make", "Lower the gains, raise the integral times, or place faster poles."
+        loops, advice = (
+            "The PI loops make",
+            "Lower the gains, raise the integral times, or place faster poles.",
+        )
     else:
         loops = f"The PI loop of {closed[0]} makes"
         advice = "Lower its gain, raise its integral time, or place faster poles."

@@ -20,15 +20,17 @@ FAR_OUT = 1e3
 
 
 def design_remarks(
-    plant: Plant, K: Floats, poles: Sequence[complex], stable: bool, steady: bool, error: float | None
+    plant: Plant, K: Floats, poles: Sequence[complex], error: float | None, *, stable: bool, steady: bool
 ) -> tuple[Finding, ...]:
     """Findings on a design.
 
     Args:
-        plant, K: the rig and its state feedback.
+        plant: the rig.
+        K: its state feedback.
         poles: those asked for, or the method's own where it chooses them (error None), rad/s.
-        stable, steady: see `Design.stable`, and whether there is a steady state.
         error: distance of the poles as computed from those asked for, rad/s.
+        stable: see `Design.stable`.
+        steady: whether there is a steady state.
     """
     on_stability = tuple(_on_stability(poles, stable, steady))
     if error is None:

@@ -148,7 +148,7 @@ def cloud_in_parts(
     system = NonlinearLoop.of(loop, spec.limits, spec.scenario)
     t = np.linspace(0.0, spec.scenario.duration, GRID)
     constants = _constants(rigs)
-    poles, stable = _stability(loop, rigs)
+    stability = _stability(loop, rigs)
     angles, within = np.empty((len(rigs), 2, GRID)), np.empty(len(rigs))
     kernels = engine()
 
@@ -169,13 +169,14 @@ def cloud_in_parts(
                 last = min(first + SLICE, end)
                 middle = (first + last) // 2
                 list(pool.map(respond, (first, middle), (middle, last)))
-            yield _summary(t, poles, stable, angles, within, end)
+            yield _summary(t, stability, angles, within, end)
             begin, size = end, 2 * size  # so that all summaries together cost as much as the last
 
 
 def _summary(
-    t: Floats, poles: Complexes, stable: Floats, angles: Floats, within: Floats, done: int
+    t: Floats, stability: tuple[Complexes, Floats], angles: Floats, within: Floats, done: int
 ) -> Cloud:
+    poles, stable = stability
     finite = np.all(np.isfinite(angles[:done]), axis=(1, 2))
     kept = angles[:done][finite]
     bands = np.percentile(kept, PERCENTILES, axis=0) if len(kept) else np.zeros((3, 2, len(t)))

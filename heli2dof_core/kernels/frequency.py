@@ -1,8 +1,8 @@
 """The margins of each motor's loop: every crossing of the unit circle and of the real axis, ω = 0 among them.
 
-S = (I + L)⁻¹ = I − N M⁻¹ B, with the matrices of `polynomials`. With motor i's loop alone opened, L_i = 1/S_ii − 1 =
-(p_c − p_i)/p_i: p_c = det M, p_i the same with that motor opened. Both are monic and of one degree, so that L_i(∞) = 0:
-at infinity nothing crosses.
+S = (I + L)⁻¹ = I − N M⁻¹ B, with the matrices of `polynomials`. With motor i's loop alone opened, L_i = 1/S_ii − 1
+= (p_c − p_i)/p_i: p_c = det M, p_i the same with that motor opened. Both are monic and of one degree, so that
+L_i(∞) = 0: at infinity nothing crosses.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def margins(f, p, table):
 
 @kernel
 def gain_margins(p, x, touches, table, motor):
-    """What a crossing of the real axis at ω² = x says: with the factor k on the motor's gain p_i + k (p_c − p_i) is 0."""
+    """What a crossing of the real axis at ω² = x says: with a factor k on the motor's gain p_i + k (p_c − p_i) = 0."""
     opened = at(p, EVEN, ODD, x)
     turned = opened - at(p, CLOSED_EVEN, CLOSED_ODD, x)
     size = turned.real * turned.real + turned.imag * turned.imag

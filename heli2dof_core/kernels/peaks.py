@@ -1,8 +1,8 @@
 """What the loop bears at both motors at once, over frequency: sensitivity peak and disk margin.
 
-S(jω) = I − N M⁻¹ B (see `polynomials`) is a sum of fractions with the loop's poles, so that nothing about it changes faster
-than with the distance from the nearest pole. Steps of a share of that distance, from ω = 0 on, therefore see every
-maximum; each that may be the largest is then refined, and infinity, where S = I, is the last of the frequencies.
+S(jω) = I − N M⁻¹ B (see `polynomials`) is a sum of fractions with the loop's poles, so that nothing about it changes
+faster than with the distance from the nearest pole. Steps of a share of that distance, from ω = 0 on, therefore see
+every maximum; each that may be the largest is then refined, and infinity, where S = I, is the last of the frequencies.
 """
 
 from __future__ import annotations
@@ -69,9 +69,9 @@ def largest_singular_value(a, b, c, d):
 
 @kernel
 def structured(a, b, c, d):
-    """μ of [[a, b], [c, d]] for two scalars: its largest singular value after the diagonal scaling that makes it smallest.
+    """μ of [[a, b], [c, d]] for two scalars: its largest singular value after the best diagonal scaling.
 
-    That scaling makes both entries beside the diagonal equally large.
+    The best is that which makes both entries beside the diagonal equally large.
     """
     above, below = squared(b), squared(c)
     if above == 0.0 or below == 0.0:

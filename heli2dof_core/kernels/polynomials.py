@@ -1,9 +1,10 @@
 """Real polynomials as arrays of coefficients, lowest power first; and the loop as matrices of them.
 
-With the angles q alone as unknowns, rig and law are 2×2 matrices of polynomials, D(s) q = B u and u = −N(s) q. A column
-of both is multiplied by s where that axis' error is integrated and the integral drives a motor: an integrator that drives
-nothing is no part of the loop and leaves no trace. The loop's polynomial is det M, M = D + B N, without eigenvectors,
-so that repeated poles do no harm. Beside each sum stand the sizes of its terms: they tell what is rounding (`ROUNDING`).
+With the angles q alone as unknowns, rig and law are 2×2 matrices of polynomials, D(s) q = B u and u = −N(s) q. A
+column of both is multiplied by s where that axis' error is integrated and the integral drives a motor: an integrator
+that drives nothing is no part of the loop and leaves no trace. The loop's polynomial is det M, M = D + B N, without
+eigenvectors, so that repeated poles do no harm. Beside each sum stand the sizes of its terms: they tell what is
+rounding (`ROUNDING`).
 """
 
 from __future__ import annotations
@@ -57,13 +58,18 @@ def close(f, opened):
 
 @kernel
 def determinant(f, r, sizes):
-    """Det M, of degree 6 at most, into r, and the sizes of its terms; what is rounding becomes 0."""
+    """Det M, of degree 6 at most, into r, and the sizes of its terms; what is rounding becomes 0.
+
+    What rounding makes of a product is either factor by the rounding of the other.
+    """
     for k in range(len(r)):
         total = size = 0.0
         for i in range(max(0, k - 3), min(k, 3) + 1):
             j = k - i
-            total += f[0, 0, M + i] * f[1, 1, M + j] - f[0, 1, M + i] * f[1, 0, M + j]
-            size += f[0, 0, SIZE + i] * f[1, 1, SIZE + j] + f[0, 1, SIZE + i] * f[1, 0, SIZE + j]
+            a, b, c, d = f[0, 0, M + i], f[0, 1, M + i], f[1, 0, M + j], f[1, 1, M + j]
+            total += a * d - b * c
+            size += abs(a) * f[1, 1, SIZE + j] + f[0, 0, SIZE + i] * abs(d)
+            size += abs(b) * f[1, 0, SIZE + j] + f[0, 1, SIZE + i] * abs(c)
         r[k] = total if abs(total) > ROUNDING * size else 0.0
         sizes[k] = size
 
@@ -120,8 +126,8 @@ def positive_roots(p, sizes, chain, roots, before):
     """All x > 0 where p changes its sign, in order, into `roots`, then those where it may touch 0; both numbers.
 
     Between two neighbouring roots of its derivative a polynomial is monotonic, so a change of sign there
-    holds exactly one root: found so for all derivatives in turn, none can be missed. It may touch 0 where an extremum is
-    nothing but rounding, as `sizes` tell it. Scratch: `chain` and `before`, as long as p.
+    holds exactly one root: found so for all derivatives in turn, none can be missed. It may touch 0 where an
+    extremum is nothing but rounding, as `sizes` tell it. Scratch: `chain` and `before`, as long as p.
     """
     top = len(p) - 1
     while top > 0 and p[top] == 0.0:

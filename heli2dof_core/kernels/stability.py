@@ -24,7 +24,7 @@ def stable(f, p):
 
 @kernel
 def hurwitz(a, sizes, upper, lower):
-    """Whether all roots of a, monic with coefficients that are known to `ROUNDING` of their `sizes`, lie left of the axis.
+    """Whether all roots of a, monic, lie left of the axis, its coefficients known to `ROUNDING` of their `sizes`.
 
     To these intervals comes a shift of the axis by `ROUNDING` of the scale, which changes aₖ by (k + 1) aₖ₊₁ of it.
     """

@@ -8,7 +8,17 @@ from fractions import Fraction
 import mpmath
 import numpy as np
 
-from heli2dof_core import PRESETS, Heli2DofError, OuterLoop, PIGains, PoleSet, Spec, Structure, close_loop, place
+from heli2dof_core import (
+    PRESETS,
+    Heli2DofError,
+    OuterLoop,
+    PIGains,
+    PoleSet,
+    Spec,
+    Structure,
+    close_loop,
+    place,
+)
 
 STRUCTURES = (
     Structure("triangular", "pitch"),
@@ -77,7 +87,9 @@ def _pair(rng, edges):
 def _outer(rng, own, edges):
     def gains(pi):
         off = edges and rng.random() < 0.15
-        return PIGains(0.0 if off else pi.kp * 10 ** rng.uniform(-1.5, 0.3), pi.ti * 10 ** rng.uniform(-0.3, 1))
+        return PIGains(
+            0.0 if off else pi.kp * 10 ** rng.uniform(-1.5, 0.3), pi.ti * 10 ** rng.uniform(-0.3, 1)
+        )
 
     kind = "none" if rng.random() < 0.4 else "pi"
     crossed, decoupled = rng.random() < 0.15, rng.random() < 0.2

@@ -5,9 +5,9 @@ from __future__ import annotations
 import control
 import numpy as np
 import pytest
+from heli2dof_core.interpreted.polynomials import positive_roots
 
 from heli2dof_core import Spec, evaluate
-from heli2dof_core.interpreted.polynomials import positive_roots
 from heli2dof_core.margins import loop_margins
 from tests.core.random_loops import opened, random_stable_loops
 
@@ -20,10 +20,14 @@ def test_margins_of_500_random_loops_are_python_controls():
             A, b, c = opened(loop, motor)
             system = control.ss(A, b[:, None], -c[None], 0)
             gains, phases, _, crossings, crossovers, _ = control.stability_margins(system, returnall=True)
-            gains, crossings = gains[gains > 1e-7], crossings[gains > 1e-7]
+            gains, crossings = (
+                gains[gains > 1e-6],
+                crossings[gains > 1e-6],
+            )  # with an integrator, some 1e-8 at ω = 0
             above, below = gains[gains > 1], gains[gains < 1]
             theirs = above.min() if len(above) else None, below.max() if len(below) else None
             found = own.gain_margin, own.gain_reduction_margin
+            found = tuple(gain if gain is None or gain > 1e-6 else None for gain in found)
             assert found == tuple(None if gain is None else pytest.approx(gain, rel=1e-4) for gain in theirs)
             at_zero += any(crossings[gains == gain] < 1e-6 for gain in theirs if gain is not None)
             lags = np.radians(phases % 360)
@@ -45,7 +49,9 @@ def test_gains_within_the_margins_keep_500_random_loops_stable_and_the_margins_d
             scale = max(abs(loop.connected_poles))
             for margin, far in ((own.gain_margin, 1e3), (own.gain_reduction_margin, 1e-3)):
                 factors = np.geomspace(1, margin or far, 41)
-                rightmost = np.max(np.linalg.eigvals(A + factors[:, None, None] * np.outer(b, c)).real, axis=1)
+                rightmost = np.max(
+                    np.linalg.eigvals(A + factors[:, None, None] * np.outer(b, c)).real, axis=1
+                )
                 assert np.all(rightmost[:-1] < 1e-9 * scale * max(1, margin or 1))
                 if margin is not None:
                     limited += 1
@@ -103,7 +109,9 @@ ZEROS = [
 @pytest.mark.parametrize("outer", ["none", "pi"])
 def test_poles_of_the_opened_loop_on_the_axis_are_no_crossing(name, parameters, coupling, poles, outer):
     """There L is infinite: a factor of 0 on the gain, which is no margin, and no error."""
-    report = evaluate(Spec.from_preset(name, parameters=parameters, coupling=coupling, poles=poles, outer=outer))
+    report = evaluate(
+        Spec.from_preset(name, parameters=parameters, coupling=coupling, poles=poles, outer=outer)
+    )
     assert (report.margins is None) == (not report.loop.stable)
     for own in report.margins or ():
         assert own.gain_reduction_margin is None or own.gain_reduction_margin > 1e-6

