@@ -71,7 +71,7 @@ def margins(f, p, table):
 
 @kernel
 def gain_margins(p, x, touches, table, motor):
-    """What a crossing of the real axis at ω² = x says: with a factor k on the motor's gain p_i + k (p_c − p_i) = 0."""
+    """What a crossing of the real axis at ω² = x says: with a gain factor of k, p_i + k (p_c − p_i) is 0."""
     opened = at(p, EVEN, ODD, x)
     turned = opened - at(p, CLOSED_EVEN, CLOSED_ODD, x)
     size = turned.real * turned.real + turned.imag * turned.imag

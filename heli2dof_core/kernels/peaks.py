@@ -2,7 +2,7 @@
 
 S(jω) = I − N M⁻¹ B (see `polynomials`) is a sum of fractions with the loop's poles, so that nothing about it changes
 faster than with the distance from the nearest pole. Steps of a share of that distance, from ω = 0 on, therefore see
-every maximum; each that may be the largest is then refined, and infinity, where S = I, is the last of the frequencies.
+every maximum; each that may be the largest is then refined. Infinity, where S = I, is the last of the frequencies.
 """
 
 from __future__ import annotations
