@@ -84,8 +84,10 @@ class Loop(Shown):
     @cached_property
     def connected(self) -> tuple[int, ...]:
         """The states of the loop: all but integrals that drive no motor, as that of a PI loop whose gain is 0."""
-        drives = [True] * 4 if self.integral is None else [True] * 4 + np.any(self.integral, axis=0).tolist()
-        return tuple(i for i, drive in enumerate(drives) if drive)
+        if self.integral is None:
+            return 0, 1, 2, 3
+        (a, b), (c, d) = self.integral.tolist()
+        return (0, 1, 2, 3, *((4,) if a or c else ()), *((5,) if b or d else ()))
 
     @cached_property
     def connected_poles(self) -> Complexes:
@@ -98,7 +100,7 @@ class Loop(Shown):
     def poles(self) -> Complexes:
         """All poles, rad/s: six with PI, four without; slowest first. A disconnected integrator's lies at 0."""
         apart = [0j] * (len(self.A) - len(self.connected))
-        if not apart:
+        if not apart:  # as a rule
             return self.connected_poles
         return np.array(sorted([*apart, *self.connected_poles.tolist()], key=lambda p: (-p.real, -p.imag)))
 
