@@ -201,10 +201,12 @@ class OpenLoops(Model):
 class Sensitivity(Model):
     """Sensitivity peak and disk margin at both motors at once, rad/s; what the disk margin guarantees."""
 
-    peak: float = Field(description="M_S, largest singular value of S(jω)")
-    peak_frequency: float = Field(description="rad/s")
+    peak: float = Field(description="M_S, largest singular value of S(jω); never below 1")
+    peak_frequency: float | None = Field(
+        None, description="rad/s; left out where it is approached at infinity alone"
+    )
     disk_margin: float = Field(description="α, skew 0")
-    disk_frequency: float = Field(description="rad/s")
+    disk_frequency: float | None = Field(None, description="rad/s; left out likewise")
     gain_low: float = Field(description="lowest factor on both gains that is borne")
     gain_high: float | None = Field(None, description="highest factor; left out where unlimited")
     phase: float = Field(description="change at both motors that is borne, ±rad")

@@ -44,6 +44,22 @@ def gain(structure: Structure, *, shifted: bool = False) -> Callable[..., Matrix
 
 
 @cache
+def steady_state_inverse(structure: Structure, *, shifted: bool = False) -> Callable[..., Matrix]:
+    """F as `gain`'s → Ĝ(0)⁻¹ = K's columns of θ and ψ less B₂⁻¹ A₂₁, 2×2.
+
+    Here what K shares with the rig has cancelled, which as a difference of numbers costs digits.
+    """
+    from .symbolic.full_rank import full_rank, plant
+    from .symbolic.names import PARAMETERS, c, d_10, d_11, d_20, d_21, theta_0
+
+    arguments = [d_10, d_11, d_20, d_21, *PARAMETERS.values(), theta_0, *([c] if shifted else [])]
+    A, B = plant()
+    statics = B.extract([2, 3], [0, 1]).inv().matmul(A.extract([2, 3], [0, 1]))
+    K = full_rank(structure, shifted=shifted).K.extract([0, 1], [0, 1])
+    return _compile(arguments, _physical((K - statics).to_Matrix()))
+
+
+@cache
 def construction(structure: Structure, *, shifted: bool = False) -> Callable[..., tuple[Matrix, Matrix, Any]]:
     """f(*parameters, theta_0[, c]) → T (4×4), Q (2×2), (α, β₀, γ, a), of the structure's basis."""
     from .symbolic.full_rank import full_rank
@@ -74,6 +90,7 @@ def warm_up(structures: Iterable[Structure] = (Structure(),)) -> None:
     accelerations()
     for structure in structures:
         gain(structure)
+        steady_state_inverse(structure)
 
 
 def _physical(matrix: Any) -> list[list[Any]]:

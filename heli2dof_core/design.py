@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from math import hypot, isfinite, sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .compiled import gain
+from .compiled import gain, steady_state_inverse
 from .couplings import Structure, require_structure
+from .engine import engine
 from .errors import StructureUnavailableError
 from .findings import Finding
 from .interop import state_space
+from .layout import POLYNOMIAL_WORKSPACE, POLYNOMIALS, ROUNDING
 from .placement.exact import exact_coefficients, exact_matrix, float_matrix
 from .placement.lqr_integral import IntegralPlacement
 from .placement.method import Task, Weights
@@ -27,6 +30,7 @@ from .tables import Shown, Table, latex_matrix, number, poles
 
 if TYPE_CHECKING:
     import control
+    from sympy.polys.matrices import DomainMatrix
 
 FULL_RANK = "full-rank"
 
@@ -81,7 +85,9 @@ class Design(Shown):
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """Remarks on the poles and the gain."""
-        return design_remarks(self.plant, self.poles, self.K, self.closed_loop_poles, self.pole_error)
+        found = self.poles.values if self.aims else self.closed_loop_poles.tolist()
+        verdict = {"stable": self.stable, "steady": self.steady_state_determinant != 0}
+        return design_remarks(self.plant, self.K, found, self.pole_error, **verdict)
 
     @property
     def norm(self) -> float:
@@ -104,9 +110,51 @@ class Design(Shown):
         """Ĝ(0)⁻¹, 2×2, V/rad: the voltages v that hold one radian on either axis.
 
         It equals K's first two columns minus B₂⁻¹ A₂₁ and so exists even where a closed-loop pole
-        is 0 and Ĝ(0) does not; it is then singular.
+        is 0 and Ĝ(0) does not; it is then singular. Where K has a closed form, so has this: near 0 the
+        difference of the numbers would lose the digits that decide.
         """
-        return self.K[:, :2] - self.plant.statics
+        if self.structure is None:
+            return self.K[:, :2] - self.plant.statics
+        return full_rank_steady_state_inverse(self.plant, self.poles, self.structure)
+
+    @cached_property
+    def steady_state_determinant(self) -> float:
+        """Its determinant, the product of the poles by det B₂⁻¹; 0 where a pole of A − BK lies at 0.
+
+        So it does where the product is nothing but rounding of K (`ROUNDING`), as in the loop's own verdict.
+        """
+        # plain numbers: on two by two, NumPy takes longer around a product than it takes itself
+        _, _, (p, q), (r, s) = self.plant.B.tolist()
+        (w, x), (y, z) = self.steady_state_inverse.tolist()
+        a, b, c, d = p * w + q * y, p * x + q * z, r * w + s * y, r * x + s * z
+        (i, j, _, _), (k, m, _, _) = self.K.tolist()
+        stiffness = abs(float(self.plant.A[2, 0]))
+        e, f = stiffness + abs(p * i) + abs(q * k), abs(p * j) + abs(q * m)
+        g, h = abs(r * i) + abs(s * k), abs(r * j) + abs(s * m)
+        if self.structure is not None:
+            d_10, _, d_20, _ = self.poles.coefficients
+            product = d_10 * d_20
+        else:
+            product = a * d - b * c if not self.aims or all(self.poles.values) else 0.0
+        size = abs(a) * h + e * abs(d) + abs(b) * g + f * abs(c)
+        return product / (p * s - q * r) if abs(product) > ROUNDING * size else 0.0
+
+    @cached_property
+    def steady_state(self) -> Floats | None:
+        """Ĝ(0), 2×2, rad/V; None where a pole of A − BK lies at 0."""
+        if not self.steady_state_determinant:
+            return None
+        (a, b), (c, d) = self.steady_state_inverse.tolist()
+        return np.array([[d, -b], [-c, a]]) / self.steady_state_determinant
+
+    @cached_property
+    def stable(self) -> bool:
+        """Whether all poles of A − BK lie left of the imaginary axis: those asked for, or the method's own."""
+        if self.aims:
+            return self.steady_state_determinant != 0 and all(p.real < 0 for p in self.poles.values)
+        f = np.empty(POLYNOMIALS)
+        engine().describe(self.plant.A, self.plant.B, -self.K, f)
+        return bool(engine().stable(f, np.empty(POLYNOMIAL_WORKSPACE)))
 
     def to_control(self) -> control.StateSpace:
         """The inner loop alone, Ĝ(s) (Eq. 17): v_p, v_y of u = −Kx + v to θ, ψ, V to rad, deviations.
@@ -180,30 +228,51 @@ def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats
         StructureUnavailableError: the rig has no such structure, or K is beyond the floats' range.
     """
     require_structure(plant.parameters, structure)
+    rows = _closed_form(gain, plant, poles, structure)
+    return _as_floats(_exact_gain(plant, poles, structure)) if rows is None else rows
+
+
+def full_rank_steady_state_inverse(plant: Plant, poles: PoleSet, structure: Structure) -> Floats:
+    """Ĝ(0)⁻¹ = K's columns of θ and ψ less B₂⁻¹ A₂₁, 2×2; computed, and refused, as `full_rank_gain`."""
+    rows = _closed_form(steady_state_inverse, plant, poles, structure)
+    if rows is not None:
+        return rows
+    K, A, B = _exact_gain(plant, poles, structure), exact_matrix(plant.A), exact_matrix(plant.B)
+    angles = [0, 1]
+    statics = B.extract([2, 3], angles).inv().matmul(A.extract([2, 3], angles))
+    return _as_floats(K.extract(angles, angles) - statics)
+
+
+def _closed_form(
+    matrix: Callable[..., Any], plant: Plant, poles: PoleSet, structure: Structure
+) -> Floats | None:
+    """A compiled matrix' numbers; None where floats would lose their digits, or do not reach."""
     if plant.nearly_parallel:
-        return _exact_gain(plant, poles, structure)
+        return None
     arguments = (*poles.coefficients, *plant.parameters.as_dict().values(), plant.theta_0)
     try:
         if structure.shift is None:
-            rows = gain(structure)(*arguments)
+            rows = matrix(structure)(*arguments)
         else:
-            rows = gain(structure.family, shifted=True)(*arguments, structure.shift)
+            rows = matrix(structure.family, shifted=True)(*arguments, structure.shift)
     except ArithmeticError:
-        return _exact_gain(plant, poles, structure)
-    return np.array(rows) if isfinite(sum(map(sum, rows))) else _exact_gain(plant, poles, structure)
+        return None
+    return np.array(rows) if isfinite(sum(map(sum, rows))) else None
 
 
-def _exact_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats:
+def _exact_gain(plant: Plant, poles: PoleSet, structure: Structure) -> DomainMatrix:
     from sympy import QQ
 
     from .symbolic.full_rank import member
 
     shift = None if structure.shift is None else QQ(*float(structure.shift).as_integer_ratio())
     polynomials = [exact_coefficients(pair) for pair in (poles.values[:2], poles.values[2:])]
+    return member(exact_matrix(plant.A), exact_matrix(plant.B), structure, polynomials, shift).K
+
+
+def _as_floats(matrix: DomainMatrix) -> Floats:
     try:
-        return float_matrix(
-            member(exact_matrix(plant.A), exact_matrix(plant.B), structure, polynomials, shift).K
-        )
+        return float_matrix(matrix)
     except ArithmeticError as error:
         raise StructureUnavailableError(
             "the gain of this structure is too large a number for this rig",

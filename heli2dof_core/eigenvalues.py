@@ -1,4 +1,4 @@
-"""Eigenvalues and eigenvectors of small real matrices."""
+"""Eigenvalues, eigenvectors and frequency responses of small real matrices."""
 
 from __future__ import annotations
 
@@ -60,6 +60,23 @@ def spectrum(A: Floats) -> tuple[list[complex], Floats | Complexes]:
             columns[:, i] = vectors[:, i] + 1j * vectors[:, i + 1]
             columns[:, i + 1] = columns[:, i].conj()
     return values, columns
+
+
+def resolvent(A: Floats, B: Floats, frequencies: Floats) -> Complexes:
+    """(jωI − A)⁻¹ B at `frequencies` ω (rad/s), shape (n, rows of A, columns of B).
+
+    At an eigenvalue jω of A it does not exist; there stands the value a few roundings beside it, which is very
+    large.
+    """
+    identity = np.eye(len(A))
+    try:
+        return np.linalg.solve(1j * frequencies[:, None, None] * identity - A, B)
+    except np.linalg.LinAlgError:
+        beside = frequencies * (1 + _BESIDE) + _BESIDE * np.linalg.norm(A)
+        return np.linalg.solve(1j * beside[:, None, None] * identity - A, B)
+
+
+_BESIDE = 16 * np.finfo(float).eps
 
 
 def _solved(A: Floats, *, vectors: bool) -> tuple[list[float], list[float], Floats]:

@@ -69,6 +69,8 @@ class Engine:
     share_at_limit: Any
     measure: Any
     describe: Any
+    stable: Any
+    count_stable: Any
     margins: Any
     peaks: Any
 
@@ -86,7 +88,10 @@ _HOMES = {
     **dict.fromkeys(("run_recorder", "run_segments", "run_held"), "recorded"),
     "run_cloud": "cloud",
     **dict.fromkeys(("trajectories", "hold", "share_at_limit", "measure"), "measures"),
-    **dict.fromkeys(("describe", "margins", "peaks"), "frequency"),
+    "describe": "polynomials",
+    **dict.fromkeys(("stable", "count_stable"), "stability"),
+    "margins": "frequency",
+    "peaks": "peaks",
 }
 _ready: list[Engine] = []
 _lock = Lock()
@@ -151,7 +156,7 @@ def _exercise(kernels: Engine) -> None:
     K, P, F, by_reference = np.ones((2, 4)), *pairs[1:]
     integral = np.zeros((2, 2))
     settings = (PI, pairs[0], False, False)
-    kernels.close(K, fixed(integral), A, B, *settings, P, integral, F, law, by_reference, whole, driven)
+    kernels.close(K, integral, 1.0, A, B, *settings, P, integral, F, law, by_reference, whole, driven)
     x = np.zeros(EXPERIMENT)
     x[REFERENCE : START + 2], x[BOUND : STOP + 1] = (1.0, 1.0, 0.0, 0.0), 1.0
     rig, trim = fixed(c[:GAIN]), fixed(c[:2])
@@ -181,9 +186,12 @@ def _exercise(kernels: Engine) -> None:
     metrics = np.empty((2, AXIS_METRICS)), np.empty((2, MOTOR_METRICS))
     kernels.measure(t, voltages, voltages, (0.0, 0.0), (1.0, 1.0), np.zeros(2), *metrics)
     f = np.zeros(POLYNOMIALS)
-    kernels.describe(A, B, law, True, f)
-    kernels.margins(f, np.empty(POLYNOMIAL_WORKSPACE), np.empty((2, MARGINS)))
-    kernels.peaks(f, np.array([-1 + 0j]), np.empty(FREQUENCIES + 2), np.empty(SENSITIVITY))
+    p = np.empty(POLYNOMIAL_WORKSPACE)
+    kernels.describe(A, B, law, f)
+    kernels.stable(f, p)
+    kernels.count_stable(np.array([A]), np.array([B]), law, f, p, np.empty(1))
+    kernels.margins(f, p, np.empty((2, MARGINS)))
+    kernels.peaks(f, np.array([-1 + 0j]), np.empty((3, FREQUENCIES)), np.empty(SENSITIVITY))
     for name in _HOMES:
         getattr(kernels, name).disable_compile()
 

@@ -7,14 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from .design import Design
+from .eigenvalues import resolvent
 from .findings import Finding, Severity
-from .relative_gains import diagonal_dominance, relative_gain_array
+from .relative_gains import diagonal_dominance
 from .signals import INPUTS, OUTPUTS, C, Complexes, Floats
 from .spec import Pairing
 from .tables import Shown, Table, latex_matrix, number
-
-SINGULAR = 1e-12
-"""Ĝ(0)⁻¹ counts as singular when its determinant is below this share of its entries' products."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -96,25 +94,32 @@ class Interaction(Shown):
 def interaction(design: Design, pairing: Pairing = "diagonal") -> Interaction:
     """RGA = Ĝ(0) ∘ Ĝ(0)⁻ᵀ (Eq. 23; Bristol 1966), from Ĝ(0)⁻¹, which always exists; `pairing` is in use.
 
+    There is none exactly where a pole of A − BK lies at 0 (`Design.steady_state_determinant`).
+
     Of two by two gains the pairing with a relative gain above ½ is the one nearer to 1, and the only
     one with a positive Niederlinski index unless both have: the index is 1/λ₁₁, and 1/λ₁₂ crosswise.
     """
-    (a, b), (c, d) = design.steady_state_inverse.tolist()
-    determinant = a * d - b * c
-    if abs(determinant) <= SINGULAR * (abs(a * d) + abs(b * c)):
+    (a, _), (_, d) = design.steady_state_inverse.tolist()
+    determinant = design.steady_state_determinant
+    if not determinant:
         return Interaction(None, pairing)
     return Interaction(a * d / determinant, pairing)  # Ĝ(0) = adj(Ĝ(0)⁻¹)/det, so λ₁₁ = ĝ₁₁ (Ĝ⁻¹)₁₁
 
 
 def closed_loop_response(design: Design, frequencies: Floats) -> Complexes:
     """Ĝ(jω) at `frequencies` (rad/s), shape (n, 2, 2), rad/V (Eq. 17)."""
-    pencil = 1j * frequencies[:, None, None] * np.eye(4) - design.A_closed
-    return C @ np.linalg.solve(pencil, design.plant.B)
+    return C @ resolvent(design.A_closed, design.plant.B, frequencies)
 
 
 def rga_over_frequency(design: Design, frequencies: Floats) -> Complexes:
-    """RGA(jω) at `frequencies` (rad/s), shape (n, 2, 2)."""
-    return np.asarray(relative_gain_array(closed_loop_response(design, frequencies)), dtype=complex)
+    """RGA(jω) at `frequencies` (rad/s), shape (n, 2, 2); very large at a pole, where it does not exist.
+
+    Of two by two gains one entry tells all; det Ĝ may be as small as it likes, which an inverse may not.
+    """
+    G = closed_loop_response(design, frequencies)
+    straight, crosswise = G[:, 0, 0] * G[:, 1, 1], G[:, 0, 1] * G[:, 1, 0]
+    determinant = straight - crosswise
+    return np.moveaxis(np.array([[straight, -crosswise], [-crosswise, straight]]) / determinant, 2, 0)
 
 
 def dominance_over_frequency(design: Design, frequencies: Floats) -> tuple[Floats, Floats]:

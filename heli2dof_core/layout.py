@@ -44,11 +44,20 @@ DEVIATION, SHARE, HELD, OUTCOME, IMPACTS, COURSE = 0, 2, 4, 5, 6, 7
 GAIN_MARGIN, GAIN_REDUCTION_MARGIN, PHASE_MARGIN, DELAY_MARGIN, MARGINS = range(5)
 SENSITIVITY_PEAK, PEAK_FREQUENCY, DISK_MARGIN, DISK_FREQUENCY, SENSITIVITY = range(5)
 
-POLYNOMIALS = (2, 2, 16)
-"""Shape of the loop as matrices of polynomials: `kernels.frequency.describe`."""
-POLYNOMIAL_WORKSPACE = (11, 16)
-FREQUENCIES = 100
-"""Grid of the search over frequency, from a hundredth of the slowest to a hundred times the fastest pole."""
+ROUNDING = 1e-15
+"""The one tolerance of what is 0 or on the imaginary axis: a sum below this share of the sizes of its terms is 0.
+
+A, B and K are floats, each right to a few 1e-16 of the terms that it is made of, and sums of their products round as
+often again. So a coefficient of the loop's polynomial that is smaller than this has a sign by rounding alone. A pole
+at −σ counts as on the axis likewise where σ is below this share of the loop's fastest rate.
+"""
+
+POLYNOMIALS = (2, 2, 20)
+"""Shape of the loop as matrices of polynomials: `kernels.polynomials.describe`."""
+POLYNOMIAL_WORKSPACE = (13, 16)
+FREQUENCIES = 2000
+"""Most frequencies at which the sensitivity is looked at: its steps grow with the distance from the poles, so that
+fifty are common, and three pairs of poles as near the axis as `ROUNDING` allows ask for a third of these."""
 
 SENSITIVITIES = 11
 """Columns of a recorded course's derivatives: by θ, ψ, θ̇, ψ̇ at its start, then by seven parameters."""

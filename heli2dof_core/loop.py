@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from math import sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +15,7 @@ from .eigenvalues import eigenvalues
 from .engine import engine
 from .findings import Finding
 from .interop import state_space
-from .layout import OWN, PI, POLYNOMIALS, STATIC
+from .layout import OWN, PI, POLYNOMIAL_WORKSPACE, POLYNOMIALS, ROUNDING, STATIC
 from .signals import AXES, INPUTS, INTEGRALS, OUTPUTS, STATES, Complexes, Floats
 from .spec import OuterLoop
 from .tables import Shown, Table, number, poles
@@ -65,24 +66,57 @@ class Loop(Shown):
         if self.design.integral is None:
             return np.array([self.outer.pitch.ti, self.outer.yaw.ti])
         proportional = np.linalg.norm(self.design.K[:, :2], axis=0)
-        return proportional / np.linalg.norm(self.integral, axis=0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return proportional / np.linalg.norm(self.integral, axis=0)
+
+    @property
+    def integral_by_axis(self) -> Floats:
+        """What each axis' integral drives, 2×2, V/(rad·s), rows are the axes of the errors."""
+        return np.zeros((2, 2)) if self.integral is None else self.integral.T
 
     @cached_property
     def polynomials(self) -> Floats:
-        """Rig and law as 2×2 matrices of polynomials of s, (2, 2, 16), laid out as `kernels.frequency` says."""
+        """Rig and law as 2×2 matrices of polynomials of s, (2, 2, 20), laid out as `kernels.polynomials` says."""
         plant, f = self.design.plant, np.empty(POLYNOMIALS)
-        engine().describe(plant.A, plant.B, self.voltage_from_state, self.has_integrators, f)
+        engine().describe(plant.A, plant.B, self.voltage_from_state, f)
         return f
 
     @cached_property
+    def connected(self) -> tuple[int, ...]:
+        """The states of the loop: all but integrals that drive no motor, as that of a PI loop whose gain is 0."""
+        if self.integral is None:
+            return 0, 1, 2, 3
+        (a, b), (c, d) = self.integral.tolist()
+        return (0, 1, 2, 3, *((4,) if a or c else ()), *((5,) if b or d else ()))
+
+    @cached_property
+    def connected_poles(self) -> Complexes:
+        """The poles that decide on stability, rad/s: those of the connected states; slowest first."""
+        order = self.connected
+        A = self.A if len(order) == len(self.A) else self.A[np.ix_(order, order)]
+        return np.array(sorted(eigenvalues(A), key=lambda p: (-p.real, -p.imag)))
+
+    @cached_property
     def poles(self) -> Complexes:
-        """Poles of the whole loop, rad/s: six with PI, four without; slowest first."""
-        return np.array(sorted(eigenvalues(self.A), key=lambda p: (-p.real, -p.imag)))
+        """All poles, rad/s: six with PI, four without; slowest first. A disconnected integrator's lies at 0."""
+        apart = [0j] * (len(self.A) - len(self.connected))
+        if not apart:  # as a rule
+            return self.connected_poles
+        return np.array(sorted([*apart, *self.connected_poles.tolist()], key=lambda p: (-p.real, -p.imag)))
 
     @cached_property
     def stable(self) -> bool:
-        """Whether every pole of the whole loop lies left of the imaginary axis."""
-        return bool(self.poles[0].real < 0)
+        """Whether every connected pole lies left of the imaginary axis, whatever the rounding of A, B and K.
+
+        `kernels.stability` says how rounding is told; where no outer loop moves the placed poles, those asked for
+        must comply as well.
+        """
+        robust = bool(engine().stable(self.polynomials, np.empty(POLYNOMIAL_WORKSPACE)))
+        return robust and (self.design.stable or not self._poles_are_the_designs)
+
+    @property
+    def _poles_are_the_designs(self) -> bool:
+        return len(self.connected) == 4 and not self.proportional.any()
 
     def to_control(self, *, voltages: bool = False) -> control.StateSpace:
         """The whole loop: θ_ref, ψ_ref to θ, ψ, rad to rad, in deviations from the operating point.
@@ -133,40 +167,38 @@ def close_loop(design: Design, outer: OuterLoop = OuterLoop()) -> Loop:
     law, A, B = np.empty((2, order)), np.empty((order, order)), np.empty((order, 2))
     plant, cross = design.plant, outer.pairing == "cross"
     settings = (kind, gains, cross, outer.decoupler)
-    engine().close(
-        design.K, plant.statics, plant.A, plant.B, *settings, P, integral, F, law, by_reference, A, B
-    )
+    steady = (design.steady_state_inverse, design.steady_state_determinant)
+    engine().close(design.K, *steady, plant.A, plant.B, *settings, P, integral, F, law, by_reference, A, B)
     return Loop(design, outer, P, None if kind == STATIC else integral, F, law, by_reference, A, B)
 
 
 def _remarks(loop: Loop) -> Iterator[Finding]:
-    slowest = loop.poles[0]
     if loop.design.integral is not None:
         yield Finding(
             "own_integral_action",
             "info",
             "The method has its own integral action. The PI loops are not used.",
         )
-    elif loop.has_integrators:
-        if not loop.stable and np.max(loop.design.closed_loop_poles.real) < 0:
-            yield Finding(
-                "pi_unstable",
-                "error",
-                "The PI loops make the helicopter unstable: a pole of the whole loop lies at "
-                f"{_words(slowest)} rad/s, although the placed poles are stable. Lower the gains, raise the "
-                "integral times, or place faster poles.",
-            )
-        elif not loop.stable:
-            yield Finding(
-                "loop_unstable",
-                "error",
-                f"The whole loop is unstable: it has a pole at {_words(slowest)} rad/s. Place all poles in the "
-                "left half plane.",
-            )
-        for name, gains in zip(AXES, (loop.outer.pitch, loop.outer.yaw), strict=True):
+    if not loop.stable and (loop.has_integrators or loop.design.stable):
+        yield _instability(loop)
+    if loop.has_integrators and loop.design.integral is None:
+        for name, gains, integral in zip(
+            AXES, (loop.outer.pitch, loop.outer.yaw), loop.integral_by_axis, strict=True
+        ):
             if gains.kp == 0:
-                yield Finding(f"{name}_loop_open", "warning", f"The {name} loop is open: its gain is 0.")
-    damping = min((-p.real / abs(p) for p in loop.poles.tolist() if p != 0), default=1.0)
+                words = f"The {name} loop is open: its gain is 0. Its integrator drives nothing and does not count."
+                yield Finding(f"{name}_loop_open", "warning", words)
+            elif not integral.any():
+                words = f"The {name} loop does not integrate: its controller's integral reaches no motor."
+                yield Finding(f"{name}_loop_open", "warning", words)
+        if loop.outer.decoupler and not loop.design.steady_state_determinant:
+            yield Finding(
+                "no_decoupler",
+                "warning",
+                "A placed pole lies at 0: without steady state there is no static decoupler, and the PI loops act "
+                "without one. Move the pole.",
+            )
+    damping = min((-p.real / abs(p) for p in loop.connected_poles.tolist() if p != 0), default=1.0)
     if loop.stable and damping < 0.2:
         yield Finding(
             "poorly_damped",
@@ -174,6 +206,42 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
             f"The whole loop rings: its least damping ratio is {damping:.2f}. Lower the gains or raise the "
             "integral times.",
         )
+
+
+def _instability(loop: Loop) -> Finding:
+    """What the connected loops have done."""
+    slowest = loop.connected_poles[0]
+    crosses = slowest.real > sqrt(ROUNDING) * max(abs(loop.connected_poles))
+    where = f"lies at {_words(slowest)} rad/s"
+    if not crosses:
+        height = (
+            "0"
+            if abs(slowest) <= sqrt(ROUNDING) * max(abs(loop.connected_poles))
+            else f"±{abs(slowest.imag):.3g}j rad/s"
+        )
+        where = f"lies on the imaginary axis, at {height}"
+    closed = [name for name, integral in zip(AXES, loop.integral_by_axis, strict=True) if integral.any()]
+    if loop.design.integral is not None or not loop.design.stable or not closed:
+        how = "unstable" if crosses else "not stable"
+        if not loop.design.aims:
+            advice = "Change the weights."
+        else:
+            advice = "Place faster poles." if loop.design.stable else "Place all poles in the left half plane."
+        return Finding("loop_unstable", "error", f"The whole loop is {how}: a pole of it {where}. {advice}")
+    if len(closed) == 2:
+        loops, advice = (
+            "The PI loops make",
+            "Lower the gains, raise the integral times, or place faster poles.",
+        )
+    else:
+        loops = f"The PI loop of {closed[0]} makes"
+        advice = "Lower its gain, raise its integral time, or place faster poles."
+    return Finding(
+        "pi_unstable",
+        "error",
+        f"{loops} the helicopter unstable: a pole of the whole loop {where}, although the placed poles are stable. "
+        + advice,
+    )
 
 
 def _words(pole: complex) -> str:

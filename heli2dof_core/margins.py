@@ -7,6 +7,7 @@ from math import isnan
 
 import numpy as np
 
+from .eigenvalues import resolvent
 from .engine import engine
 from .layout import MARGINS, POLYNOMIAL_WORKSPACE
 from .loop import Loop
@@ -17,6 +18,9 @@ from .tables import Table, number
 @dataclass(frozen=True)
 class Margins:
     """Margins of the loop opened at one motor's input, the rest closed; None where unlimited.
+
+    Every crossing counts, those at ω = 0 too: there a factor on the gain puts a pole at 0. None is at infinity, where
+    L = 0.
 
     Attributes:
         gain_margin: smallest factor above 1 on the motor's gain that makes the loop unstable.
@@ -32,7 +36,7 @@ class Margins:
 
 
 def loop_margins(loop: Loop) -> tuple[Margins, Margins] | None:
-    """Margins at the pitch and the yaw motor; None if the whole loop is unstable.
+    """Margins at the pitch and the yaw motor; None if the whole loop is not stable.
 
     Crossings are roots of polynomials of ω² (`kernels.frequency.margins`): there is no grid, so none can
     be missed, and integrators at ω = 0, where `control.margin` reports a gain margin of 0, are none.
@@ -68,11 +72,10 @@ def open_loop_response(loop: Loop, frequencies: Floats) -> Complexes:
         frequencies: above 0, rad/s, shape (n,).
     """
     order = len(loop.A)
-    s = 1j * frequencies[:, None, None] * np.eye(order)
     B = np.zeros((order, 2))
     B[:4] = loop.design.plant.B
     response = np.empty((2, len(frequencies)), dtype=np.complex128)
     for motor, law in enumerate(loop.voltage_from_state):
         b = B[:, [motor]]
-        response[motor] = -(law @ np.linalg.solve(s - (loop.A - b * law), b))[:, 0]
+        response[motor] = -(law @ resolvent(loop.A - b * law, b, frequencies))[:, 0]
     return response

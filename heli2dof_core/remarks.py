@@ -9,8 +9,7 @@ import numpy as np
 
 from .findings import Finding
 from .plant import NEARLY_PARALLEL, Plant
-from .poles import PoleSet
-from .signals import Complexes, Floats
+from .signals import Floats
 
 COINCIDENT = 1e-6
 """Poles closer than this share of their size count as one."""
@@ -19,20 +18,26 @@ FAR_OUT = 1e3
 
 
 def design_remarks(
-    plant: Plant, poles: PoleSet, K: Floats, found: Complexes, error: float | None
+    plant: Plant, K: Floats, poles: Sequence[complex], error: float | None, *, stable: bool, steady: bool
 ) -> tuple[Finding, ...]:
-    """Findings on a design; `found` are its poles, `error` their distance from those asked for.
+    """Findings on a design.
 
-    Where the method chose its own poles (error None), the remarks are on those.
+    Args:
+        plant: the rig.
+        K: its state feedback.
+        poles: those asked for, or the method's own where it chooses them (error None), rad/s.
+        error: distance of the poles as computed from those asked for, rad/s.
+        stable: see `Design.stable`.
+        steady: whether there is a steady state.
     """
+    on_stability = tuple(_on_stability(poles, stable=stable, steady=steady, placed=error is not None))
     if error is None:
-        return (_OWN_POLES, *_on_stability(found.tolist(), placed=False), *_on_plant(plant))
-    wanted = poles.values
+        return (_OWN_POLES, *on_stability, *_on_plant(plant))
     return (
-        *_on_stability(wanted),
-        *_on_choice(plant, wanted, K),
+        *on_stability,
+        *_on_choice(plant, poles, K),
         *_on_plant(plant),
-        *_on_accuracy(wanted, error),
+        *_on_accuracy(poles, error),
     )
 
 
@@ -43,21 +48,21 @@ _OWN_POLES = Finding(
 )
 
 
-def _on_stability(poles: Sequence[complex], *, placed: bool = True) -> Iterator[Finding]:
-    if any(p.real > 0 for p in poles):
+def _on_stability(poles: Sequence[complex], *, stable: bool, steady: bool, placed: bool) -> Iterator[Finding]:
+    if any(p.real > 0 for p in poles) and not stable:
         yield Finding(
             "right_half_plane",
             "error",
             "A pole lies in the right half plane: without an outer loop the helicopter is unstable. "
             + ("Move it left of the imaginary axis." if placed else "Change the weights."),
         )
-    elif any(p.real == 0 for p in poles):
+    elif not stable:
         yield Finding(
             "imaginary_axis",
             "warning",
             "A pole lies on the imaginary axis: its motion neither grows nor decays. Move it to the left.",
         )
-    if any(p == 0 for p in poles):
+    if not steady:
         yield Finding(
             "no_steady_state",
             "warning",

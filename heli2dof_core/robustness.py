@@ -15,7 +15,7 @@ from .compiled import linear_matrices
 from .engine import engine
 from .errors import InvalidInputError
 from .evaluate import Spec, place
-from .layout import WORKSPACE
+from .layout import POLYNOMIAL_WORKSPACE, POLYNOMIALS, WORKSPACE
 from .loop import Loop, close_loop
 from .parameters import PARAMETER_INFO, Parameters
 from .plant import rig_constants
@@ -72,7 +72,7 @@ class Cloud(Shown):
 
     Attributes:
         done, samples: rigs so far, and in all.
-        loop_poles: of the whole loop, (done, 6), or 4 without integrators, rad/s.
+        loop_poles: of the whole loop, rad/s, (done, 6); fewer columns where fewer integrators drive a motor.
         t: s, (`GRID`,).
         percentiles: of the responses, % (5, 50, 95).
         envelopes: by output name, (3, `GRID`), rad, of the rigs whose responses stayed finite.
@@ -148,7 +148,7 @@ def cloud_in_parts(
     system = NonlinearLoop.of(loop, spec.limits, spec.scenario)
     t = np.linspace(0.0, spec.scenario.duration, GRID)
     constants = _constants(rigs)
-    poles = _loop_poles(loop, rigs)
+    stability = _stability(loop, rigs)
     angles, within = np.empty((len(rigs), 2, GRID)), np.empty(len(rigs))
     kernels = engine()
 
@@ -169,11 +169,14 @@ def cloud_in_parts(
                 last = min(first + SLICE, end)
                 middle = (first + last) // 2
                 list(pool.map(respond, (first, middle), (middle, last)))
-            yield _summary(t, poles, angles, within, end)
+            yield _summary(t, stability, angles, within, end)
             begin, size = end, 2 * size  # so that all summaries together cost as much as the last
 
 
-def _summary(t: Floats, poles: Complexes, angles: Floats, within: Floats, done: int) -> Cloud:
+def _summary(
+    t: Floats, stability: tuple[Complexes, Floats], angles: Floats, within: Floats, done: int
+) -> Cloud:
+    poles, stable = stability
     finite = np.all(np.isfinite(angles[:done]), axis=(1, 2))
     kept = angles[:done][finite]
     bands = np.percentile(kept, PERCENTILES, axis=0) if len(kept) else np.zeros((3, 2, len(t)))
@@ -184,7 +187,7 @@ def _summary(t: Floats, poles: Complexes, angles: Floats, within: Floats, done: 
         t=t,
         percentiles=PERCENTILES,
         envelopes={name: np.ascontiguousarray(bands[:, i]) for i, name in enumerate(("theta", "psi"))},
-        share_stable=float(np.mean(np.max(poles[:done].real, axis=1) < 0)),
+        share_stable=float(np.mean(stable[:done])),
         share_within_limits=float(np.mean(within[:done])),
     )
 
@@ -209,14 +212,17 @@ def _constants(rigs: Floats) -> Floats:
     return np.ascontiguousarray(np.column_stack(rig_constants(columns)))
 
 
-def _loop_poles(loop: Loop, rigs: Floats) -> Complexes:
-    """Poles of the nominal controller around each rig, linear, about the nominal operating point."""
+def _stability(loop: Loop, rigs: Floats) -> tuple[Complexes, Floats]:
+    """Poles of the nominal controller around each rig, linear, about the nominal operating point; 1 where stable."""
     A, B, _ = linear_matrices()(*rigs.T, loop.design.plant.theta_0)  # entries are columns, or plain numbers
     A, B = _stacked(A, len(rigs)), _stacked(B, len(rigs))
+    law, connected, stable = loop.voltage_from_state, loop.connected, np.empty(len(rigs))
     whole = np.repeat(loop.A[None], len(rigs), axis=0)
-    whole[:, :4] = B @ loop.voltage_from_state
+    whole[:, :4] = B @ law
     whole[:, :4, :4] += A
-    return np.linalg.eigvals(whole).astype(np.complex128)
+    engine().count_stable(A, B, law, np.empty(POLYNOMIALS), np.empty(POLYNOMIAL_WORKSPACE), stable)
+    poles = np.linalg.eigvals(whole[:, connected][:, :, connected]).astype(np.complex128)
+    return poles, stable
 
 
 def _stacked(rows: Sequence[Sequence[Any]], count: int) -> Floats:

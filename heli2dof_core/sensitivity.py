@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan
+from math import atan, isinf
 
 import numpy as np
 
@@ -19,17 +19,18 @@ class Sensitivity:
     Attributes:
         peak: M_S = max over ω of the largest singular value of S(jω): its inverse is the smallest
             distance to instability by an additive change of L (Skogestad & Postlethwaite 2005, 2.4.3).
-        peak_frequency: where, rad/s.
+            Never below 1, as S(j∞) = I.
+        peak_frequency: where, rad/s; None where it is approached as ω grows without bound.
         disk_margin: α of the largest disks of independent simultaneous changes of gain and phase at
             both motors that the loop bears, skew 0: 1/max μ((S − T)/2) with diagonal μ (Seiler,
             Packard & Gahinet, IEEE Control Systems 40 (2020) 78–95).
-        disk_frequency: where it is reached, rad/s.
+        disk_frequency: where it is reached, rad/s; None as above, with the largest disk margin there is, 2.
     """
 
     peak: float
-    peak_frequency: float
+    peak_frequency: float | None
     disk_margin: float
-    disk_frequency: float
+    disk_frequency: float | None
 
     @property
     def gain_range(self) -> tuple[float, float | None]:
@@ -44,7 +45,7 @@ class Sensitivity:
 
 
 def loop_sensitivity(loop: Loop) -> Sensitivity | None:
-    """Sensitivity peak and disk margin at the motors; None if the loop is unstable.
+    """Sensitivity peak and disk margin at the motors; None if the loop is not stable.
 
     For two independent complex changes μ is the largest singular value after the best diagonal scaling,
     which for two by two has a closed form: it makes both off-diagonal entries equally large.
@@ -52,5 +53,5 @@ def loop_sensitivity(loop: Loop) -> Sensitivity | None:
     if not loop.stable:
         return None
     both = np.empty(SENSITIVITY)
-    engine().peaks(loop.polynomials, loop.poles, np.empty(FREQUENCIES + 2 * len(loop.poles)), both)
-    return Sensitivity(*both.tolist())
+    engine().peaks(loop.polynomials, loop.connected_poles, np.empty((3, FREQUENCIES)), both)
+    return Sensitivity(*(None if isinf(number) else number for number in both.tolist()))

@@ -10,7 +10,7 @@ import numpy as np
 from .design import Design
 from .errors import InvalidInputError
 from .loop import Loop, close_loop
-from .signals import Complexes
+from .signals import AXES, Complexes
 from .spec import OuterLoop, PIGains
 from .tables import Shown, Table, number
 
@@ -59,18 +59,24 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
     Raises:
         InvalidInputError: a placed pole is not stable, or no gain complies.
     """
-    if np.max(design.closed_loop_poles.real) >= 0:
+    G_0 = design.steady_state
+    if not design.stable or G_0 is None:
         raise InvalidInputError(
             "PI values can be suggested for stable poles only",
             field="poles",
             hint="Place all four poles left of the imaginary axis.",
         )
-    G_0 = np.linalg.inv(design.steady_state_inverse)
     columns = (0, 1) if outer.pairing == "diagonal" else (1, 0)
     gains = []
     for axis, pair in enumerate((design.poles.values[:2], design.poles.values[2:])):
         slow, fast = sorted(pair, key=lambda p: abs(p.real))
-        static = G_0[axis, columns[axis]]
+        static = float(G_0[axis, columns[axis]])
+        if static == 0:
+            raise InvalidInputError(
+                f"no PI values exist for {AXES[axis]}: at rest the motor that its loop drives does not move it",
+                field="loops",
+                hint="Try the other pairing, or another coupling.",
+            )
         if outer.pairing == "cross" or outer.decoupler:
             static = abs(static)  # the loop sets the sign itself
         if slow.imag:
@@ -97,7 +103,8 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
 
 def _merit(loop: Loop, target: float) -> tuple[float, float]:
     """Damping up to the target first, then the decay rate of the slowest pole (rad/s)."""
-    return round(min(_least_damping(loop.poles), target), 3), -float(loop.poles[0].real)
+    poles = loop.connected_poles
+    return round(min(_least_damping(poles), target), 3), -float(poles[0].real)
 
 
 def _scaled(factor: float, kp: float, ti: float) -> PIGains:

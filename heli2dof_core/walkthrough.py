@@ -11,7 +11,6 @@ from .controllability import scan
 from .couplings import Structure
 from .design import Design
 from .plant import Plant
-from .rank import numeric_rank
 from .signals import Floats
 
 
@@ -54,8 +53,6 @@ def walk_through(design: Design) -> Walkthrough:
     shift = () if structure is None or structure.shift is None else (structure.shift,)
     values = (*plant.parameters.as_dict().values(), plant.theta_0)
     T, Q, constants = construction(family, shifted=bool(shift))(*values, *shift)
-    inverse = design.steady_state_inverse
-    regular = numeric_rank(inverse) == 2
     steps = Walkthrough(
         constants={
             **dict(zip(("alpha", "beta_0", "gamma_", "a"), map(float, constants), strict=True)),
@@ -63,7 +60,7 @@ def walk_through(design: Design) -> Walkthrough:
         },
         controllability_matrix=_controllability_matrix(plant),
         controllability_indices=scan(plant.A, plant.B).indices,
-        G_0=np.asarray(np.linalg.inv(inverse), dtype=np.float64) if regular else None,
+        G_0=design.steady_state,
     )
     if structure is None:
         return steps

@@ -105,7 +105,7 @@
  * @property {StepPair} step
  * @property {{theta?: StepPair, psi?: StepPair}} axis_steps
  * @property {Record<string, {gain_margin?: number, phase_margin?: number, delay_margin?: number}>} [margins]
- * @property {{peak: number, peak_frequency: number, disk_margin: number, gain_low: number, gain_high?: number, phase: number}} [sensitivity]
+ * @property {{peak: number, peak_frequency?: number, disk_margin: number, gain_low: number, gain_high?: number, phase: number}} [sensitivity]
  * @property {Complex[]} loop_poles
  * @property {boolean} stable
  * @property {{V_p: number, V_y: number}} trim

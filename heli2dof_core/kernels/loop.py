@@ -31,7 +31,8 @@ from .jit import kernel
 @kernel
 def close(
     K,
-    statics,
+    inverse,
+    determinant,
     A,
     B,
     kind,
@@ -48,16 +49,18 @@ def close(
 ):
     """The outer loop around u = −Kx + v: its gains, and the whole loop's matrices, into all from `proportional` on.
 
-    `statics` = B₂⁻¹ A₂₁; `gains` holds kp and kp/ti of pitch and of yaw. `kind` OWN leaves `integral` as it is.
+    `inverse` is Ĝ(0)⁻¹ and `determinant` its own, 0 where a pole of A − BK lies at 0; `gains` holds kp and kp/ti of
+    pitch and of yaw. `kind` OWN leaves `integral` as it is.
     `law` is ∂u/∂[x, z], (2, n), `by_reference` ∂u/∂r; `whole` (n, n) and `driven` (n, 2) are A and B of the loop.
     """
     for i in range(2):
         for j in range(2):
             proportional[i, j] = feedforward[i, j] = 0.0
             if kind == STATIC:
-                feedforward[i, j] = K[i, j] - statics[i, j]
+                feedforward[i, j] = inverse[i, j]
     if kind == PI:
-        mix(K, statics, gains, cross, decoupler, proportional, integral)
+        thrust = B[2, 0] * B[3, 1] - B[2, 1] * B[3, 0]
+        mix(inverse, determinant, thrust, gains, cross, decoupler, proportional, integral)
     order = law.shape[1]
     for i in range(2):
         for j in range(4):
@@ -80,21 +83,23 @@ def close(
 
 
 @kernel
-def mix(K, statics, gains, cross, decoupler, proportional, integral):
-    """Which motor each PI controller drives, and with which sign: V/rad and V/(rad·s) per error."""
-    a, b = K[0, 0] - statics[0, 0], K[0, 1] - statics[0, 1]
-    c, d = K[1, 0] - statics[1, 0], K[1, 1] - statics[1, 1]
-    determinant = a * d - b * c
+def mix(inverse, determinant, thrust, gains, cross, decoupler, proportional, integral):
+    """Which motor each PI controller drives, and with which sign: V/rad and V/(rad·s) per error.
+
+    Without steady state there is nothing to decouple, and signs are those that stable poles near 0 would give:
+    det Ĝ(0)⁻¹ is the product of the poles by the determinant of `thrust`.
+    """
     # Ĝ(0) = [[d, −b], [−c, a]]/det; only the determinant's sign matters here, and its size where decoupled
-    sign = -1.0 if determinant < 0.0 else 1.0
-    pitch, yaw = (-sign * b, -sign * c) if cross else (sign * d, sign * a)
-    size = abs(determinant) if determinant != 0.0 else 1.0
+    sign = -1.0 if (determinant if determinant != 0.0 else thrust) < 0.0 else 1.0
+    if cross:
+        pitch, yaw = -sign * inverse[0, 1], -sign * inverse[1, 0]
+    else:
+        pitch, yaw = sign * inverse[1, 1], sign * inverse[0, 0]
     for j in range(2):
         paired = pitch if j == 0 else yaw
         for i in range(2):
-            if decoupler:
-                entry = K[i, j] - statics[i, j]
-                weight = entry * abs(paired) / size
+            if decoupler and determinant != 0.0:
+                weight = inverse[i, j] * abs(paired) / abs(determinant)
             elif cross:
                 weight = 0.0 if i == j else (-1.0 if paired < 0.0 else 1.0)
             else:

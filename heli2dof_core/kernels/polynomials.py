@@ -1,27 +1,107 @@
-"""Real polynomials as arrays of coefficients, lowest power first."""
+"""Real polynomials as arrays of coefficients, lowest power first; and the loop as matrices of them.
+
+With the angles q alone as unknowns, rig and law are 2×2 matrices of polynomials, D(s) q = B u and u = −N(s) q. A
+column of both is multiplied by s where that axis' error is integrated and the integral drives a motor: an integrator
+that drives nothing is no part of the loop and leaves no trace. The loop's polynomial is det M, M = D + B N, without
+eigenvectors, so that repeated poles do no harm. Beside each sum stand the sizes of its terms: they tell what is
+rounding (`ROUNDING`).
+"""
 
 from __future__ import annotations
 
 from math import sqrt
 
+from ..layout import ROUNDING
 from .jit import kernel
 
+# f, (2, 2, 20), holds for each entry the coefficients of M, N and D, B, and the sizes of the terms of M
+M, N, D, B, SIZE = 0, 4, 8, 12, 16
 TOLERANCE = 1e-15
 """Relative width at which a root counts as found."""
-ROUNDING = 1e-13
-"""A sum below this share of its terms' sizes counts as 0."""
+HALF = 4
+"""Coefficients of the even, or odd, half of a polynomial of degree 6."""
 
 
 @kernel
-def add_product(p, q, factor, shift, r, sizes):
-    """R += factor xˢʰⁱᶠᵗ p q; r must be long enough. `sizes` gathers the sizes of what is added."""
-    for i in range(len(p)):
-        if p[i] != 0.0:
-            for j in range(len(q)):
-                if q[j] != 0.0:
-                    term = factor * p[i] * q[j]
-                    r[i + j + shift] += term
-                    sizes[i + j + shift] += abs(term)
+def describe(A, inputs, law, f):
+    """The matrices of polynomials into f: A (4, 4), inputs (4, 2), law = ∂u/∂[x, z], (2, 6) or (2, 4)."""
+    for j in range(2):
+        integrates = law.shape[1] == 6 and (law[0, 4 + j] != 0.0 or law[1, 4 + j] != 0.0)
+        shift = 1 if integrates else 0
+        for i in range(2):
+            for k in range(f.shape[2]):
+                f[i, j, k] = 0.0
+            f[i, j, B] = inputs[2 + i, j]
+            f[i, j, N + shift], f[i, j, N + shift + 1] = -law[i, j], -law[i, 2 + j]
+            f[i, j, D + shift], f[i, j, D + shift + 1] = -A[2 + i, j], -A[2 + i, 2 + j]
+            f[i, j, D + shift + 2] = 1.0 if i == j else 0.0
+            if integrates:
+                f[i, j, N] = law[i, 4 + j]  # z = −q/s
+    close(f, -1)
+
+
+@kernel
+def close(f, opened):
+    """M = D + B N and the sizes of its terms, without the motor `opened`."""
+    for i in range(2):
+        for j in range(2):
+            for k in range(4):
+                total = f[i, j, D + k]
+                size = abs(total)
+                for motor in range(2):
+                    if motor != opened:
+                        term = f[i, motor, B] * f[motor, j, N + k]
+                        total += term
+                        size += abs(term)
+                f[i, j, M + k], f[i, j, SIZE + k] = total, size
+
+
+@kernel
+def determinant(f, r, sizes):
+    """Det M, of degree 6 at most, into r, and the sizes of its terms; what is rounding becomes 0.
+
+    What rounding makes of a product is either factor by the rounding of the other.
+    """
+    for k in range(len(r)):
+        total = size = 0.0
+        for i in range(max(0, k - 3), min(k, 3) + 1):
+            j = k - i
+            a, b, c, d = f[0, 0, M + i], f[0, 1, M + i], f[1, 0, M + j], f[1, 1, M + j]
+            total += a * d - b * c
+            size += abs(a) * f[1, 1, SIZE + j] + f[0, 0, SIZE + i] * abs(d)
+            size += abs(b) * f[1, 0, SIZE + j] + f[0, 1, SIZE + i] * abs(c)
+        r[k] = total if abs(total) > ROUNDING * size else 0.0
+        sizes[k] = size
+
+
+@kernel
+def halves(p, row, even, odd):
+    """p(jω) = E(ω²) + jω O(ω²): the coefficients of E and O."""
+    for k in range(2 * HALF):
+        sign = 1.0 if k % 4 < 2 else -1.0
+        p[even if k % 2 == 0 else odd, k // 2] = sign * p[row, k]
+
+
+@kernel
+def at(p, even, odd, x):
+    """p(jω) from its halves, x = ω²."""
+    return complex(value(p[even], HALF - 1, x), sqrt(x) * value(p[odd], HALF - 1, x))
+
+
+@kernel
+def add_product(p, sizes_p, q, sizes_q, first_p, first_q, factor, shift, r, sizes):
+    """R += factor xˢʰⁱᶠᵗ p q of two halves; `sizes` gathers what the rounding of either makes of each coefficient.
+
+    The sizes of a half are every second of its polynomial's, from `first` on.
+    """
+    for i in range(HALF):
+        own = sizes_p[2 * i + first_p]
+        if own != 0.0:
+            for j in range(HALF):
+                other = sizes_q[2 * j + first_q]
+                if other != 0.0:
+                    r[i + j + shift] += factor * p[i] * q[j]
+                    sizes[i + j + shift] += abs(factor) * (abs(p[i]) * other + own * abs(q[j]))
 
 
 @kernel
@@ -30,19 +110,6 @@ def drop_rounding(r, sizes):
     for k in range(len(r)):
         if abs(r[k]) <= ROUNDING * sizes[k]:
             r[k] = 0.0
-
-
-@kernel
-def determinant(f, first, r):
-    """Det of a 2×2 matrix of polynomials of degree 3, whose coefficients stand from `first` on."""
-    for k in range(len(r)):
-        total = size = 0.0
-        for i in range(max(0, k - 3), min(k, 3) + 1):
-            straight = f[0, 0, first + i] * f[1, 1, first + k - i]
-            crosswise = f[0, 1, first + i] * f[1, 0, first + k - i]
-            total += straight - crosswise
-            size += abs(straight) + abs(crosswise)
-        r[k] = total if abs(total) > ROUNDING * size else 0.0
 
 
 @kernel
@@ -55,12 +122,12 @@ def value(p, degree, x):
 
 
 @kernel
-def positive_roots(p, chain, roots, before):
-    """All simple roots x > 0 of p, in order, into `roots`; their number.
+def positive_roots(p, sizes, chain, roots, before):
+    """All x > 0 where p changes its sign, in order, into `roots`, then those where it may touch 0; both numbers.
 
     Between two neighbouring roots of its derivative a polynomial is monotonic, so a change of sign there
-    holds exactly one root: found so for all derivatives in turn, none can be missed. Scratch: `chain`
-    and `before`, as long as p.
+    holds exactly one root: found so for all derivatives in turn, none can be missed. It may touch 0 where an
+    extremum is nothing but rounding, as `sizes` tell it. Scratch: `chain` and `before`, as long as p.
     """
     top = len(p) - 1
     while top > 0 and p[top] == 0.0:
@@ -69,7 +136,7 @@ def positive_roots(p, chain, roots, before):
     while bottom < top and p[bottom] == 0.0:
         bottom += 1
     if bottom == top:
-        return 0
+        return 0, 0
     # Cauchy's bounds; a root of a derivative that lies outside separates nothing
     largest = smallest = 0.0
     for k in range(bottom, top + 1):
@@ -88,16 +155,22 @@ def positive_roots(p, chain, roots, before):
             chain[k] = weight * p[k + order]
         for i in range(found):
             before[i] = roots[i]
+        extrema = found
         count, left, sign = 0, low, value(chain, degree, low)
-        for i in range(found + 1):
-            right = before[i] if i < found else high
+        for i in range(extrema + 1):
+            right = before[i] if i < extrema else high
             following = value(chain, degree, right)
             if (sign < 0.0) != (following < 0.0):
                 roots[count] = root_between(chain, degree, left, right, sign)
                 count += 1
             left, sign = right, following
         found = count
-    return found
+    touched = 0
+    for i in range(extrema):
+        if abs(value(p, top, before[i])) <= ROUNDING * value(sizes, top, before[i]):
+            roots[found + touched] = before[i]
+            touched += 1
+    return found, touched
 
 
 @kernel

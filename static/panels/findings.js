@@ -74,12 +74,14 @@ export class FindingsPanel {
     const { reply, problem } = state;
     const findings = findingsOf(state);
     const kind = problem ? 'refused' : !reply ? 'waiting' : reply.stable ? 'stable' : 'unstable';
-    const worst = reply ? Math.max(...reply.loop_poles.map((p) => p.re)) : NaN;
+    // in a stable loop what is not left of the axis is the integrator of a loop that is switched off
+    const poles = (reply?.loop_poles ?? []).filter((p) => !reply?.stable || p.re < 0);
+    const worst = reply ? Math.max(...poles.map((p) => p.re)) : NaN;
     const uneasy = kind === 'stable' && findings.some((f) => f.severity !== 'info');
     this.verdict.className = `verdict ${kind}${uneasy ? ' uneasy' : ''}`;
     setText(this.icon, uneasy ? ICON.warning : { refused: '!', waiting: '…', stable: '✓', unstable: '✕' }[kind]);
     setText(this.word, { refused: 'Not computed', waiting: 'Waiting', stable: 'Stable', unstable: 'Unstable' }[kind]);
-    setText(this.detail, problem && reply ? 'figures: last computed design' : !reply || problem ? '' : reply.stable ? say`slowest of ${reply.loop_poles.length} poles at Re ${fixed(worst)}` : say`worst of ${reply.loop_poles.length} poles at Re ${fixed(worst)}`);
+    setText(this.detail, problem && reply ? 'figures: last computed design' : !reply || problem ? '' : reply.stable ? say`slowest of ${poles.length} poles at Re ${fixed(worst)}` : say`worst of ${reply.loop_poles.length} poles at Re ${fixed(worst)}`);
 
     const calm = state.design?.scenario.saturation === false ? 'No warnings. Voltage limits are off in this experiment.' : 'No warnings. Motor voltages stay within their limits.';
     const key = JSON.stringify([kind, findings, calm]);

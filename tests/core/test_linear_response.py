@@ -166,10 +166,8 @@ def check_margins(loop):
         b[:4, 0] = loop.design.plant.B[:, motor]
         c = -loop.voltage_from_state[[motor]]
         system = control.ss(loop.A + b @ c, b, c, 0)
-        gains, phases, _, phase_crossovers, gain_crossovers, _ = control.stability_margins(
-            system, returnall=True
-        )
-        finite = gains[phase_crossovers > 1e-6]
+        gains, phases, _, _, gain_crossovers, _ = control.stability_margins(system, returnall=True)
+        finite = gains[gains > 1e-9]  # an integrator's crossing at ω = 0, with a gain of 0, is none
         above, below = finite[finite > 1], finite[finite < 1]
         for own, theirs in (
             (margins.gain_margin, above.min() if len(above) else None),

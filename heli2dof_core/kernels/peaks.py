@@ -1,0 +1,172 @@
+"""What the loop bears at both motors at once, over frequency: sensitivity peak and disk margin.
+
+S(jω) = I − N M⁻¹ B (see `polynomials`) is a sum of fractions with the loop's poles, so that nothing about it changes
+faster than with the distance from the nearest pole. Steps of a share of that distance, from ω = 0 on, therefore see
+every maximum; each that may be the largest is then refined. Infinity, where S = I, is the last of the frequencies.
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+
+from ..layout import DISK_FREQUENCY, DISK_MARGIN, FREQUENCIES, PEAK_FREQUENCY, ROUNDING, SENSITIVITY_PEAK
+from .jit import kernel
+from .polynomials import B, M, N
+
+GOLDEN = (sqrt(5.0) - 1.0) / 2.0
+STEP = 0.3
+"""Of the distance from the nearest pole."""
+REACH = 30.0
+"""Times the fastest pole: beyond, S differs from I by the first terms of a series in 1/ω alone."""
+WITHIN = 0.6
+"""Least share of the largest value on the grid that a maximum must have there to be refined: between two frequencies
+the size of S, whose denominator has degree 6, cannot grow by as much as this allows."""
+PRECISION = 1e-6
+"""Of a maximum's place, as a share of its two steps; its height is then known to the square of that."""
+ANGLES, DISKS = 1, 2  # rows of the grid, beside the frequencies
+
+
+@kernel
+def entry(f, i, j, first, w, x):
+    """An entry of M or N at s = jω, x = ω²."""
+    return complex(f[i, j, first] - x * f[i, j, first + 2], w * (f[i, j, first + 1] - x * f[i, j, first + 3]))
+
+
+@kernel
+def sensitivity(f, w):
+    """The four entries of S(jω), row by row; the loop has no pole at jω."""
+    x = w * w
+    m00, m01 = entry(f, 0, 0, M, w, x), entry(f, 0, 1, M, w, x)
+    m10, m11 = entry(f, 1, 0, M, w, x), entry(f, 1, 1, M, w, x)
+    det = m00 * m11 - m01 * m10
+    by = det.conjugate() * (1.0 / squared(det))  # a complex quotient raises at 0 even where compiled
+    x00, x01 = m11 * f[0, 0, B] - m01 * f[1, 0, B], m11 * f[0, 1, B] - m01 * f[1, 1, B]
+    x10, x11 = m00 * f[1, 0, B] - m10 * f[0, 0, B], m00 * f[1, 1, B] - m10 * f[0, 1, B]
+    n00, n01 = entry(f, 0, 0, N, w, x), entry(f, 0, 1, N, w, x)
+    n10, n11 = entry(f, 1, 0, N, w, x), entry(f, 1, 1, N, w, x)
+    return (
+        1.0 - (n00 * x00 + n01 * x10) * by,
+        -(n00 * x01 + n01 * x11) * by,
+        -(n10 * x00 + n11 * x10) * by,
+        1.0 - (n10 * x01 + n11 * x11) * by,
+    )
+
+
+@kernel
+def squared(z):
+    """|z|²."""
+    return z.real * z.real + z.imag * z.imag
+
+
+@kernel
+def largest_singular_value(a, b, c, d):
+    """Of [[a, b], [c, d]]: the root of the larger eigenvalue of its Gram matrix, without cancellation."""
+    p, r = squared(a) + squared(c), squared(b) + squared(d)
+    q = a.conjugate() * b + c.conjugate() * d
+    half = 0.5 * (p - r)
+    return sqrt(0.5 * (p + r) + sqrt(half * half + squared(q)))
+
+
+@kernel
+def structured(a, b, c, d):
+    """μ of [[a, b], [c, d]] for two scalars: its largest singular value after the best diagonal scaling.
+
+    The best is that which makes both entries beside the diagonal equally large.
+    """
+    above, below = squared(b), squared(c)
+    if above == 0.0 or below == 0.0:
+        return sqrt(max(squared(a), squared(d)))
+    scale = sqrt(sqrt(below / above))
+    return largest_singular_value(a, b * scale, c * (1.0 / scale), d)
+
+
+@kernel
+def size(f, w, disk):
+    """The largest singular value of S(jω), or μ of S − ½ = (S − T)/2."""
+    a, b, c, d = sensitivity(f, w)
+    return structured(a - 0.5, b, c, d - 0.5) if disk else largest_singular_value(a, b, c, d)
+
+
+@kernel
+def peaks(f, poles, grid, both):
+    """Sensitivity peak and disk margin, each with its frequency, into `both`, (4,); the loop is stable.
+
+    `poles` are the loop's, complex; scratch: `grid`, (3, FREQUENCIES).
+    """
+    count = survey(f, poles, grid)
+    both[SENSITIVITY_PEAK], both[PEAK_FREQUENCY] = highest(f, grid, ANGLES, count)
+    mu, both[DISK_FREQUENCY] = highest(f, grid, DISKS, count)
+    both[DISK_MARGIN] = 1.0 / mu
+
+
+@kernel
+def survey(f, poles, grid):
+    """Frequencies from 0 to infinity with both sizes there into `grid`; their number."""
+    fastest = 0.0
+    for pole in poles:
+        fastest = max(fastest, squared(pole))
+    end = REACH * sqrt(fastest)
+    w, count = 0.0, 0
+    while count < FREQUENCIES - 1:
+        a, b, c, d = sensitivity(f, w)
+        grid[0, count] = w
+        grid[ANGLES, count] = largest_singular_value(a, b, c, d)
+        grid[DISKS, count] = structured(a - 0.5, b, c, d - 0.5)
+        count += 1
+        if w >= end:
+            break
+        nearest = inf
+        for pole in poles:
+            away = w - abs(pole.imag)
+            nearest = min(nearest, pole.real * pole.real + away * away)
+        w += STEP * sqrt(nearest) + ROUNDING * end
+    grid[0, count], grid[ANGLES, count], grid[DISKS, count] = inf, 1.0, 0.5
+    return count + 1
+
+
+@kernel
+def highest(f, grid, row, count):
+    """The highest of all maxima, and where: at infinity unless a frequency rises above that by more than rounding."""
+    last = count - 1
+    best, where = grid[row, last], inf
+    known = best
+    for k in range(last):
+        known = max(known, grid[row, k])
+    for k in range(count):
+        here = grid[row, k]
+        before, after = grid[row, max(k - 1, 0)], grid[row, min(k + 1, last)]
+        if here < before or here < after or here < WITHIN * known:
+            continue
+        if here > best * (1.0 + 4.0 * ROUNDING):
+            best, where = here, grid[0, k]
+        # towards infinity in 1/ω: a negative ω stands for it, so that both kinds of search rise
+        tail = k >= last - 1
+        low = grid[0, max(k - 1, 0)]
+        high = grid[0, min(k + 1, last)]
+        if tail:
+            low, high = (-1.0 / low if low > 0.0 else -inf), 0.0
+        if low > -inf:
+            top, at = climb(f, low, high, tail, row == DISKS)
+            if top > best * (1.0 + 4.0 * ROUNDING):
+                best, where = top, at
+    return best, where
+
+
+@kernel
+def climb(f, low, high, tail, disk):
+    """A maximum between two frequencies, or between two −1/ω, by golden section."""
+    end = PRECISION * (high - low)
+    left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    at_left = size(f, -1.0 / left if tail else left, disk)
+    at_right = size(f, -1.0 / right if tail else right, disk)
+    while high - low > end:
+        if at_left > at_right:
+            high, right, at_right = right, left, at_left
+            left = high - GOLDEN * (high - low)
+            at_left = size(f, -1.0 / left if tail else left, disk)
+        else:
+            low, left, at_left = left, right, at_right
+            right = low + GOLDEN * (high - low)
+            at_right = size(f, -1.0 / right if tail else right, disk)
+    place = left if at_left > at_right else right
+    return max(at_left, at_right), -1.0 / place if tail else place
