@@ -110,7 +110,7 @@ def _on_gain(loop: Loop, limits: Limits) -> Iterator[Finding]:
 
 def _on_slow_poles(loop: Loop) -> Iterator[Finding]:
     placed = float(np.max(loop.design.closed_loop_poles.real))
-    slowest = float(loop.poles[0].real)
+    slowest = float(loop.connected_poles[0].real)
     if loop.has_integrators and placed < SLOWER * slowest:
         yield Finding(
             "slow_pole",

@@ -31,32 +31,19 @@ def linear_matrices() -> Callable[..., tuple[Matrix, Matrix, Sequence[float]]]:
 
 
 @cache
-def gain(structure: Structure, *, shifted: bool = False) -> Callable[..., Matrix]:
-    """f(d_10, d_11, d_20, d_21, *parameters, theta_0) → K, 2×4 (see `poles.PoleSet.coefficients`).
+def gain(structure: Structure, *, shifted: bool = False) -> Callable[..., tuple[Matrix, Matrix]]:
+    """f(d_10, d_11, d_20, d_21, *parameters, theta_0) → K, 2×4, and Ĝ(0)⁻¹, 2×2 (see `poles.PoleSet.coefficients`).
 
-    With `shifted` the function takes the basis' shift c as one more argument, the last.
+    With `shifted` the function takes the basis' shift c as one more argument, the last. In Ĝ(0)⁻¹ what K shares
+    with the rig has cancelled, which as a difference of numbers costs digits.
     """
-    from .symbolic.full_rank import full_rank
+    from .symbolic.full_rank import full_rank, plant, steady_state_inverse
     from .symbolic.names import PARAMETERS, c, d_10, d_11, d_20, d_21, theta_0
 
     arguments = [d_10, d_11, d_20, d_21, *PARAMETERS.values(), theta_0, *([c] if shifted else [])]
-    return _compile(arguments, _physical(full_rank(structure, shifted=shifted).K.to_Matrix()))
-
-
-@cache
-def steady_state_inverse(structure: Structure, *, shifted: bool = False) -> Callable[..., Matrix]:
-    """F as `gain`'s → Ĝ(0)⁻¹ = K's columns of θ and ψ less B₂⁻¹ A₂₁, 2×2.
-
-    Here what K shares with the rig has cancelled, which as a difference of numbers costs digits.
-    """
-    from .symbolic.full_rank import full_rank, plant
-    from .symbolic.names import PARAMETERS, c, d_10, d_11, d_20, d_21, theta_0
-
-    arguments = [d_10, d_11, d_20, d_21, *PARAMETERS.values(), theta_0, *([c] if shifted else [])]
-    A, B = plant()
-    statics = B.extract([2, 3], [0, 1]).inv().matmul(A.extract([2, 3], [0, 1]))
-    K = full_rank(structure, shifted=shifted).K.extract([0, 1], [0, 1])
-    return _compile(arguments, _physical((K - statics).to_Matrix()))
+    K = full_rank(structure, shifted=shifted).K
+    inverse = steady_state_inverse(K, *plant())
+    return _compile(arguments, (_physical(K.to_Matrix()), _physical(inverse.to_Matrix())))
 
 
 @cache
@@ -90,7 +77,6 @@ def warm_up(structures: Iterable[Structure] = (Structure(),)) -> None:
     accelerations()
     for structure in structures:
         gain(structure)
-        steady_state_inverse(structure)
 
 
 def _physical(matrix: Any) -> list[list[Any]]:

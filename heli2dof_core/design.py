@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from math import hypot, isfinite, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .compiled import gain, steady_state_inverse
+from .compiled import gain
 from .couplings import Structure, require_structure
 from .engine import engine
 from .errors import StructureUnavailableError
@@ -30,7 +29,6 @@ from .tables import Shown, Table, latex_matrix, number, poles
 
 if TYPE_CHECKING:
     import control
-    from sympy.polys.matrices import DomainMatrix
 
 FULL_RANK = "full-rank"
 
@@ -45,6 +43,10 @@ class Design(Shown):
         method: name of the placement method (`placement.registry`).
         structure: structure of the closed loop; None where the method is not full-rank's.
         K: gain, 2×4, V/rad in columns θ, ψ and V·s/rad in columns θ̇, ψ̇ (Eqs. 21, 22).
+        steady_state_inverse: Ĝ(0)⁻¹, 2×2, V/rad: the voltages v that hold one radian on either axis. It equals K's
+            first two columns minus B₂⁻¹ A₂₁ and so exists even where a closed-loop pole is 0 and Ĝ(0) does not; it is
+            then singular. Where K has a closed form, so has this: near 0 the difference of the numbers would lose
+            the digits that decide.
         integral: 2×2, V/(rad·s): the method's own integral action; None where it has none.
         aims: whether the method aims at `poles`, or chooses its own.
     """
@@ -54,6 +56,7 @@ class Design(Shown):
     method: str
     structure: Structure | None
     K: Floats
+    steady_state_inverse: Floats
     integral: Floats | None = None
     aims: bool = True
 
@@ -106,18 +109,6 @@ class Design(Shown):
         return eigenvector_condition(self.A_closed)
 
     @cached_property
-    def steady_state_inverse(self) -> Floats:
-        """Ĝ(0)⁻¹, 2×2, V/rad: the voltages v that hold one radian on either axis.
-
-        It equals K's first two columns minus B₂⁻¹ A₂₁ and so exists even where a closed-loop pole
-        is 0 and Ĝ(0) does not; it is then singular. Where K has a closed form, so has this: near 0 the
-        difference of the numbers would lose the digits that decide.
-        """
-        if self.structure is None:
-            return self.K[:, :2] - self.plant.statics
-        return full_rank_steady_state_inverse(self.plant, self.poles, self.structure)
-
-    @cached_property
     def steady_state_determinant(self) -> float:
         """Its determinant, the product of the poles by det B₂⁻¹; 0 where a pole of A − BK lies at 0.
 
@@ -132,8 +123,8 @@ class Design(Shown):
         e, f = stiffness + abs(p * i) + abs(q * k), abs(p * j) + abs(q * m)
         g, h = abs(r * i) + abs(s * k), abs(r * j) + abs(s * m)
         if self.structure is not None:
-            d_10, _, d_20, _ = self.poles.coefficients
-            product = d_10 * d_20
+            p_1, p_2, p_3, p_4 = self.poles.values
+            product = (p_1 * p_2).real * (p_3 * p_4).real
         else:
             product = a * d - b * c if not self.aims or all(self.poles.values) else 0.0
         size = abs(a) * h + e * abs(d) + abs(b) * g + f * abs(c)
@@ -210,17 +201,17 @@ def design(
     """
     chosen = method_named(method)
     if method == FULL_RANK:
-        return Design(plant, poles, method, structure, full_rank_gain(plant, poles, structure))
+        return Design(plant, poles, method, structure, *full_rank_gain(plant, poles, structure))
     placed = chosen.place(Task(plant.A, plant.B, poles.array, C, weights))
     integral = placed.integral if isinstance(placed, IntegralPlacement) else None
     K = np.ascontiguousarray(placed.K, dtype=np.float64)
-    return Design(plant, poles, method, None, K, integral, chosen.places_poles)
+    return Design(plant, poles, method, None, K, K[:, :2] - plant.statics, integral, chosen.places_poles)
 
 
-def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats:
-    """K by the closed form that the derivation gives, 2×4.
+def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> tuple[Floats, Floats]:
+    """K, 2×4, and Ĝ(0)⁻¹, 2×2, by the closed forms that the derivation gives.
 
-    It divides by γ, shifted by γ², so that as many digits are lost as γ's terms cancel, or twice as many. Where the
+    They divide by γ, shifted by γ², so that as many digits are lost as γ's terms cancel, or twice as many. Where the
     motors push nearly alike the same construction runs over the rational numbers, which loses none, and so it does
     where a product leaves the floats' range.
 
@@ -228,51 +219,32 @@ def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats
         StructureUnavailableError: the rig has no such structure, or K is beyond the floats' range.
     """
     require_structure(plant.parameters, structure)
-    rows = _closed_form(gain, plant, poles, structure)
-    return _as_floats(_exact_gain(plant, poles, structure)) if rows is None else rows
-
-
-def full_rank_steady_state_inverse(plant: Plant, poles: PoleSet, structure: Structure) -> Floats:
-    """Ĝ(0)⁻¹ = K's columns of θ and ψ less B₂⁻¹ A₂₁, 2×2; computed, and refused, as `full_rank_gain`."""
-    rows = _closed_form(steady_state_inverse, plant, poles, structure)
-    if rows is not None:
-        return rows
-    K, A, B = _exact_gain(plant, poles, structure), exact_matrix(plant.A), exact_matrix(plant.B)
-    angles = [0, 1]
-    statics = B.extract([2, 3], angles).inv().matmul(A.extract([2, 3], angles))
-    return _as_floats(K.extract(angles, angles) - statics)
-
-
-def _closed_form(
-    matrix: Callable[..., Any], plant: Plant, poles: PoleSet, structure: Structure
-) -> Floats | None:
-    """A compiled matrix' numbers; None where floats would lose their digits, or do not reach."""
     if plant.nearly_parallel:
-        return None
+        return _exact_gain(plant, poles, structure)
     arguments = (*poles.coefficients, *plant.parameters.as_dict().values(), plant.theta_0)
     try:
         if structure.shift is None:
-            rows = matrix(structure)(*arguments)
+            K, inverse = gain(structure)(*arguments)
         else:
-            rows = matrix(structure.family, shifted=True)(*arguments, structure.shift)
+            K, inverse = gain(structure.family, shifted=True)(*arguments, structure.shift)
     except ArithmeticError:
-        return None
-    return np.array(rows) if isfinite(sum(map(sum, rows))) else None
+        return _exact_gain(plant, poles, structure)
+    if not isfinite(sum(map(sum, K)) + sum(map(sum, inverse))):
+        return _exact_gain(plant, poles, structure)
+    return np.array(K), np.array(inverse)
 
 
-def _exact_gain(plant: Plant, poles: PoleSet, structure: Structure) -> DomainMatrix:
+def _exact_gain(plant: Plant, poles: PoleSet, structure: Structure) -> tuple[Floats, Floats]:
     from sympy import QQ
 
-    from .symbolic.full_rank import member
+    from .symbolic.full_rank import member, steady_state_inverse
 
     shift = None if structure.shift is None else QQ(*float(structure.shift).as_integer_ratio())
     polynomials = [exact_coefficients(pair) for pair in (poles.values[:2], poles.values[2:])]
-    return member(exact_matrix(plant.A), exact_matrix(plant.B), structure, polynomials, shift).K
-
-
-def _as_floats(matrix: DomainMatrix) -> Floats:
+    A, B = exact_matrix(plant.A), exact_matrix(plant.B)
     try:
-        return float_matrix(matrix)
+        placed = member(A, B, structure, polynomials, shift)
+        return float_matrix(placed.K), float_matrix(steady_state_inverse(placed.K, A, B))
     except ArithmeticError as error:
         raise StructureUnavailableError(
             "the gain of this structure is too large a number for this rig",

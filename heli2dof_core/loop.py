@@ -112,7 +112,7 @@ class Loop(Shown):
         must comply as well.
         """
         robust = bool(engine().stable(self.polynomials, np.empty(POLYNOMIAL_WORKSPACE)))
-        return robust and (self.design.stable or not self._poles_are_the_designs)
+        return robust and (not self._poles_are_the_designs or self.design.stable)
 
     @property
     def _poles_are_the_designs(self) -> bool:
@@ -226,7 +226,9 @@ def _instability(loop: Loop) -> Finding:
         if not loop.design.aims:
             advice = "Change the weights."
         else:
-            advice = "Place faster poles." if loop.design.stable else "Place all poles in the left half plane."
+            advice = (
+                "Place faster poles." if loop.design.stable else "Place all poles in the left half plane."
+            )
         return Finding("loop_unstable", "error", f"The whole loop is {how}: a pole of it {where}. {advice}")
     if len(closed) == 2:
         loops, advice = (

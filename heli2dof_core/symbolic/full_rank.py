@@ -113,6 +113,13 @@ def member(
     return FullRank(form, feedback(form, desired_rows(form, blocks, _kept_triangle(structure))))
 
 
+def steady_state_inverse(K: DomainMatrix, A: DomainMatrix, B: DomainMatrix) -> DomainMatrix:
+    """Ĝ(0)⁻¹ = K's columns of θ and ψ less B₂⁻¹ A₂₁, 2×2, over the field of all three."""
+    angles, rates = [0, 1], [2, 3]
+    statics = B.extract(rates, angles).inv().matmul(A.extract(rates, angles))
+    return K.extract(angles, angles) - statics
+
+
 def to_field(matrix: sp.Matrix) -> DomainMatrix:
     """A SymPy matrix as a dense DomainMatrix over `FIELD`."""
     return DomainMatrix.from_Matrix(matrix).convert_to(FIELD).to_dense()

@@ -9,13 +9,17 @@ from numpy.polynomial import polynomial
 from heli2dof_core.interpreted import polynomials as plain
 
 
-def found(coefficients):
-    """By the interpreted kernel, in its order; lowest power first."""
+def search(coefficients, rounding=0.0):
+    """Changes of sign and touches by the interpreted kernel, in its order; lowest power first."""
     p = np.array(coefficients, dtype=float)
     n = len(p)
     roots = np.zeros(n)
-    count = plain.positive_roots(p, np.zeros(n), roots, np.zeros(n))
-    return roots[:count]
+    count, touched = plain.positive_roots(p, rounding * abs(p), np.zeros(n), roots, np.zeros(n))
+    return roots[:count], roots[count : count + touched]
+
+
+def found(coefficients):
+    return search(coefficients)[0]
 
 
 def test_every_positive_root_is_found_and_no_other():
@@ -43,6 +47,17 @@ def test_simple_roots_beside_a_multiple_one_are_found():
             roots = found(sign * polynomial.polymul(touch, [-simple, 1.0]))
             np.testing.assert_allclose(roots[abs(roots - 1) > 1e-6], [simple])
             assert len(roots) in (1, 3)
+
+
+def test_where_a_polynomial_only_touches_zero_is_told_apart():
+    """A double root that no rounding moves off the axis is no change of sign, yet it is told; a near miss is not."""
+    for root in (0.25, 1.0, 8.0):  # exact in floats
+        touch = [root**2, -2 * root, 1.0]
+        changes, touches = search(touch, 1.0)
+        assert changes.size == 0
+        np.testing.assert_allclose(touches, [root])
+        changes, touches = search([touch[0] * (1 + 1e-9), *touch[1:]], 1.0)
+        assert changes.size == 0 and touches.size == 0
 
 
 @pytest.mark.parametrize("p", [[3.0], [0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 2.0], [-1.0, 0.0, 0.0]])
@@ -84,13 +99,18 @@ def test_sums_that_are_nothing_but_rounding_are_dropped():
     """p q − q p: what is left is rounding, and is measured by what was added; what is more than that stays."""
     rng = np.random.default_rng(6)
     for _ in range(50):
-        p, q = rng.normal(size=4) * 10.0 ** rng.integers(-6, 6, 4), rng.normal(size=3)
+        p, q = rng.normal(size=4) * 10.0 ** rng.integers(-6, 6, 4), rng.normal(size=4)
+        own, other = (
+            np.zeros(8),
+            np.zeros(8),
+        )  # sizes of polynomials of which p is the odd half, q the even one
+        own[1::2], other[::2] = 2 * abs(p), abs(q)
         r, sizes = np.zeros(8), np.zeros(8)
-        plain.add_product(p, q, 3.0, 1, r, sizes)
-        np.testing.assert_allclose(r, [0, *(3 * polynomial.polymul(p, q)), 0], atol=1e-12 * max(sizes))
+        plain.add_product(p, own, q, other, 1, 0, 3.0, 1, r, sizes)
+        np.testing.assert_allclose(r, [0, *(3 * polynomial.polymul(p, q))], atol=1e-12 * max(sizes))
         bound = polynomial.polymul(abs(p), abs(q))
-        np.testing.assert_allclose(sizes, [0, *(3 * bound), 0])
-        plain.add_product(-1.5 * p, q, 2.0, 1, r, sizes)
+        np.testing.assert_allclose(sizes, [0, *(3 * 3 * bound)])
+        plain.add_product(-1.5 * p, own, q, other, 1, 0, 2.0, 1, r, sizes)
         r[1] += 1e-11 * sizes[1]
         plain.drop_rounding(r, sizes)
         assert r[1] != 0 and not r[2:].any()

@@ -234,8 +234,9 @@ def test_the_rational_gain_is_the_closed_forms_where_both_are_right():
 
     for structure in verdicts.STRUCTURES:
         model = place(SPEC).plant
-        one, other = (law(model, SPEC.poles, structure) for law in (_exact_gain, full_rank_gain))
-        np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-10 * np.max(np.abs(other)))
+        both = (law(model, SPEC.poles, structure) for law in (_exact_gain, full_rank_gain))
+        for one, other in zip(*both, strict=True):  # K, then Ĝ(0)⁻¹
+            np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-10 * np.max(np.abs(other)))
 
 
 EMPTY = [{}, {"parameters": {}}, {"decoupler": None}, {"reference": None}, {"poles": None}]
