@@ -70,10 +70,11 @@ def resolvent(A: Floats, B: Floats, frequencies: Floats) -> Complexes:
     """
     identity = np.eye(len(A))
     try:
-        return np.linalg.solve(1j * frequencies[:, None, None] * identity - A, B)
+        response = np.linalg.solve(1j * frequencies[:, None, None] * identity - A, B)
     except np.linalg.LinAlgError:
         beside = frequencies * (1 + _BESIDE) + _BESIDE * np.linalg.norm(A)
-        return np.linalg.solve(1j * beside[:, None, None] * identity - A, B)
+        response = np.linalg.solve(1j * beside[:, None, None] * identity - A, B)
+    return response.astype(np.complex128, copy=False)
 
 
 _BESIDE = 16 * np.finfo(float).eps

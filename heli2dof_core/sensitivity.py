@@ -54,4 +54,9 @@ def loop_sensitivity(loop: Loop) -> Sensitivity | None:
         return None
     both = np.empty(SENSITIVITY)
     engine().peaks(loop.polynomials, loop.connected_poles, np.empty((3, FREQUENCIES)), both)
-    return Sensitivity(*(None if isinf(number) else number for number in both.tolist()))
+    peak, peak_frequency, disk_margin, disk_frequency = both.tolist()
+    return Sensitivity(peak, _finite(peak_frequency), disk_margin, _finite(disk_frequency))
+
+
+def _finite(frequency: float) -> float | None:
+    return None if isinf(frequency) else frequency

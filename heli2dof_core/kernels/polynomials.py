@@ -145,7 +145,7 @@ def positive_roots(p, sizes, chain, roots, before):
         if k > bottom:
             smallest = max(smallest, abs(p[k] / p[bottom]))
     low, high = 1.0 / (1.0 + smallest), 1.0 + largest
-    found = 0
+    found = extrema = 0
     for order in range(top - 1, -1, -1):
         degree = top - order
         for k in range(degree + 1):

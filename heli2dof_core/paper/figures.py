@@ -69,4 +69,5 @@ def _designed(rig: Preset) -> Design:
 
 
 def _given(rig: Preset, K: Floats) -> Design:
-    return Design(plant(rig.parameters), PoleSet(printed_poles()), "as-printed", None, K)
+    model = plant(rig.parameters)
+    return Design(model, PoleSet(printed_poles()), "as-printed", None, K, K[:, :2] - model.statics)

@@ -37,7 +37,7 @@ def contestants(rig) -> dict[str, Callable[[], object]]:
     task = Task(model.A, model.B, poles.array, C, weights)
     calls: dict[str, Callable[[], object]] = {PEER: lambda: control.place(model.A, model.B, poles.array)}
     for coupling, lead in (("triangular", "pitch"), ("axis-decoupled", "pitch")):
-        closed_form = gain(Structure(coupling, lead))
+        closed_form = gain(Structure(coupling, lead))  # with Ĝ(0)⁻¹, as a design asks for
         calls[f"closed form, {coupling}"] = lambda f=closed_form: f(*numbers)
     calls["design (closed form, poles, findings)"] = lambda: design(model, poles)
     for method in METHODS.values():
