@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-import numpy as np
 
 from .couplings import Coupling, Lead, Structure
 from .design import FULL_RANK, Design, design
@@ -15,7 +14,7 @@ from .findings import Finding, merged
 from .interaction import Interaction, interaction
 from .loop import Loop, close_loop
 from .margins import Margins, loop_margins, margin_table
-from .metrics import StepMetrics, measured, step_metrics
+from .metrics import StepMetrics, step_metrics
 from .parameters import Parameters
 from .placement.method import Weights
 from .plant import plant
@@ -218,7 +217,7 @@ class Report(Shown):
 
     def _step(self, n: int, model: Model) -> Step:
         response = self._courses.response(n, model)
-        return Step(response, measured(response, *self._courses.measures(n, model)))
+        return _measured(response)
 
 
 def place(spec: Spec) -> Design:
@@ -228,15 +227,41 @@ def place(spec: Spec) -> Design:
 
 
 def simulate(loop: Loop, spec: Spec, model: Model, most_steps: int | None = None) -> Step:
-    """The scenario's response by one model, with its metrics; `most_steps` as in `simulate_nonlinear`."""
+    """The scenario's response by one model, with its metrics; `most_steps` as in `simulate_nonlinear`.
+
+    A disturbance does not count into the steps' figures: those are of the same experiment without it.
+    """
+    scenario = spec.scenario
     if model == "linear":
-        response = simulate_linear(loop, spec.scenario)
-    elif spec.scenario.digital is None:
-        response = simulate_nonlinear(loop, spec.limits, spec.scenario, most_steps)
-    else:
-        response = simulate_digital(loop, spec.limits, spec.scenario, spec.scenario.digital)
-    trim = loop.design.plant.trim if model == "nonlinear" else np.zeros(2)
-    return Step(response, step_metrics(response, trim))
+        return _measured(simulate_linear(loop, scenario, most_steps))
+    if scenario.disturbance is None:
+        return _measured(_on_the_rig(loop, spec, scenario, most_steps))
+    calm = _on_the_rig(loop, spec, replace(scenario, disturbance=None), most_steps)
+    return _measured(_on_the_rig(loop, spec, scenario, most_steps), calm)
+
+
+def _on_the_rig(loop: Loop, spec: Spec, scenario: Scenario, most_steps: int | None) -> Response:
+    if scenario.digital is None:
+        return simulate_nonlinear(loop, spec.limits, scenario, most_steps)
+    return simulate_digital(loop, spec.limits, scenario, scenario.digital)
+
+
+def _measured(response: Response, calm: Response | None = None) -> Step:
+    """With its metrics; those of its steps from the experiment without a disturbance, where it has one."""
+    metrics = step_metrics(response, calm)
+    if calm is None:
+        return Step(response, metrics)
+    told = [f for f in response.findings if not f.code.startswith("not_settled")]
+    told += [f for f in calm.findings if f.code.startswith("not_settled")]
+    told += [_CALM] if metrics.axes else []
+    return Step(replace(response, findings=tuple(told)), metrics)
+
+
+_CALM = Finding(
+    "disturbance_left_out",
+    "info",
+    "The steps' figures (rise, settling, overshoot, errors) are those without the disturbance; the motors' include it.",
+)
 
 
 def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = None) -> Report:

@@ -77,7 +77,9 @@
  * @typedef {object} AxisMetrics
  * @property {number} [rise_time]
  * @property {number} [settling_time]
+ * @property {boolean} [settled]
  * @property {number} [overshoot]
+ * @property {number} [undershoot]
  * @property {number} [peak]
  * @property {number} [peak_time]
  * @property {number} [steady_state_error]

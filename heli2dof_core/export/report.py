@@ -11,7 +11,7 @@ import numpy as np
 
 from ..couplings import Structure
 from ..evaluate import Report, Spec, evaluate
-from ..metrics import AxisMetrics
+from ..metrics import NOT_SETTLED, AxisMetrics
 from ..parameters import PARAMETER_INFO
 from ..placement.registry import METHODS
 from ..signals import AXES, INPUTS, OUTPUTS
@@ -230,6 +230,7 @@ _ROWS = (
     ("rise time (10–90 %)", "s", "rise_time", 1.0),
     ("settling time (2 %)", "s", "settling_time", 1.0),
     ("overshoot", "%", "overshoot", 1.0),
+    ("undershoot", "%", "undershoot", 1.0),
     ("peak", "°", "peak", degrees(1.0)),
     ("peak time", "s", "peak_time", 1.0),
     ("steady-state error", "°", "steady_state_error", degrees(1.0)),
@@ -239,6 +240,8 @@ _ROWS = (
 
 
 def _value(axis: AxisMetrics, name: str, factor: float) -> str:
+    if name == "settling_time" and not axis.settled:
+        return NOT_SETTLED
     value = getattr(axis, name)
     return "–" if value is None else number(factor * value)
 

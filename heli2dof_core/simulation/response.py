@@ -2,12 +2,46 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from ..findings import Finding
-from ..signals import Floats
+from ..layout import (
+    AXIS_METRICS,
+    COURSE,
+    HELD,
+    MOTOR_METRICS,
+    OUT_OF_STEPS,
+    OUT_OF_SWITCHES,
+    OUTCOME,
+    REACHED,
+    SETTLED,
+)
+from ..signals import AXES, OUTPUTS, Floats
 from ..tables import Shown, number
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Figures of merit as the kernels fill them, laid out as `layout` says; `metrics` gives them names.
+
+    Attributes:
+        axes: (2, AXIS_METRICS), nothing where an axis is not stepped.
+        motors: (2, MOTOR_METRICS).
+        course: (COURSE,).
+    """
+
+    axes: Floats
+    motors: Floats
+    course: Floats
+
+    @classmethod
+    def empty(cls) -> Measured:
+        """Room for them."""
+        return cls(np.empty((2, AXIS_METRICS)), np.empty((2, MOTOR_METRICS)), np.empty(COURSE))
 
 
 @dataclass(frozen=True, repr=False)
@@ -26,6 +60,7 @@ class Response(Shown):
         findings: remarks on this response.
         states: θ, ψ absolute, θ̇, ψ̇, and z_p, z_y = ∫ error where anything integrates, shape
             (4 or 6, samples), rad, rad/s, rad·s.
+        measured: figures of the course itself, whatever its samples are.
     """
 
     model: Literal["linear", "nonlinear"]
@@ -35,8 +70,9 @@ class Response(Shown):
     reference: tuple[float, float]
     start: tuple[float, float]
     saturated: tuple[float, float]
-    findings: tuple[Finding, ...] = ()
-    states: Floats | None = None
+    findings: tuple[Finding, ...]
+    states: Floats
+    measured: Measured
 
     @property
     def theta(self) -> Floats:
@@ -71,9 +107,36 @@ class Response(Shown):
         return f"{self.model}; θ {theta}, ψ {psi} rad; {len(self.t)} samples of {number(float(self.t[-1]))} s{codes}"
 
 
-def divergence(t: Floats, held: int) -> tuple[Finding, ...]:
-    """The remark on a response that is held from sample `held` on; none where that is behind its end."""
-    if held >= len(t):
-        return ()
-    message = f"The response grows without bound; it is shown until t = {t[held - 1]:.3g} s and held there."
-    return (Finding("diverges", "error", message),)
+_GIVEN_UP = {
+    OUT_OF_STEPS: "more steps would be needed than are worth it",
+    OUT_OF_SWITCHES: "its modes switch without end",
+}
+
+
+def course_findings(
+    model: Literal["linear", "nonlinear"], t: Floats, found: Measured, ends: tuple[tuple[float, float], ...]
+) -> Iterator[Finding]:
+    """How a course ended: without bound, given up, or before its axes have settled; `ends` are reference and start."""
+    course, axes = found.course, found.axes
+    held, outcome, reached = int(course[HELD]), int(course[OUTCOME]), float(course[REACHED])
+    if held < len(t):
+        message = f"The response grows without bound; it is shown until t = {t[held - 1]:.3g} s and held there."
+        yield Finding("diverges", "error", message)
+    elif outcome in _GIVEN_UP:
+        yield Finding(
+            "integration_stopped",
+            "warning",
+            f"The {'simulation was' if model == 'nonlinear' else 'linear figures were'} given up at "
+            f"t = {reached:.3g} s, as {_GIVEN_UP[outcome]}: "
+            f"{'curves and figures end' if model == 'nonlinear' else 'they end'} there. "
+            "Choose a shorter time or slower poles.",
+        )
+    else:
+        for i, signal in enumerate(OUTPUTS):
+            if ends[0][i] != ends[1][i] and not axes[i, SETTLED]:
+                yield Finding(
+                    f"not_settled_{signal.name}",
+                    "warning",
+                    f"{AXES[i].capitalize()} has not settled within the {number(float(t[-1]))} s shown: it is not within "
+                    "2 % of its step for good. Show a longer time, or make it faster or better damped.",
+                )
