@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-
 from .couplings import Coupling, Lead, Structure
 from .design import FULL_RANK, Design, design
 from .findings import Finding, merged
@@ -260,7 +259,8 @@ def _measured(response: Response, calm: Response | None = None) -> Step:
 _CALM = Finding(
     "disturbance_left_out",
     "info",
-    "The steps' figures (rise, settling, overshoot, errors) are those without the disturbance; the motors' include it.",
+    "The steps' figures (rise, settling, overshoot, errors) are those without the disturbance; the motors' "
+    "include it.",
 )
 
 

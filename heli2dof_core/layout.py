@@ -48,7 +48,8 @@ PEAK_VOLTAGE, EFFORT, MOTOR_METRICS = range(3)
 # it is stepped, highest and lowest share of the step with their times, how many of the levels of the rise it has
 # reached and when, whether it is within the settling band and since when, ∫ |1 − share| dt and ∫ t |1 − share| dt.
 # Rows 2 and 3, a motor: PEAK_VOLTAGE, EFFORT, the time at its limit, its voltage at rest
-FROM, BY, STEPPED, TOP, TOP_AT, BOTTOM, BOTTOM_AT, RISEN, AT_LOW, AT_HIGH, WITHIN, SINCE, AREA, MOMENT = range(14)
+FROM, BY, STEPPED, TOP, TOP_AT, BOTTOM, BOTTOM_AT = range(7)
+RISEN, AT_LOW, AT_HIGH, WITHIN, SINCE, AREA, MOMENT = range(7, 14)
 AT_LIMIT, CALM = 2, 3
 FOLLOWED = (4, 14)
 # What else is known of a course: both axes' largest deviations from the start, shares of time at the limits, the

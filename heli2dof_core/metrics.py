@@ -10,7 +10,6 @@ from .signals import INPUTS, OUTPUTS
 from .simulation.response import Response
 from .tables import Shown, Table, number
 
-
 NOT_SETTLED = "not settled"
 """What stands in place of a settling time where there is none within the window."""
 
@@ -86,8 +85,7 @@ class StepMetrics(Shown):
     def summary(self) -> str:
         """Settling and overshoot per axis, and the largest voltages."""
         axes = (
-            f"{name}: {_settling(m)}, overshoot {number(m.overshoot, 3)} %"
-            for name, m in self.axes.items()
+            f"{name}: {_settling(m)}, overshoot {number(m.overshoot, 3)} %" for name, m in self.axes.items()
         )
         motors = (f"|{name}| ≤ {number(m.peak, 3)} V" for name, m in self.motors.items())
         return "; ".join((*axes, ", ".join(motors)))

@@ -5,6 +5,8 @@ The definitions are those of the documentation, written down anew; nothing of he
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
@@ -24,7 +26,7 @@ def figures(t, angle, start, reference):
     zeros = np.array([t[0], *crossings(share, 1.0), end])
     error = CubicSpline(t, 1 - share(t))
     weighted = CubicSpline(t, t * (1 - share(t)))
-    pieces = list(zip(zeros[:-1], zeros[1:], strict=True))
+    pieces = list(pairwise(zeros))
     below = -values[bottom] > values[top]
     return {
         "rise_time": high[0] - low[0] if len(low) and len(high) else None,
@@ -61,23 +63,22 @@ class LinearCourse:
         M[:n, :n], M[:n, n] = A, B @ reference
         self.values, self.vectors = np.linalg.eig(M)
         self.shares = np.linalg.solve(self.vectors, np.append(start, 1.0).astype(complex))
-        self.condition = np.linalg.cond(self.vectors)
 
     def __call__(self, t):
         modes = np.exp(np.multiply.outer(self.values, t)) * self.shares[:, None]
         return (self.vectors @ modes).real[:-1]
 
-    def leaves(self, end, row, start, reference, periods=400):
+    def leaves(self, end, row, start, reference):
         """Whether an angle leaves the settling band after `end`, however much later."""
         slowest = np.min(np.abs(self.values.real[np.abs(self.values) > 1e-9]))
-        t = end + np.linspace(0, 25 / slowest, 200_001)
+        t = end + np.linspace(0, 25 / slowest, 20_001)
         return bool(np.any(np.abs((self(t)[row] - start) / (reference - start) - 1) > 0.02))
 
 
 def held_course(rates, start, knots, voltages, per_interval, rtol=1e-10):
     """t and states of a rig whose voltages, (len(knots) − 1, 2), are held from knot to knot, by DOP853."""
     times, states, x = [np.array([knots[0]])], [np.array(start)[:, None]], np.array(start)
-    for a, b, volts in zip(knots[:-1], knots[1:], voltages, strict=True):
+    for (a, b), volts in zip(pairwise(knots), voltages, strict=True):
         grid = np.linspace(a, b, per_interval + 1)[1:]
         found = solve_ivp(rates(volts), (a, b), x, "DOP853", t_eval=grid, rtol=rtol, atol=1e-13)
         x = found.y[:, -1]

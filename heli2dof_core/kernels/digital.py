@@ -17,7 +17,6 @@ from ..layout import (
     DELAY,
     DISTURBANCE,
     ENDED,
-    F,
     FILTERED,
     GAIN,
     HELD,
@@ -25,8 +24,8 @@ from ..layout import (
     LIMIT,
     MOTOR_OF,
     OFFSET,
-    OUTCOME,
     OUT_OF_BOUNDS,
+    OUTCOME,
     RATE,
     REACHED,
     REFERENCE,
@@ -37,6 +36,7 @@ from ..layout import (
     TRAVEL,
     WANTED,
     WINDUP,
+    F,
 )
 from .dormand_prince import ANGLES, travel
 from .exact import dwell

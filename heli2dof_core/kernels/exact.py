@@ -111,7 +111,7 @@ def march(M, outputs, slopes, poles, t, length, theta_0, most, f, ladder, nodes,
     level = 3
     while wanted > 8.0 * 2.0**level:
         level += 1
-    parts = max(int(ceil(wanted / 2.0**level)), 1)
+    parts = max(ceil(wanted / 2.0**level), 1)
     spacing = length / (parts * 2.0**level)
     deepest = max(halvings(M, length / parts), level + 1)
     at = deepest - level  # the place of the spacing's matrix in the ladder
@@ -272,11 +272,14 @@ def strain(b, nodes, motor, count, d, half, outputs, slopes):
     for k in range(1, count + 1):
         highest = max(highest, abs(u[k]))
     peak = highest
-    for k in range(count + 1):  # only next to a node that nearly is the highest can it be higher
-        if abs(u[k]) > (1.0 - SPACING) * highest and 0 < k < count and (u[k] - u[k - 1]) * (u[k + 1] - u[k]) <= 0.0:
-            for j in range(k - 1, k + 1):
-                p1, p2, p3, p4 = voltage_piece(outputs[motor], slopes[motor], half, nodes, u, j, d)
-                peak = max(peak, largest(u[j], p1, p2, p3, p4, 1.0))
+    for k in range(count + 1):  # only beside a node that nearly is the highest can it be higher
+        if abs(u[k]) <= (1.0 - SPACING) * highest:
+            continue
+        if 0 < k < count and (u[k] - u[k - 1]) * (u[k + 1] - u[k]) > 0.0:
+            continue
+        for j in range(max(k - 1, 0), min(k + 1, count)):
+            p1, p2, p3, p4 = voltage_piece(outputs[motor], slopes[motor], half, nodes, u, j, d)
+            peak = max(peak, largest(u[j], p1, p2, p3, p4, 1.0))
     for first in range(0, full, GROUP):
         for j in range(GROUP + 1):
             total += WHOLE[j] * u[first + j] * u[first + j]

@@ -68,7 +68,18 @@ def run_linear(
         proven = False
         if until < inf:
             found, _ = march(
-                M, outputs, slopes, poles, end, until - end, theta_0, most_steps, ahead, ladder, nodes, scratch
+                M,
+                outputs,
+                slopes,
+                poles,
+                end,
+                until - end,
+                theta_0,
+                most_steps,
+                ahead,
+                ladder,
+                nodes,
+                scratch,
             )
             proven = found == ENDED
     confirm(own, ahead, proven)

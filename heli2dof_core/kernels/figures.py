@@ -141,7 +141,7 @@ def turn(p1, p2, p3, p4, low, high):
 
 @kernel
 def follow(a, p0, p1, p2, p3, p4, t, h, end, integrals):
-    """One axis, a row of f, along a piece of its angle from x = 0 to `end`, at t + h x; with `integrals` or without."""
+    """One axis, a row of f, along a piece of its angle from x = 0 to `end`, at t + h x; with integrals or without."""
     by = a[BY]
     p0, p1, p2, p3, p4 = (p0 - a[FROM]) * by, p1 * by, p2 * by, p3 * by, p4 * by
     b1, b3, b4 = p0 + 0.25 * (p1 + p2), p0 + 0.75 * p1 + 0.25 * (p2 + p3), p0 + p1
@@ -153,15 +153,16 @@ def follow(a, p0, p1, p2, p3, p4, t, h, end, integrals):
             return
     elif integrals and end == 1.0 and (low >= 1.0 or high <= 1.0):
         integrals = False
-        mean, weighted = (p0 + b1 + b2 + b3 + b4) / 5.0, (p0 + 2.0 * b1 + 3.0 * b2 + 4.0 * b3 + 5.0 * b4) / 30.0
+        mean = (p0 + b1 + b2 + b3 + b4) / 5.0
+        weighted = (p0 + 2.0 * b1 + 3.0 * b2 + 4.0 * b3 + 5.0 * b4) / 30.0
         a[AREA] += h * abs(1.0 - mean)
         a[MOMENT] += h * abs(t * (1.0 - mean) + h * (0.5 - weighted))
     if (p0 <= b1 <= b2 <= b3 <= b4) or (p0 >= b1 >= b2 >= b3 >= b4):
         stretch(a, p0, p1, p2, p3, p4, t, h, 0.0, end, integrals)
         return
-    if not integrals and low >= a[BOTTOM] and high <= a[TOP] and a[RISEN] == 2.0 and a[WITHIN] != 0.0:
-        if low >= 1.0 - BAND and high <= 1.0 + BAND:
-            return
+    known = not integrals and low >= a[BOTTOM] and high <= a[TOP] and a[RISEN] == 2.0
+    if known and a[WITHIN] != 0.0 and low >= 1.0 - BAND and high <= 1.0 + BAND:
+        return
     x = 0.0
     for _ in range(4):
         following = turn(p1, p2, p3, p4, x + 1e-9 if x > 0.0 else 0.0, end)

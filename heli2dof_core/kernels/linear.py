@@ -54,7 +54,7 @@ def combine(row, states, count, out, first):
 
 @kernel
 def exponential(M, dt, result, w):
-    """exp(M dt) into `result`, by its series for M dt / 2ˢ, squared s times. Scratch: `w`, (6 AUGMENTED, AUGMENTED)."""
+    """exp(M dt) into `result`, by its series for M dt / 2ˢ, squared s times. Scratch: `w`, (42, 7)."""
     squarings = halvings(M, dt)
     series(M, dt * 0.5**squarings, result, w)
     scratch = w[:AUGMENTED]

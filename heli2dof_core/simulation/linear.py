@@ -12,7 +12,6 @@ from ..spec import Scenario
 from .experiment import experiment
 from .response import Measured, Response, course_findings
 
-
 AT_REST = fixed(np.zeros(2))
 """Its voltages are deviations from the trim."""
 FOLLOWED_TWICE = (2 * FOLLOWED[0], FOLLOWED[1])
@@ -27,7 +26,12 @@ def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = Non
     given up after `most_steps` groups of steps, by default a tenth of a second's work.
     """
     x, t = experiment(loop, None, scenario), scenario.times
-    states, voltages, found, kernels = np.empty((AUGMENTED, len(t))), np.empty((2, len(t))), Measured.empty(), engine()
+    states, voltages, found, kernels = (
+        np.empty((AUGMENTED, len(t))),
+        np.empty((2, len(t))),
+        Measured.empty(),
+        engine(),
+    )
     matrices = (loop.voltage_from_state, loop.voltage_from_reference, loop.A, loop.B, loop.poles)
     kernels.run_linear(
         loop.design.plant.theta_0,

@@ -116,11 +116,13 @@ _GIVEN_UP = {
 def course_findings(
     model: Literal["linear", "nonlinear"], t: Floats, found: Measured, ends: tuple[tuple[float, float], ...]
 ) -> Iterator[Finding]:
-    """How a course ended: without bound, given up, or before its axes have settled; `ends` are reference and start."""
+    """How a course ended: without bound, given up, or before it settled; `ends` are reference and start."""
     course, axes = found.course, found.axes
     held, outcome, reached = int(course[HELD]), int(course[OUTCOME]), float(course[REACHED])
     if held < len(t):
-        message = f"The response grows without bound; it is shown until t = {t[held - 1]:.3g} s and held there."
+        message = (
+            f"The response grows without bound; it is shown until t = {t[held - 1]:.3g} s and held there."
+        )
         yield Finding("diverges", "error", message)
     elif outcome in _GIVEN_UP:
         yield Finding(
@@ -137,6 +139,6 @@ def course_findings(
                 yield Finding(
                     f"not_settled_{signal.name}",
                     "warning",
-                    f"{AXES[i].capitalize()} has not settled within the {number(float(t[-1]))} s shown: it is not within "
-                    "2 % of its step for good. Show a longer time, or make it faster or better damped.",
+                    f"{AXES[i].capitalize()} has not settled within the {number(float(t[-1]))} s shown: it is not "
+                    "within 2 % of its step for good. Show a longer time, or make it faster or better damped.",
                 )
