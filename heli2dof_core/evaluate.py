@@ -230,13 +230,20 @@ def simulate(loop: Loop, spec: Spec, model: Model, most_steps: int | None = None
 
     A disturbance does not count into the steps' figures: those are of the same experiment without it.
     """
-    scenario = spec.scenario
     if model == "linear":
-        return _measured(simulate_linear(loop, scenario, most_steps))
+        return _measured(simulate_linear(loop, spec.scenario, most_steps))
+    return _step_of_the_rig(loop, spec, most_steps)
+
+
+def _step_of_the_rig(loop: Loop, spec: Spec, most_steps: int | None, calm: Response | None = None) -> Step:
+    """The nonlinear response; `calm` is the same without the disturbance, if it is known."""
+    scenario = spec.scenario
+    response = _on_the_rig(loop, spec, scenario, most_steps)
     if scenario.disturbance is None:
-        return _measured(_on_the_rig(loop, spec, scenario, most_steps))
-    calm = _on_the_rig(loop, spec, replace(scenario, disturbance=None), most_steps)
-    return _measured(_on_the_rig(loop, spec, scenario, most_steps), calm)
+        return _measured(response)
+    return _measured(
+        response, calm or _on_the_rig(loop, spec, replace(scenario, disturbance=None), most_steps)
+    )
 
 
 def _on_the_rig(loop: Loop, spec: Spec, scenario: Scenario, most_steps: int | None) -> Response:
@@ -287,8 +294,15 @@ def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = No
     courses = run_experiments(loop, spec.limits, [*scenarios.values()], most_steps)
     nonlinear: tuple[Step, ...] = ()
     if scenario.digital is not None or scenario.disturbance is not None:
-        specs = (replace(spec, scenario=each) for each in scenarios.values())
-        nonlinear = tuple(simulate(loop, each, "nonlinear", most_steps) for each in specs)
+        nonlinear = tuple(
+            _step_of_the_rig(
+                loop,
+                replace(spec, scenario=each),
+                most_steps,
+                courses.response(n, "nonlinear") if scenario.digital is None else None,
+            )
+            for n, each in enumerate(scenarios.values())
+        )
     return Report(
         placed,
         interaction(placed, spec.outer.pairing),

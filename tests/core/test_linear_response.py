@@ -137,9 +137,7 @@ def test_metrics_are_those_of_step_info(spec, design, axis):
     assert metrics.overshoot == pytest.approx(info["Overshoot"], abs=1e-9)
     assert metrics.peak == pytest.approx(info["Peak"])
     assert metrics.peak_time == pytest.approx(info["PeakTime"])
-    assert step_metrics(response).coupling_peak == pytest.approx(
-        np.max(np.abs(response.angles[1 - row]))
-    )
+    assert step_metrics(response).coupling_peak == pytest.approx(np.max(np.abs(response.angles[1 - row])))
 
 
 @pytest.mark.parametrize("name", ["quanser-2dof-manual", "quanser-aero-2", "quanser-aero"])

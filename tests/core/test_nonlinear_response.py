@@ -304,5 +304,5 @@ def test_interpreted_and_compiled_kernels_agree_to_the_last_digit(design):
 def test_a_budget_of_steps_ends_what_is_too_fast(spec):
     loop = close_loop(design(plant(spec.parameters), PoleSet([-1e5, -9e4, -9.0, -8.0])))
     response = simulate_nonlinear(loop, FREE, Scenario(theta=0.1, duration=60.0))
-    assert [f.code for f in response.findings] == ["integration_stopped"]  # given up: not a word on its growth
+    assert [f.code for f in response.findings] == ["integration_stopped"]  # and not that it grows
     assert np.all(np.isfinite(response.angles))

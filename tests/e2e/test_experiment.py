@@ -11,7 +11,7 @@ from tests.e2e.conftest import PATIENCE, App, opened, settled, state
 from tests.e2e.test_page import PLOTS, TRACES
 
 ESSENTIAL = ("rise", "settling", "overshoot", "error", "coupling", "V_p", "V_y", "margin", "delay")
-MORE = ("iae", "itae", "effort-V_p", "effort-V_y")
+MORE = ("undershoot", "iae", "itae", "effort-V_p", "effort-V_y")
 
 
 def scenario(page: Page) -> dict:

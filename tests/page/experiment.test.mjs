@@ -5,7 +5,7 @@ import { cloudRequest, cloudWords } from '../../static/cloud.js';
 import { cloudCaveat, cloudScenario, experimentWords, isStandard, scenarioBody, standard, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../../static/experiment.js';
 import { differs, limitsCost } from '../../static/limits_cost.js';
 import { findingsOf } from '../../static/panels/findings.js';
-import { linearPeak, motorText } from '../../static/panels/metrics.js';
+import { linearPeak, motorText, notSettled } from '../../static/panels/metrics.js';
 import { designOf, requestOf } from '../../static/store.js';
 
 const STEPS = { reference: { theta: 0.1, psi: 0.2 }, duration: 3 };
@@ -104,6 +104,11 @@ test('the linear model’s peak has the trim, and a limit its share of time', ()
   assert.equal(linearPeak(undefined, 'V_p'), undefined);
   assert.equal(motorText({ V_p: { peak: 24, saturated: 0.004 } }, 'V_p'), 'at limit 0.4 %');
   assert.equal(motorText({ V_p: { peak: 12.34, saturated: 0 } }, 'V_p'), '12.3 V');
+});
+
+test('what has not settled is said in words, and only that', () => {
+  assert.equal(notSettled({ theta: { settled: false } }, 'theta'), 'not settled');
+  for (const m of [{ theta: { settled: true, settling_time: 1 } }, {}, undefined]) assert.equal(notSettled(m, 'theta'), undefined);
 });
 
 test('the cost of limits and the causes come first among warnings, errors before all', () => {
