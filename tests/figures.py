@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+import mpmath
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
@@ -44,7 +45,8 @@ def figures(t, angle, start, reference):
 def crossings(spline, level):
     """Where a spline has a value, within its knots."""
     found = spline.solve(level, extrapolate=False)
-    return found[np.isfinite(found)]
+    found = found[np.isfinite(found)]
+    return found[np.abs(spline(found) - level) < 1e-7]  # on flat pieces the solver finds some that are none
 
 
 def largest(t, values):
@@ -57,12 +59,22 @@ def largest(t, values):
 class LinearCourse:
     """x(t) of ẋ = A x + B r from x₀, by the eigenvectors of the matrix that the constant 1 augments."""
 
-    def __init__(self, A, B, reference, start):
+    def __init__(self, A, B, reference, start, digits=None):
+        """With `digits` by mpmath: where poles differ by 10⁵, LAPACK's slow modes are off by 3e-4."""
         n = len(A)
         M = np.zeros((n + 1, n + 1))
         M[:n, :n], M[:n, n] = A, B @ reference
-        self.values, self.vectors = np.linalg.eig(M)
-        self.shares = np.linalg.solve(self.vectors, np.append(start, 1.0).astype(complex))
+        first = np.append(start, 1.0)
+        if digits is None:
+            self.values, self.vectors = np.linalg.eig(M)
+            self.shares = np.linalg.solve(self.vectors, first.astype(complex))
+            return
+        with mpmath.workdps(digits):
+            values, vectors = mpmath.eig(mpmath.matrix(M.tolist()))
+            shares = mpmath.lu_solve(vectors, mpmath.matrix(first.tolist()))
+        self.values = np.array([complex(value) for value in values])
+        self.vectors = np.array(vectors.tolist(), dtype=complex)
+        self.shares = np.array([complex(share) for share in shares])
 
     def __call__(self, t):
         modes = np.exp(np.multiply.outer(self.values, t)) * self.shares[:, None]

@@ -26,8 +26,8 @@ from .linear import respond
 from .loop import augment, compose
 from .measures import hold, trajectories
 
-ROUNDING = 1e-9
-"""An overshoot of the exact response below this share of the step is none."""
+ROUNDING = 1e-6
+"""An overshoot of the exact response below this share of the step is none: with poles at −10⁵, it may be rounding."""
 SEEN = 1e-4
 """The same of a simulation, whose own error is about its tolerance, whatever that is."""
 

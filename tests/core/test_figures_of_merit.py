@@ -29,7 +29,7 @@ def inner_loop(*poles, theta_0=0.0, coupling=STRUCTURES[0]):
     return close_loop(placed, OuterLoop(outer="none"))
 
 
-def worst_gap(own, expected, step, length, rounding=1e-9):
+def worst_gap(own, expected, step, length, rounding=1e-6):
     """The largest difference of the figures: shares of the step, or of the time that it lasts."""
     gaps = [0.0]
     assert (own.rise_time is None) == (expected["rise_time"] is None)
@@ -43,7 +43,7 @@ def worst_gap(own, expected, step, length, rounding=1e-9):
         # an extremum is flat: its time is known to the root of what its height is known to
         assert own.peak_time == pytest.approx(expected["peak_time"], abs=1e-3 * length)
     elif expected["peak_time"] < 0.999 * length:
-        assert expected["overshoot"] < 100 * rounding
+        assert expected["overshoot"] < 110 * rounding
     if own.settled:
         gaps.append(abs(own.settling_time - expected["entered"]))
     return max(gaps)
@@ -60,17 +60,17 @@ def random_linear(count, seed):
         yield loop, Scenario(*reference, duration=duration, samples=2, initial=(*start, *rates))
 
 
-def linear_reference(loop, scenario, samples=20_001):
+def linear_reference(loop, scenario, digits=None):
     theta_0 = loop.design.plant.theta_0
     resolved = np.array(scenario.resolved(theta_0))
     start = np.zeros(len(loop.A))
     start[:4] = resolved[2:6] - [theta_0, 0, 0, 0]
-    return LinearCourse(loop.A, loop.B, resolved[:2] - [theta_0, 0], start), resolved
+    return LinearCourse(loop.A, loop.B, resolved[:2] - [theta_0, 0], start, digits), resolved
 
 
-def check_linear(loop, scenario, samples=4001):
+def check_linear(loop, scenario, samples=4001, digits=None):
     """The largest difference from the modes' own figures; the verdict on settling looks as far as they last."""
-    course, resolved = linear_reference(loop, scenario)
+    course, resolved = linear_reference(loop, scenario, digits)
     early = min(scenario.duration, 30 / np.max(np.abs(loop.poles)))  # dense where the fast poles are, too
     t = np.linspace(0, early, samples)
     if early < scenario.duration:
@@ -97,7 +97,7 @@ def check_linear(loop, scenario, samples=4001):
 
 
 def test_linear_figures_are_those_of_the_modes():
-    worst = max(check_linear(loop, scenario) for loop, scenario in random_linear(40, seed=7))
+    worst = max(check_linear(loop, scenario) for loop, scenario in random_linear(12, seed=7))
     assert worst < 1e-6
 
 
@@ -105,7 +105,24 @@ def test_fast_poles_do_not_blur_the_slow_ones():
     """To −10⁵ beside −1, windows from 10 ms to 600 s."""
     for poles in ([-1e5, -5e4, -1.0, -2.0], [-3e3 + 4e3j, -3e3 - 4e3j, -1.0, -30.0]):
         for duration in (0.01, 1.0, 600.0):
-            assert check_linear(inner_loop(*poles), Scenario(0.1, 0.2, duration=duration, samples=2)) < 1e-6
+            scenario = Scenario(0.1, 0.2, duration=duration, samples=2)
+            course, resolved = linear_reference(inner_loop(*poles), scenario, digits=40)
+            own = step_metrics(simulate_linear(inner_loop(*poles), scenario)).axes
+            rise = np.linspace(0, min(duration, 30.0), 60_001)
+            for axis, name in enumerate(AXES):
+                error = resolved[axis] - course(np.array([duration]))[axis, 0]
+                assert own[name].steady_state_error == pytest.approx(error, abs=1e-7)
+                if axis == 1:
+                    expected = figures(rise, course(rise)[1], 0.0, 0.2)
+                    for figure in ("rise_time", "settling_time"):
+                        key = "entered" if figure == "settling_time" else figure
+                        value = getattr(own[name], figure)
+                        assert value == (None if value is None else pytest.approx(expected[key], abs=1e-5))
+            fast = np.abs(poles[0])
+            early = np.linspace(0, min(duration, 20 / fast * np.sqrt(3)), 4001)
+            pitch = figures(early, course(early)[0], 0.0, 0.1)
+            assert own["theta"].overshoot == pytest.approx(pitch["overshoot"], abs=2e-4)
+            assert own["theta"].rise_time == pytest.approx(pitch["rise_time"], abs=1e-9)
 
 
 def nonlinear_gap(loop, scenario, samples=8001):
@@ -135,7 +152,7 @@ def nonlinear_gap(loop, scenario, samples=8001):
 
 def test_nonlinear_figures_are_scipys():
     """Saturating loops and stops among them."""
-    loops = list(random_loops(6, seed=23))
+    loops = list(random_loops(3, seed=23))
     gaps = [nonlinear_gap(loop, replace(scenario, duration=3.0, rtol=1e-9)) for loop, scenario in loops]
     assert max(gaps) < 1e-5  # SciPy's splines know nothing of the kinks at a limit
 
@@ -164,7 +181,7 @@ def test_digital_figures_are_scipys(design):
 SAME = ("rise_time", "settling_time", "settled", "overshoot", "undershoot", "peak", "peak_time")
 
 
-def alike(one, other, abs_=1e-6, names=(*SAME, "iae")):
+def alike(one, other, abs_=1e-6, names=SAME):
     assert one.axes.keys() == other.axes.keys()
     for name, axis in one.axes.items():
         for figure in names:
@@ -177,7 +194,7 @@ def alike(one, other, abs_=1e-6, names=(*SAME, "iae")):
 def test_figures_do_not_depend_on_samples_or_duration(digital):
     spec = Spec.from_preset(reference=(0.2, 0.3))
     courses = {}
-    for duration, samples in ((5.0, 501), (5.0, 2), (5.0, 20_001), (1.1, 7), (40.0, 90)):
+    for duration, samples in ((5.0, 501), (5.0, 2), (5.0, 20_001), (3.1, 7), (40.0, 90)):
         scenario = replace(spec.scenario, duration=duration, samples=samples, digital=digital)
         report = evaluate(replace(spec, scenario=scenario))
         courses[duration, samples] = report.step
@@ -185,6 +202,9 @@ def test_figures_do_not_depend_on_samples_or_duration(digital):
             alike(step.metrics, courses[5.0, 501][model].metrics)
             if duration == 5.0:
                 ours, theirs = step.metrics, courses[5.0, 501][model].metrics
+                assert vars(ours.axes["theta"]) == pytest.approx(
+                    vars(theirs.axes["theta"]), rel=1e-6, abs=1e-12
+                )
                 assert vars(ours.motors["V_p"]) == pytest.approx(vars(theirs.motors["V_p"]), rel=1e-6)
 
 
@@ -216,13 +236,14 @@ def test_a_last_crossing_is_no_settling(duration, settles):
 def test_the_rig_is_followed_beyond_its_window():
     """Where it has come into the band only just: the same settling time as in a long window, or none."""
     spec = Spec.from_preset(reference=(0.2, None))
-    settles = evaluate(spec.changed(duration=10.0)).step["nonlinear"].metrics.axes["theta"].settling_time
     for digital in (None, Digital()):
+        long = replace(spec, scenario=replace(spec.scenario, duration=10.0, digital=digital))
+        settles = evaluate(long).step["nonlinear"].metrics.axes["theta"].settling_time
         for duration, settled in ((settles + 0.02, True), (settles - 0.02, False)):
             scenario = replace(spec.scenario, duration=duration, digital=digital)
             own = evaluate(replace(spec, scenario=scenario)).step["nonlinear"].metrics.axes["theta"]
             assert own.settled == settled
-            assert own.settling_time == (pytest.approx(settles, abs=5e-3) if settled else None)
+            assert own.settling_time == (pytest.approx(settles, abs=1e-6) if settled else None)
 
 
 def test_what_overshoots_nothing_has_no_peak_time():
