@@ -12,6 +12,7 @@ import numpy as np
 
 from ..layout import (
     BACK_CALCULATION,
+    BEFORE,
     BETA,
     CLAMPING,
     DELAY,
@@ -54,21 +55,22 @@ def run_digital(
 
     `c`, `m` as for `integrate`, with the controller's gains; `poles` are the linear loop's; `noise`, (samples, 2), is
     added to the measured angles, rad; the disturbance acts from the first sample at or after `disturbed_from`.
-    Figures go into `axes`, `motors` and `known`, as `layout` says. Scratch: `w` of zeros, `plant` and `free` like c
-    and m, `grid` (len(t) + 2,), `course` (len(t) + 2, 6), `f`, twice FOLLOWED. What was not reached is held.
+    With a delay the motors have the voltages d[BEFORE] until the second sample. Figures go into `axes`, `motors` and
+    `known`, as `layout` says. Scratch: `w` of zeros, `plant` and `free` like c and m, `grid` (len(t) + 2,), `course`
+    (len(t) + 2, 6), `f`, twice FOLLOWED. What was not reached is held.
     """
     without_controller(c, m, plant, free)
     filters, measured, held, waiting = w[16:18], w[18], w[19], w[20]
-    settle_filters(y, d, filters)
+    stand(y, c, d, filters, held)
     own, ahead, end, samples = f[:4], f[4:], t[-1], len(t)
     start, reference = (x[START], x[START + 1]), (x[REFERENCE], x[REFERENCE + 1])
-    begin(own, start, reference, rest, min(max(y[0], -c[TRAVEL]), c[TRAVEL]), y[1], 0.0)
+    begin(own, start, reference, rest, y[0], y[1], 0.0)
     now, done, impacts, k, outcome, reached = t[0], 0, 0, 0, ENDED, end
     period, over, until, proven = d[TIME], False, end, True
     while done < samples or now < until:
         sense(y, d, filters, noise[min(k, len(noise) - 1)], measured)
         control(y, c, m, d, measured, w[23], waiting)
-        if d[DELAY] == 0.0 or k == 0:
+        if d[DELAY] == 0.0:
             held[0], held[1] = waiting[0], waiting[1]
         following = t[0] + (k + 1) * period
         count = 1
@@ -158,6 +160,22 @@ def without_controller(c, m, plant, free):
     plant[LIMIT], plant[LIMIT + 1] = np.inf, np.inf
     put(m, free)
     free[WINDUP] = 0
+
+
+@kernel
+def stand(y, c, d, filters, held):
+    """The rig before the first sample: within its travel, its filters settled, under the voltages d[BEFORE]."""
+    enter(y, c)
+    held[0], held[1] = d[BEFORE], d[BEFORE + 1]
+    settle_filters(y, d, filters)
+
+
+@kernel
+def enter(y, c):
+    """Who starts beyond a stop of the pitch travel stands at it, as in `rig.meet_stop`."""
+    if abs(y[0]) >= c[TRAVEL]:
+        y[0] = c[TRAVEL] if y[0] > 0.0 else -c[TRAVEL]
+        y[2] = 0.0
 
 
 @kernel

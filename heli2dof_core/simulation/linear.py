@@ -57,5 +57,5 @@ def linear_response(x: Floats, t: Floats, states: Floats, voltages: Floats, foun
     """The course of an experiment with its remarks."""
     theta, psi, theta_start, psi_start = x[: START + 2].tolist()
     ends = ((theta, psi), (theta_start, psi_start))
-    remarks = tuple(course_findings("linear", t, found, ends))
+    remarks = tuple(course_findings("linear", t, found))
     return Response("linear", t, states[:2], voltages, *ends, (0.0, 0.0), remarks, states, found)

@@ -140,10 +140,7 @@ def limited_response(x: Floats, t: Floats, states: Floats, voltages: Floats, fou
     theta, psi, theta_start, psi_start = x[: START + 2].tolist()
     ends = ((theta, psi), (theta_start, psi_start))
     pitch, yaw, _, _, impacts, *_ = found.course[SHARE:].tolist()
-    remarks = (
-        *course_findings("nonlinear", t, found, ends),
-        *_remarks(x, (pitch, yaw), impacts),
-    )
+    remarks = (*course_findings("nonlinear", t, found), *_remarks(x, (pitch, yaw), impacts))
     return Response("nonlinear", t, states[:2], voltages, *ends, (pitch, yaw), remarks, states, found)
 
 
@@ -158,12 +155,16 @@ def _remarks(x: Floats, saturated: tuple[float, float], impacts: float) -> Itera
     travel = float(x[STOP])
     stop = f"±{degrees(travel):.1f}°"
     if abs(x[START]) > travel:
-        yield Finding("starts_on_stop", "warning", "The start lies beyond a stop of the pitch travel.")
+        yield Finding(
+            "starts_on_stop",
+            "warning",
+            "The start angle lies beyond the pitch travel. The rig starts on its stop.",
+        )
     if impacts:
         yield Finding("travel_stop", "warning", f"Pitch hits a stop of its travel at {stop}.")
     if abs(x[REFERENCE]) > travel:
         yield Finding(
             "reference_beyond_stop",
             "warning",
-            f"The pitch reference lies beyond the rig's travel of {stop}: it cannot be reached.",
+            f"The pitch reference lies beyond the travel of {stop} and cannot be reached. Choose a smaller step.",
         )

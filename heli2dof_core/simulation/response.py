@@ -18,9 +18,8 @@ from ..layout import (
     OUT_OF_SWITCHES,
     OUTCOME,
     REACHED,
-    SETTLED,
 )
-from ..signals import AXES, OUTPUTS, Floats
+from ..signals import Floats
 from ..tables import Shown, number
 
 
@@ -108,37 +107,18 @@ class Response(Shown):
 
 
 _GIVEN_UP = {
-    OUT_OF_STEPS: "more steps would be needed than are worth it",
-    OUT_OF_SWITCHES: "its modes switch without end",
+    OUT_OF_STEPS: "it takes too many steps; shorten the duration or loosen the tolerance",
+    OUT_OF_SWITCHES: "it switches between limits without end",
 }
 
 
-def course_findings(
-    model: Literal["linear", "nonlinear"], t: Floats, found: Measured, ends: tuple[tuple[float, float], ...]
-) -> Iterator[Finding]:
-    """How a course ended: without bound, given up, or before it settled; `ends` are reference and start."""
-    course, axes = found.course, found.axes
-    held, outcome, reached = int(course[HELD]), int(course[OUTCOME]), float(course[REACHED])
+def course_findings(model: Literal["linear", "nonlinear"], t: Floats, found: Measured) -> Iterator[Finding]:
+    """How a course ended before its time: without bound, or given up."""
+    held, outcome, reached = (found.course[i] for i in (HELD, OUTCOME, REACHED))
     if held < len(t):
-        message = (
-            f"The response grows without bound; it is shown until t = {t[held - 1]:.3g} s and held there."
-        )
+        message = f"The response grows without bound. It is shown until t = {t[int(held) - 1]:.3g} s."
         yield Finding("diverges", "error", message)
     elif outcome in _GIVEN_UP:
-        yield Finding(
-            "integration_stopped",
-            "warning",
-            f"The {'simulation was' if model == 'nonlinear' else 'linear figures were'} given up at "
-            f"t = {reached:.3g} s, as {_GIVEN_UP[outcome]}: "
-            f"{'curves and figures end' if model == 'nonlinear' else 'they end'} there. "
-            "Choose a shorter time or slower poles.",
-        )
-    else:
-        for i, signal in enumerate(OUTPUTS):
-            if ends[0][i] != ends[1][i] and not axes[i, SETTLED]:
-                yield Finding(
-                    f"not_settled_{signal.name}",
-                    "warning",
-                    f"{AXES[i].capitalize()} has not settled within the {number(float(t[-1]))} s shown: it is not "
-                    "within 2 % of its step for good. Show a longer time, or make it faster or better damped.",
-                )
+        what = "The simulation" if model == "nonlinear" else "Measuring the linear response"
+        words = f"{what} stopped early, at t = {reached:.3g} s: {_GIVEN_UP[int(outcome)]}."
+        yield Finding("integration_stopped", "warning", words)

@@ -41,7 +41,7 @@ export class RecordingsPanel {
     this.remarks = h('ul', { class: 'recording-remarks' });
     const card = (/** @type {string} */ title, /** @type {string} */ kind, /** @type {any[]} */ ...content) => h('div', { class: `card ${kind}` }, h('h3', {}, title), content);
     this.overlayCard = card('Over the simulation', 'wide', h('div', { class: 'row' }, h('label', { class: 'row' }, h('span', {}, 'Driven by'), this.driver), this.again), this.about, h('div', { class: 'frequency-plots' }, this.plots.map((p) => p.node)));
-    this.identifyCard = card('Identification', 'wide', h('p', { class: 'caption' }, 'Least squares on the nonlinear model under the recorded voltages. The intervals consider that residuals are correlated in time. J, m and l stay.'),
+    this.identifyCard = card('Identification', 'wide', h('p', { class: 'caption' }, 'Least squares on the nonlinear model under the recorded voltages. Intervals allow for correlated residuals. J, m and l are held fixed.'),
       h('div', { class: 'row', role: 'group', 'aria-label': 'Free parameters' }, h('span', {}, 'Free'), this.free, this.run, this.cancel), this.progress, h('div', { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Identified parameters' }, this.table), this.remarks, this.adopt);
     root.append(h('div', { class: 'row recording-file' }, h('label', { class: 'row' }, h('span', {}, 'File (CSV or .mat)'), this.file), this.sample, this.save), this.status, this.problem,
       h('div', { class: 'recording-body' }, this.columnsCard = card('Columns', 'wide', this.mapping, this.head), this.overlayCard, this.identifyCard));

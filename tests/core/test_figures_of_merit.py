@@ -88,7 +88,6 @@ def check_linear(loop, scenario, samples=4001, digits=None):
         worst = max(worst, worst_gap(metrics, expected, abs(reference - start), scenario.duration))
         leaves = course.leaves(scenario.duration, axis, start - offset[axis], reference - offset[axis])
         assert metrics.settled == (expected["entered"] is not None and not leaves)
-        assert (f"not_settled_{name}" in {f.code for f in response.findings}) == (not metrics.settled)
     by_reference = loop.voltage_from_reference @ (resolved[:2] - offset)
     for motor, name in enumerate(("V_p", "V_y")):
         peak = largest(t, loop.voltage_from_state[motor] @ deviations + by_reference[motor])
@@ -229,7 +228,6 @@ def test_a_last_crossing_is_no_settling(duration, settles):
     axis = own.axes["theta"]
     assert axis.settling_time == (None if settles is None else pytest.approx(settles, abs=1e-5))
     assert axis.settled == (settles is not None)
-    assert [f.code for f in response.findings] == ([] if settles else ["not_settled_theta"])
     assert ("not settled" in own.summary()) == (settles is None)
 
 
@@ -276,7 +274,7 @@ def test_what_was_given_up_is_not_said_to_grow():
     rig = report.step["nonlinear"]
     assert np.all(np.isfinite(rig.response.states)) and not rig.metrics.axes["theta"].settled
     message = next(f.message for f in report.findings if f.code == "integration_stopped")
-    assert "given up at t = " in message
+    assert "stopped early, at t = " in message
 
 
 def test_what_grows_is_measured_until_it_leaves():
