@@ -45,6 +45,8 @@ LADDER = (80, AUGMENTED, AUGMENTED)
 RISE_TIME, SETTLING_TIME, OVERSHOOT, UNDERSHOOT, PEAK, PEAK_TIME, STEADY_STATE_ERROR, IAE, ITAE = range(9)
 SETTLED, AXIS_METRICS = 9, 10
 PEAK_VOLTAGE, EFFORT, MOTOR_METRICS = range(3)
+BAND = 0.02
+"""How far from its reference an axis may be that has settled, as a share of its step."""
 # f: what is known of a course so far. Rows 0 and 1, an axis: its start, 1/step (1 where it is not stepped), whether
 # it is stepped, highest and lowest share of the step with their times, how many of the levels of the rise it has
 # reached and when, whether it is within the settling band and since when, ∫ |1 − share| dt and ∫ t |1 − share| dt.

@@ -15,6 +15,7 @@ from ..layout import (
     AT_HIGH,
     AT_LIMIT,
     AT_LOW,
+    BAND,
     BOTTOM,
     BOTTOM_AT,
     BY,
@@ -45,7 +46,6 @@ from ..layout import (
 from .jit import kernel
 
 LOW, HIGH = 0.1, 0.9
-BAND = 0.02
 
 
 @kernel
