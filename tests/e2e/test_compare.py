@@ -69,7 +69,7 @@ def test_a_row_opens_to_its_gain(page: Page, app: App):
 def test_ackermann_tells_why_it_has_no_gain_and_has_one_on_another_rig(page: Page):
     seen(page, "compare")
     row = page.get_by_test_id("compare-row-ackermann")
-    assert "single input" in row.inner_text()
+    assert "one input that reaches every state" in row.inner_text()
     assert page.get_by_test_id("use-ackermann").count() == 0
     choose(page, "quanser-aero-2")
     seen(page, "compare")
@@ -146,7 +146,7 @@ def test_a_pole_at_zero_leaves_no_interaction_to_show_and_says_so(page: Page):
     seen(page, "interaction")
     expect(page.get_by_test_id("dominance-words")).to_contain_text("no steady state")
     expect(page.get_by_test_id("interaction-gains")).to_be_hidden()
-    assert "No steady state" in page.get_by_test_id("pairing-words").inner_text()
+    assert "there is no steady state" in page.get_by_test_id("pairing-words").inner_text()
 
 
 def test_own_poles_of_a_method_leave_the_placed_ones_dimmed(page: Page):
