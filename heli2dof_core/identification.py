@@ -12,14 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .checks import require_within
-from .covariance import plain_covariance, sandwich_covariance
+from .covariance import grouped_covariance, groups_of, plain_covariance, student_quantile
 from .errors import InvalidInputError, RecordingError
 from .findings import Finding
+from .model_errors import unmodelled
 from .parameters import PARAMETER_INFO, Parameters
 from .recordings import Recording
-from .segments import Fitted, cut, fit_starts, rough_starts, segment_length
+from .segments import Fitted, bridged, cut, divergence_told, fit_starts, rough_starts, segment_length
 from .signals import Floats
-from .simulation.recorded import longest_step
+from .simulation.recorded import Wanted, longest_step, nobody_leaves
 
 IDENTIFIABLE = ("K_pp", "K_py", "K_yp", "K_yy", "B_p", "B_y", "K_s")
 """Parameters that can be found, in the order of the sensitivities; J, m and l only scale them and stay."""
@@ -113,6 +114,7 @@ def identify(
     segment: float | None = None,
     travel: float | None = None,
     report: Callable[[Progress], None] = lambda progress: None,
+    wanted: Wanted = nobody_leaves,
 ) -> Identification:
     """The free parameters that bring the simulated angles nearest to the recorded ones.
 
@@ -129,6 +131,7 @@ def identify(
         segment: length, s; by default as long as no error grows much (`segment_length`).
         travel: pitch stops at ±travel, rad; what happens there is left out.
         report: called after each simulation; what it raises ends the search.
+        wanted: called more often, within a simulation; what it raises ends the search.
 
     Raises:
         InvalidInputError: `free` is empty or holds an unknown name; `segment` is out of its range.
@@ -138,27 +141,43 @@ def identify(
     names = _checked(default_free(p) if free is None else free)
     length = segment_length(p, recording) if segment is None else segment
     require_within(length, "segment", "s", 0.1, 1e4)
-    try:
+    recording = bridged(recording)
 
-        def segmented(length: float, spent: int = 0) -> _Search:
-            return _Search(
-                p, recording, names, cut(recording, length, travel), report=report, evaluations=spent
-            )
+    def segmented(length: float, spent: int = 0) -> _Search:
+        bounds = cut(recording, length, travel)
+        return _Search(p, recording, names, bounds, report=report, wanted=wanted, evaluations=spent)
 
+    with divergence_told():
         search, before, values = _found(segmented, names, length)
-    except FloatingPointError as error:
-        raise RecordingError(
-            "under the recorded voltages the simulated rig runs away",
-            field="columns",
-            hint="Check units, signs, offsets and which rig was recorded, or try shorter segments.",
-        ) from error
+        return _concluded(search, before, values, began)
+
+
+def _concluded(
+    search: _Search, before: tuple[float, float] | None, values: Floats, began: float
+) -> Identification:
+    """The estimates with their intervals, and what is to be said of them."""
+    p, recording, names = search.p, search.recording, search.names
     after = search.fitted(values)
     J, r = search.slopes(after) * search.weights[:, None], after.residuals * search.weights
     inside = search.inside
     unknowns = len(names) + 4 * len(search.bounds)
-    covariance, lags = sandwich_covariance(J[inside], r[inside], unknowns)
-    widths = QUANTILE * search.scales * np.sqrt(np.diag(covariance))
+    groups = groups_of(search.bounds)
+    covariance = grouped_covariance(J, r, groups)
+    widths = student_quantile(len(groups) - 1) * search.scales * np.sqrt(np.diag(covariance))
     plain = QUANTILE * search.scales * np.sqrt(np.diag(plain_covariance(J[inside], r[inside], unknowns)))
+    missed = unmodelled(
+        search.rig(values),
+        recording,
+        search.bounds,
+        after.starts,
+        J=J,
+        r=r,
+        widths=widths / search.scales,
+        names=names,
+        weights=search.weights,
+        step=search.step,
+        wanted=search.wanted,
+    )
     estimates = []
     for i, name in enumerate(names):
         own, value = getattr(p, name), search.value(i, values)
@@ -171,10 +190,14 @@ def identify(
         rms=_pair(search.rms(after)),
         residuals=after.residuals,
         segments=search.bounds,
-        lags=lags,
+        lags=float(np.median(np.diff(groups, axis=1))),
         evaluations=search.evaluations,
         seconds=perf_counter() - began,
-        findings=(*recording.findings, *_remarks(estimates, J[inside], names, search)),
+        findings=(
+            *recording.findings,
+            *missed,
+            *_remarks(estimates, J[inside], names, search),
+        ),
     )
 
 
@@ -214,15 +237,17 @@ class _Search:
         bounds: NDArray[np.int64],
         *,
         report: Callable[[Progress], None],
+        wanted: Wanted = nobody_leaves,
         evaluations: int = 0,
     ) -> None:
+        self.wanted = wanted
         self.p, self.recording, self.names, self.bounds, self.report = p, recording, names, bounds, report
         self.scales = np.array([_scale(p, name) for name in names])
         self.weights, self.evaluations, self.ended = np.ones(2), evaluations, True
         self._columns = [IDENTIFIABLE.index(name) for name in names]
         self._starts = rough_starts(recording, bounds)
         self._last: tuple[Floats, float, Any] = np.full(len(names), np.nan), 0.0, None
-        self._step = longest_step(p) / 2
+        self.step = longest_step(p) / 2
         inside = np.zeros(len(recording.t), dtype=bool)
         for first, end in bounds.tolist():
             inside[first:end] = True
@@ -241,17 +266,27 @@ class _Search:
         """The i-th free parameter."""
         return float(getattr(self.p, self.names[i]) + deviations[i] * self.scales[i])
 
+    def rig(self, deviations: Floats) -> Any:
+        """The rig with these parameters, which may have any value."""
+        values = SimpleNamespace(**self.p.as_dict(), alpha=self.p.alpha)
+        for i, name in enumerate(self.names):
+            setattr(values, name, self.value(i, deviations))
+        return values
+
     def fitted(self, deviations: Floats) -> Fitted:
         """The segments under these parameters; the last answer is kept, for derivatives are asked for apart."""
         known, weight, answer = self._last
         key = float(self.weights[0] / self.weights[1])
         if answer is not None and weight == key and np.array_equal(known, deviations):
             return answer
-        values = SimpleNamespace(**self.p.as_dict(), alpha=self.p.alpha)
-        for i, name in enumerate(self.names):
-            setattr(values, name, self.value(i, deviations))
         answer = fit_starts(
-            values, self.recording, self.bounds, self._starts, weights=self.weights, step=self._step
+            self.rig(deviations),
+            self.recording,
+            self.bounds,
+            self._starts,
+            weights=self.weights,
+            step=self.step,
+            wanted=self.wanted,
         )
         self._starts, self._last = answer.starts, (deviations.copy(), key, answer)
         self.evaluations += 1
