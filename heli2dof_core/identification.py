@@ -163,7 +163,7 @@ def _concluded(
     unknowns = len(names) + 4 * len(search.bounds)
     groups = groups_of(search.bounds)
     covariance = grouped_covariance(J, r, groups)
-    widths = student_quantile(len(groups) - 1) * search.scales * np.sqrt(np.diag(covariance))
+    widths = student_quantile(len(groups) - len(names)) * search.scales * np.sqrt(np.diag(covariance))
     plain = QUANTILE * search.scales * np.sqrt(np.diag(plain_covariance(J[inside], r[inside], unknowns)))
     missed = unmodelled(
         search.rig(values),

@@ -51,7 +51,7 @@ def guess_columns(table: Table) -> Columns:
         chosen["time"] = table.time
     for name in sorted(table.names, key=lambda name: not _FIRST.search(name)):
         role = role_of(name)
-        if role and role not in chosen and (role != "time" or _rises(table, name)):
+        if role and (role not in chosen or (role == "time" and _rises(table, name) > _rises(table, chosen[role]))):
             chosen[role] = name
     unit, units = _angle_units(table, chosen)
     volts: Any = {table.unit(chosen[role], "voltage") for role in ("V_p", "V_y") if role in chosen} - {None}
@@ -69,9 +69,9 @@ def guess_columns(table: Table) -> Columns:
 
 
 def _rises(table: Table, name: str) -> bool:
-    """Whether a column can be the time: two in three of its steps forward at least."""
+    """Whether a column can be the time: two in three of its steps go forward at least."""
     steps = np.diff(table.values[:, table.names.index(name)])
-    return not len(steps) or float(np.mean(steps > 0)) > 0.67
+    return name == table.time or (len(steps) > 0 and float(np.mean(steps > 0)) > 0.67)
 
 
 def _angle_units(table: Table, chosen: dict[str, str]) -> tuple[Any, dict[str, Any]]:

@@ -139,14 +139,15 @@ def missing_rows(t: Floats) -> NDArray[np.int64]:
     return np.where(between & regular, count - 1, 0).astype(np.int64)
 
 
-def timing_remarks(t: Floats) -> list[Finding]:
-    """Gaps, missing rows, irregular and coarse samples."""
+def timing_remarks(t: Floats, *, averaged: bool = False) -> list[Finding]:
+    """Gaps, missing rows, irregular samples, and coarse ones unless voltages were averaged between them."""
     found, steps = [], np.diff(t)
     usual = float(np.median(steps))
     gaps, missing = len(stretches(t)) - 1, int(np.sum(missing_rows(t)))
     if gaps:
-        words = f"{gaps} gaps, the longest of {np.max(steps):.3g} s: nothing is simulated across them."
-        found.append(Finding("gaps", "warning", words.replace("1 gaps, the longest", "1 gap", 1) if gaps == 1 else words))
+        longest = float(np.max(steps))
+        count = f"A gap of {longest:.3g} s" if gaps == 1 else f"{gaps} gaps, the longest of {longest:.3g} s"
+        found.append(Finding("gaps", "warning", f"{count}: nothing is simulated across."))
     if missing:
         words = (
             f"{missing} rows are missing ({100 * missing / (len(t) + missing):.2g} %): the voltages there are taken "
@@ -160,7 +161,7 @@ def timing_remarks(t: Floats) -> list[Finding]:
             f"{odd} of {len(steps)} sample times differ from the usual {1e3 * usual:.3g} ms by more than 20 %."
         )
         found.append(Finding("irregular_samples", "warning", words))
-    if usual > COARSE:
+    if usual > COARSE and not averaged:
         words = (
             f"Rows lie {1e3 * usual:.3g} ms apart. If the controller ran faster, its voltages in between are unknown "
             "and results are biased: record every sample; whoever thins rows out should average the voltages (decimate)."

@@ -166,6 +166,12 @@ class Recording:
     references: Floats | None = None
     findings: tuple[Finding, ...] = field(default=())
 
+    def __post_init__(self) -> None:
+        for name in ("t", "angles", "voltages", "references"):
+            values = getattr(self, name)
+            if values is not None:  # the compiled kernels take this layout alone
+                object.__setattr__(self, name, np.ascontiguousarray(values, dtype=np.float64))
+
     @property
     def sample_time(self) -> float:
         """Median time between two samples, s."""
@@ -217,7 +223,8 @@ def recording_of(table: Table, columns: Columns) -> Recording:
             value=columns.decimate,
             hint="Decimate less.",
         )
-    return replace(own, findings=(*own.findings, *timing_remarks(own.t), *_silent(own.voltages)))
+    timing = timing_remarks(own.t, averaged=columns.decimate > 1)
+    return replace(own, findings=(*own.findings, *timing, *_silent(own.voltages)))
 
 
 def decimated(recording: Recording, factor: int) -> Recording:

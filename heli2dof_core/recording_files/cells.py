@@ -15,7 +15,7 @@ EMPTY = frozenset({"", "nan", "na", "n/a", "null", "none", "#n/a", "-nan", "miss
 _COMMA = re.compile(r"[+-]?(\d+|\d{1,3}(\.\d{3})+)?,\d*([eEdD][+-]?\d+)?")
 _FORTRAN = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)[dD][+-]?\d+")
 _WITH_UNIT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Zµμ°º/%]+)")
-_CLOCK = re.compile(r"([+-]?)(?:(\d+)[:.](?=\d+:))?(\d+):(\d\d):(\d\d(?:[.,]\d*)?)")
+_CLOCK = re.compile(r"([+-]?)(?:(\d+)(?:[:.]|\s+days?\s+)(?=\d+:))?(\d+):(\d\d):(\d\d(?:[.,]\d*)?)")
 _MINUTES = re.compile(r"([+-]?)(\d+):(\d\d[.,]\d+)")
 _DATES = (
     "%d-%b-%Y %H:%M:%S.%f",

@@ -128,9 +128,10 @@ def _is_data(grid: Grid, row: Sequence[Cell]) -> bool:
 
 
 def _units(row: Sequence[Cell]) -> bool:
-    """Whether all cells that are not empty are units."""
+    """Whether all cells that are not empty are units; the unit 1 alone is a number."""
     filled = [cell for cell in row if not is_empty(cell)]
-    return bool(filled) and all(isinstance(cell, str) and known_unit(cell) for cell in filled)
+    known = all(isinstance(cell, str) and known_unit(cell) for cell in filled)
+    return known and any(not cell.strip("[](){} ").isdigit() for cell in filled)
 
 
 def _head(grid: Grid, start: int) -> tuple[list[str], dict[int, str]]:

@@ -20,6 +20,8 @@ Decimal = Literal["point", "comma"]
 SEPARATORS = MappingProxyType({"semicolon": ";", "tab": "\t", "comma": ",", "bar": "|", "blank": None})
 """Marks by name, in the order in which equals are preferred; None is any white space."""
 _SAMPLED = 300
+_A_TABLE = 0.25
+"""Share of lines that are rows of numbers, below which a text is no table."""
 _CONSISTENT = 0.8
 """Share of the best candidate's lines from which a candidate counts as consistent, too."""
 _COMMENT = ("#", "%", "//")
@@ -148,9 +150,13 @@ def _judged(rows: list[str], dialect: Dialect) -> tuple[str, bool, int]:
                 continue
             candidates.append(_Candidate.of(separator, comma, split_lines))
     for lines, width in (("all", "width"), ("most", "wide")):
-        best = max(getattr(c, lines) for c in candidates if getattr(c, width) > 1) if any(
-            getattr(c, width) > 1 for c in candidates
-        ) else 0
+        best = max((getattr(c, lines) for c in candidates if getattr(c, width) > 1), default=0)
+        if best and best < _A_TABLE * len(sample):
+            raise refused(
+                f"only {best} of {len(sample)} lines are rows of numbers",
+                hint="Give a table: time, both angles and both voltages as columns of numbers. Of a design, export csv, "
+                "mat or json.",
+            )
         if best:
             near = [c for c in candidates if getattr(c, width) > 1 and getattr(c, lines) >= _CONSISTENT * best]
             # A decimal mark that more lines bear out, no blank, many lines.
@@ -202,4 +208,5 @@ def _sampled(rows: list[str]) -> list[str]:
         return rows
     third = _SAMPLED // 3
     step = (len(rows) - 2 * third) // third + 1
-    return [*rows[:third], *rows[third:-third:step], *rows[-third:]]
+    commas = [row for row in rows if "," in row][:third]  # a decimal comma may be rare
+    return [*rows[:third], *rows[third:-third:step], *rows[-third:], *commas]

@@ -86,7 +86,8 @@ def table_of_series(series: list[Series], left_out: list[str], kind: str) -> Tab
         # What carries its own time may still have the others' length.
         columns += [s for s in timed if len(s.values) == rows]
     kept = {s.name for s in columns}
-    left_out = left_out + [f"{s.name} ({len(s.values)} rows)" for s in (*bare, *timed) if s.name not in kept]
+    others = [s for s in (*bare, *timed) if s.name not in kept and len(s.values) >= FEWEST_SAMPLES]
+    left_out = left_out + [f"{s.name} ({len(s.values)} rows)" for s in others]
     if not columns:
         named = f": {', '.join(left_out[:8])}" if left_out else ""
         raise refused(
