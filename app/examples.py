@@ -60,7 +60,9 @@ EXAMPLES: dict[str, dict[str, tuple[str, Json]]] = {
             },
         ),
     },
-    "JoinRequest": {"one": ("A file that was sent before; give the id of each signal's", {"recordings": ["{key}"]})},
+    "JoinRequest": {
+        "one": ("A file that was sent before; give the id of each signal's", {"recordings": ["{key}"]})
+    },
     "PlaceRequest": {
         "three": (
             "Three states, two inputs",

@@ -9,8 +9,8 @@ from pydantic import Field
 
 from heli2dof_core.identification import IDENTIFIABLE, Identification, Progress
 from heli2dof_core.overlay import Overlay
-from heli2dof_core.recording_guess import guess_columns
 from heli2dof_core.recording_files import MOST_FILES
+from heli2dof_core.recording_guess import guess_columns
 from heli2dof_core.recording_time import likely_unit
 from heli2dof_core.recording_units import SECONDS
 from heli2dof_core.recordings import (
@@ -158,9 +158,7 @@ class Guess(Model):
     units: dict[str, str] = Field(default={}, description="of angles whose unit is another one")
     time_unit: str | None = Field(default=None, description="of the column of time")
     voltage_unit: str = Field(default="V", description="of both voltages")
-    sample_time: float | None = Field(
-        default=None, description="usual time between two rows in that unit, s"
-    )
+    sample_time: float | None = Field(default=None, description="usual time between two rows in that unit, s")
 
 
 class Dialect(Model):
@@ -180,7 +178,9 @@ class Preview(Model):
     first_row: int = Field(description="line of the file where they begin")
     preview: list[list[float | None]] = Field(description="the first rows, in the file's own units")
     guess: Guess
-    units: dict[str, str] = Field(default={}, description="of columns, where rows or cells of the file state them")
+    units: dict[str, str] = Field(
+        default={}, description="of columns, where rows or cells of the file state them"
+    )
     dialect: Dialect | None = Field(default=None, description="of text; null of other files")
     findings: list[Finding] = Field(default=[], description="what was left out or read in a special way")
 

@@ -12,6 +12,7 @@ FEWEST_GROUPS = 20
 QUANTILES = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228)
 """Student's t for 95 % with 1 to 10 degrees of freedom (Abramowitz & Stegun, 1964, table 26.10)."""
 _NORMAL = 1.959964
+_DETERMINED = 1e-4
 
 
 def plain_covariance(J: Floats, r: Floats, unknowns: int) -> Floats:
@@ -31,32 +32,42 @@ def groups_of(bounds: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.array(groups, dtype=np.int64)
 
 
-def grouped_covariance(J: Floats, r: Floats, groups: NDArray[np.int64]) -> Floats:
-    """The jackknife over groups of samples, (k, k): right whatever the correlation within a group is.
+def grouped_covariance(
+    J: Floats, r: Floats, groups: NDArray[np.int64], basis: Floats | None = None
+) -> Floats:
+    """The sandwich over groups of samples, (k, k): right whatever the correlation within a group is.
 
-    (JᵀJ)⁻¹ S (JᵀJ)⁻¹ with S of the groups' scores J_gᵀ(I − H_gg)⁻¹r_g (Bell & McCaffrey, Survey Methodology 28 (2002)
-    169–181, "CR3"; Cameron & Miller, J. Human Resources 50 (2015) 317–372, section VI.B). A segment's fitted starting
-    state takes the slow part of correlated noise out of its residuals, but not out of its score, since J is orthogonal
-    to what the state can do; sums over lags of the residuals (Newey & West) miss that part.
+    (JᵀJ)⁻¹ S (JᵀJ)⁻¹ with S of the groups' scores J_gᵀ(I − H_gg)^(−1/2) r_g (Bell & McCaffrey, Survey Methodology 28
+    (2002) 169–181, "CR2"; Cameron & Miller, J. Human Resources 50 (2015) 317–372, section VI.B). H_gg is what the fit
+    takes out of a group's residuals, starting states included: they swallow the slow part of correlated noise, which
+    sums over lags of the residuals (Newey & West) therefore miss. For white residuals S is unbiased.
 
     Args:
         J: derivatives of the residuals, (n, outputs, k), starting states eliminated.
         r: residuals, (n, outputs).
         groups: first and last + 1 of each, (groups, 2).
+        basis: orthonormal in each segment, of what its starting state can do, (n, outputs, states).
     """
-    k, count = J.shape[-1], len(groups)
-    columns = [(J[a:b].reshape(-1, k), r[a:b].ravel()) for a, b in groups.tolist()]
-    grams = [own.T @ own for own, _ in columns]
-    bread = np.linalg.inv(np.sum(grams, axis=0))
+    k = J.shape[-1]
+    columns = J.reshape(-1, k)
+    Q, R = np.linalg.qr(columns)
+    root = np.linalg.inv(R)
+    scaled = Q.reshape(J.shape)
     S = np.zeros((k, k))
-    for gram, (own, residuals) in zip(grams, columns, strict=True):
-        score = np.linalg.lstsq(np.eye(k) - gram @ bread, own.T @ residuals, rcond=1e-9)[0]
+    for a, b in groups.tolist():
+        own, residuals = scaled[a:b].reshape(-1, k), r[a:b].ravel()
+        taken = own if basis is None else np.hstack([own, basis[a:b].reshape(len(own), -1)])
+        U, s, _ = np.linalg.svd(taken, full_matrices=False)
+        left = 1.0 - np.minimum(s, 1.0) ** 2
+        # What a group alone determines is left as it is: of that there are no residuals.
+        gain = np.where(left > _DETERMINED, 1.0 / np.sqrt(np.maximum(left, _DETERMINED)), 1.0) - 1.0
+        score = own.T @ (residuals + U @ (gain * (U.T @ residuals)))
         S += np.outer(score, score)
-    return np.asarray((count - 1) / count * bread @ S @ bread, dtype=np.float64)
+    return np.asarray(root @ S @ root.T, dtype=np.float64)
 
 
 def student_quantile(freedom: int) -> float:
-    """Student's t for 95 %, two-sided; beyond the table by Cornish and Fisher's expansion, exact to 1e-3."""
+    """Student's t for 95 %, two-sided; beyond the table by Cornish and Fisher's expansion, exact to 3e-3."""
     if freedom <= len(QUANTILES):
         return QUANTILES[max(1, freedom) - 1]
     z, n = _NORMAL, freedom

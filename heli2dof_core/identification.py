@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from time import perf_counter
 from types import SimpleNamespace
 from typing import Any
@@ -15,6 +14,7 @@ from .checks import require_within
 from .covariance import grouped_covariance, groups_of, plain_covariance, student_quantile
 from .errors import InvalidInputError, RecordingError
 from .findings import Finding
+from .identified import Estimate, Identification, Progress
 from .model_errors import unmodelled
 from .parameters import PARAMETER_INFO, Parameters
 from .recordings import Recording
@@ -36,69 +36,6 @@ COARSE_ENCODER = 0.45
 """Residuals in encoder steps below which their rounding is no noise (alone it makes 0.29): it moves with the angle
 and biases what is found; then the intervals held the truth in half of the bench's runs only."""
 _POOR_CONDITION = 1e6
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """One parameter.
-
-    Attributes:
-        name, unit: of the parameter.
-        before, value: as it was, and as found.
-        low, high: its 95 % interval, correlated residuals considered.
-        plain: half width of the interval that takes the residuals for white.
-    """
-
-    name: str
-    unit: str
-    before: float
-    value: float
-    low: float
-    high: float
-    plain: float
-
-    @property
-    def allowed(self) -> float:
-        """The value within the range that the parameter may have."""
-        info = PARAMETER_INFO[self.name]
-        return min(max(self.value, info["low"]), info["high"])
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far the search is: simulations so far, and the residuals' root mean square of θ and ψ, rad."""
-
-    evaluations: int
-    rms: tuple[float, float]
-
-
-@dataclass(frozen=True)
-class Identification:
-    """What a recording says about a rig.
-
-    Attributes:
-        estimates: of the free parameters.
-        parameters: the rig with them, each within its range.
-        rms_before, rms: of the residuals of θ and ψ, rad; starting states are fitted in both. Before: None where
-            the rig as it was thought to be runs away.
-        residuals: measured minus simulated, (n, 2), rad; 0 where nothing was simulated.
-        segments: (count, 2), first sample and last + 1.
-        lags: over which the residuals' correlation was taken into account, samples.
-        evaluations: simulations of the recording.
-        seconds: that it took.
-        findings: remarks.
-    """
-
-    estimates: tuple[Estimate, ...]
-    parameters: Parameters
-    rms_before: tuple[float, float] | None
-    rms: tuple[float, float]
-    residuals: Floats
-    segments: NDArray[np.int64]
-    lags: float
-    evaluations: int
-    seconds: float
-    findings: tuple[Finding, ...]
 
 
 def default_free(p: Parameters) -> tuple[str, ...]:
@@ -162,7 +99,7 @@ def _concluded(
     inside = search.inside
     unknowns = len(names) + 4 * len(search.bounds)
     groups = groups_of(search.bounds)
-    covariance = grouped_covariance(J, r, groups)
+    covariance = grouped_covariance(J, r, groups, after.basis)
     widths = student_quantile(len(groups) - len(names)) * search.scales * np.sqrt(np.diag(covariance))
     plain = QUANTILE * search.scales * np.sqrt(np.diag(plain_covariance(J[inside], r[inside], unknowns)))
     missed = unmodelled(
@@ -399,3 +336,6 @@ def _remarks(estimates: list[Estimate], J: Floats, names: tuple[str, ...], searc
         words = "The recording hardly tells these parameters apart: their values depend on one another."
         found.append(Finding("poorly_excited", "warning", words))
     return found
+
+
+__all__ = ["IDENTIFIABLE", "Estimate", "Identification", "Progress", "default_free", "identify"]

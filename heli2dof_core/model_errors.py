@@ -15,9 +15,10 @@ from .simulation.recorded import Wanted, run_segments
 
 DEAD_BAND = 0.5
 """Half width of the dead band that is looked for, V; wider and narrower ones look alike."""
-SURE, SPREAD = 4.5, 3.0
+SURE, SPREAD, CERTAIN = 4.5, 2.5, 8.0
 """Standard deviations beyond which residuals follow a shape more than by chance, and how many of those of its parts,
-segment by segment: noise that is correlated over more than the filter takes out is no effect of the voltages."""
+segment by segment, or how many without that: noise that is correlated over more than the filter takes out is no
+effect of the voltages."""
 MATTERS = 0.5
 """Share of an interval's half width by which an unseen dead band may move a value."""
 _SLOW = 0.02
@@ -77,10 +78,12 @@ def unmodelled(
     told = sizes > _SMALL * whole
     products = residuals[:, None] * responses
     scores = np.where(told, np.abs(np.sum(products, axis=0)) / np.where(told, noise * sizes, 1.0), 0.0)
-    parts = np.add.reduceat(products, np.linspace(0, len(left), max(_PARTS, len(bounds)), endpoint=False).astype(int))
+    parts = np.add.reduceat(
+        products, np.linspace(0, len(left), max(_PARTS, len(bounds)), endpoint=False).astype(int)
+    )
     spread = np.sqrt(np.sum(parts**2, axis=0))
     steady = np.abs(np.sum(parts, axis=0)) >= SPREAD * np.where(spread > 0, spread, np.inf)
-    scores = np.where(steady & np.isfinite(scores), scores, 0.0)
+    scores = np.where((steady | (scores >= CERTAIN)) & np.isfinite(scores), scores, 0.0)
     best = int(np.argmax(scores))
     if scores[best] >= SURE:
         words = (
@@ -150,7 +153,10 @@ def _shapes(
             (_band(word), -np.clip(V, -DEAD_BAND, DEAD_BAND)),
             (_band(word), np.where(np.abs(V) < DEAD_BAND, -V, 0.0)),
             (f"an offset of the {word} motor", np.ones_like(V)),
-            (f"a curved characteristic of the {word} motor", V * np.abs(V) / max(1e-9, float(np.max(np.abs(V))))),
+            (
+                f"a curved characteristic of the {word} motor",
+                V * np.abs(V) / max(1e-9, float(np.max(np.abs(V)))),
+            ),
         ):
             added = np.zeros_like(volts)
             added[:, motor] = values

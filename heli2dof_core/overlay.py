@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import RecordingError
+from .findings import Finding
 from .loop import Loop
 from .parameters import Parameters
-from .findings import Finding
 from .recording_time import stretches
 from .recordings import Recording
 from .segments import SHORTEST, bridged, cut, divergence_told, fit_of, rough_starts, segment_length

@@ -51,7 +51,9 @@ def guess_columns(table: Table) -> Columns:
         chosen["time"] = table.time
     for name in sorted(table.names, key=lambda name: not _FIRST.search(name)):
         role = role_of(name)
-        if role and (role not in chosen or (role == "time" and _rises(table, name) > _rises(table, chosen[role]))):
+        if role and (
+            role not in chosen or (role == "time" and _rises(table, name) > _rises(table, chosen[role]))
+        ):
             chosen[role] = name
     unit, units = _angle_units(table, chosen)
     volts: Any = {table.unit(chosen[role], "voltage") for role in ("V_p", "V_y") if role in chosen} - {None}

@@ -157,9 +157,7 @@ def timing_remarks(t: Floats, *, averaged: bool = False) -> list[Finding]:
     within = steps[steps <= GAP * usual]
     odd = int(np.sum(np.abs(within - usual) > JITTER * usual))
     if odd and not missing:
-        words = (
-            f"{odd} of {len(steps)} sample times differ from the usual {1e3 * usual:.3g} ms by more than 20 %."
-        )
+        words = f"{odd} of {len(steps)} sample times differ from the usual {1e3 * usual:.3g} ms by more than 20 %."
         found.append(Finding("irregular_samples", "warning", words))
     if usual > COARSE and not averaged:
         words = (

@@ -35,7 +35,10 @@ _SPELLED: dict[tuple[Kind, str], str] = {
     ("voltage", "mV"): "mv millivolt millivolts",
     ("rate", "rad/s"): "rad/s rad/sec rads/s radians/second",
     ("rate", "deg/s"): "deg/s °/s deg/sec degrees/second dps",
-    ("other", "1"): "1 - none a.u. au n/a a ma n nm n·m n*m m % bool count counts tick ticks hz rpm rad·s rad*s",
+    (
+        "other",
+        "1",
+    ): "1 - none a.u. au n/a a ma n nm n·m n*m m % bool count counts tick ticks hz rpm rad·s rad*s",
 }
 _KNOWN = {word: key for key, words in _SPELLED.items() for word in words.split()}
 

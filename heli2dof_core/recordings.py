@@ -345,7 +345,9 @@ def _contradicted(table: Table, columns: Columns) -> list[Finding]:
         told = table.unit(name, kind) if name else None
         if told and told != unit:
             odd.append(f"{name!r} says {told} and is taken for {unit}")
-    return [Finding("units_differ", "warning", "The file contradicts: " + "; ".join(odd) + ".")] if odd else []
+    return (
+        [Finding("units_differ", "warning", "The file contradicts: " + "; ".join(odd) + ".")] if odd else []
+    )
 
 
 def _silent(voltages: Floats) -> list[Finding]:

@@ -92,11 +92,13 @@ class Fitted:
         residuals: measured minus simulated angles, (n, 2), rad; 0 outside the segments.
         slopes: derivatives of the simulated angles by the seven parameters, (n, 2, 7), with whatever the starting
             states can make up for taken out; 0 outside.
+        basis: of what its starting state can do, weighted, orthonormal in each segment, (n, 2, 4); 0 outside.
     """
 
     starts: Floats
     residuals: Floats
     slopes: Floats
+    basis: Floats
 
 
 def segment_length(p: Parameters, recording: Recording) -> float:
@@ -215,12 +217,14 @@ def _projected(
 ) -> Fitted:
     """What is left of weighted slopes by the parameters where the starting states follow them."""
     left, kept = np.zeros((*residuals.shape, slopes.shape[2] - 4)), np.zeros_like(residuals)
+    basis = np.zeros((*residuals.shape, 4))
     for first, end in bounds.tolist():
         Q, _ = np.linalg.qr(slopes[first:end, :, :4].reshape(-1, 4))
         rest = slopes[first:end, :, 4:].reshape(len(Q), -1)
         left[first:end] = (rest - Q @ (Q.T @ rest)).reshape(end - first, 2, -1)
+        basis[first:end] = Q.reshape(end - first, 2, 4)
         kept[first:end] = residuals[first:end]
-    return Fitted(starts, kept / weights, left / weights[:, None])
+    return Fitted(starts, kept / weights, left / weights[:, None], basis)
 
 
 def fit_of(

@@ -38,7 +38,12 @@ def read(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **values:
             return print_json(preview_reply("", ", ".join(path.name for path in files), table))
         roles = {name: role for role, name in columns.names.items()}
         rows = [
-            (name, roles.get(name, "–"), _unit(columns, roles.get(name, "")), *map(number, table.values[:3, j]))
+            (
+                name,
+                roles.get(name, "–"),
+                _unit(columns, roles.get(name, "")),
+                *map(number, table.values[:3, j]),
+            )
             for j, name in enumerate(table.names)
         ]
         shown = Shown.of("columns", ("column", "is", "unit", "first", "second", "third"), rows)
@@ -149,7 +154,8 @@ def _estimates(found: Identification) -> Any:
     from heli2dof_core.tables import number
 
     rows = [
-        (e.name, e.unit, number(e.before), number(e.value), number(e.low), number(e.high)) for e in found.estimates
+        (e.name, e.unit, number(e.before), number(e.value), number(e.low), number(e.high))
+        for e in found.estimates
     ]
     return Shown.of("estimates", ("parameter", "unit", "before", "found", "low (95 %)", "high"), rows)
 

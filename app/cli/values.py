@@ -80,7 +80,9 @@ class Choice(click.ParamType):
         """(name, text)."""
         name, mark, text = value.partition("=")
         if not mark or name not in self.names():
-            self.fail(f"{value!r} names none of {', '.join(self.names())}; write it like {next(iter(self.names()))}=…")
+            self.fail(
+                f"{value!r} names none of {', '.join(self.names())}; write it like {next(iter(self.names()))}=…"
+            )
         return name, text
 
     def shell_complete(

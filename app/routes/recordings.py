@@ -181,7 +181,9 @@ def _text(value: Reply) -> str:
 def _takes_a_file() -> dict[str, Any]:
     options = described(Preview, "The file as it was read: columns, first rows, what they probably are")
     content = {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}
-    extra = {"requestBody": {"required": True, "description": "CSV, .xlsx, .mat, HDF5, JSON", "content": content}}
+    extra = {
+        "requestBody": {"required": True, "description": "CSV, .xlsx, .mat, HDF5, JSON", "content": content}
+    }
     return {**options, "openapi_extra": extra}
 
 

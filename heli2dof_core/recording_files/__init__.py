@@ -64,7 +64,11 @@ def read_table(
         return read_hdf5(data, name, wanted)
     if data.startswith(b"PK\x03\x04"):
         return read_sheet(data, name, wanted)
-    if data.startswith(b"MATLAB") or is_v4(data) or name.lower().endswith(".mat") and not is_octave_text(data):
+    if (
+        data.startswith(b"MATLAB")
+        or is_v4(data)
+        or (name.lower().endswith(".mat") and not is_octave_text(data))
+    ):
         return read_mat(data, name, wanted)
     for mark, words, hint in _KNOWN_OTHERS:
         if data.lstrip(b"\xef\xbb\xbf \r\n").startswith(mark):

@@ -66,7 +66,9 @@ def _unusual(text: str) -> Number | None:
         return float(found[1]), unit[1]
     if found := _CLOCK.fullmatch(text):
         sign, days, hours, minutes, seconds = found.groups()
-        own = 86400 * int(days or 0) + 3600 * int(hours) + 60 * int(minutes) + float(seconds.replace(",", "."))
+        own = (
+            86400 * int(days or 0) + 3600 * int(hours) + 60 * int(minutes) + float(seconds.replace(",", "."))
+        )
         return (-own if sign == "-" else own), "s"
     if found := _MINUTES.fullmatch(text):
         own = 60 * int(found[2]) + float(found[3].replace(",", "."))
@@ -78,7 +80,7 @@ def _date(text: str) -> Number | None:
     if len(text) < 8 or not any(mark in text for mark in "-/."):
         return None
     ways: list[Callable[[str], datetime]] = [datetime.fromisoformat]
-    ways += [lambda words, form=form: datetime.strptime(words, form) for form in _DATES]  # noqa: DTZ007
+    ways += [lambda words, form=form: datetime.strptime(words, form) for form in _DATES]
     for way in ways:
         try:
             return _of_object(way(text.replace(",", ".")))

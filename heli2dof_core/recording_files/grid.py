@@ -83,7 +83,9 @@ def table_of_grid(grid: Grid, wanted: Wanted) -> Table:
         if unit or units.get(j):
             stated[j] = unit or units[j]
     if not columns:
-        raise refused("the file holds no columns of numbers", hint="Choose the separator, or correct the file.")
+        raise refused(
+            "the file holds no columns of numbers", hint="Choose the separator, or correct the file."
+        )
     unique = unique_names([name or f"column {j + 1}" for j, name in kept])
     return Table(
         tuple(unique),
@@ -110,7 +112,7 @@ def unique_names(names: Sequence[str]) -> list[str]:
     for place, given in enumerate(names, 1):
         base = name = given.strip()[:_LONGEST_NAME] or f"column {place}"
         seen[base] += 1
-        while name in taken or seen[base] > 1 and name == base:
+        while name in taken or (seen[base] > 1 and name == base):
             name = f"{base} ({seen[base]})"
             seen[base] += name in taken
         taken.add(name)
@@ -172,8 +174,10 @@ def _check_widths(grid: Grid, start: int, width: int, wanted: Wanted) -> None:
         if (i - start) % _AT_A_TIME == 0:
             wanted()
         row = grid.rows[i]
-        if len(row) == width or (len(row) == width + 1 and is_empty(row[-1])) or (
-            len(row) == width - 1 and all(is_empty(other[-1]) for other in grid.rows[start : start + 3])
+        if (
+            len(row) == width
+            or (len(row) == width + 1 and is_empty(row[-1]))
+            or (len(row) == width - 1 and all(is_empty(other[-1]) for other in grid.rows[start : start + 3]))
         ):
             continue
         raise _mismatch(grid, i, len(row), width)

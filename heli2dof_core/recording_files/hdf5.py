@@ -74,7 +74,12 @@ class _Reader:
 
     def _data(self, data: Any, depth: int) -> Any:
         kind = _text(data.attrs.get("MATLAB_class", b""))
-        if "MATLAB_object_decode" in data.attrs or kind in ("function_handle", "string", "table", "timetable"):
+        if "MATLAB_object_decode" in data.attrs or kind in (
+            "function_handle",
+            "string",
+            "table",
+            "timetable",
+        ):
             return Unreadable(f"MATLAB's {kind}" if kind.isidentifier() else "an object")
         if data.attrs.get("MATLAB_empty", 0):
             return None

@@ -48,7 +48,10 @@ def read_mat(data: bytes, name: str, wanted: Wanted) -> Table:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             content = loadmat(
-                io.BytesIO(data), simplify_cells=True, variable_names=names, verify_compressed_data_integrity=False
+                io.BytesIO(data),
+                simplify_cells=True,
+                variable_names=names,
+                verify_compressed_data_integrity=False,
             )
     except RecordingError:
         raise

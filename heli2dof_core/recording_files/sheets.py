@@ -99,7 +99,9 @@ def _table(sheet: Any, wanted: Wanted) -> Table:
             rows.append(own)
             places.append(place)
     if not rows:
-        raise refused("the spreadsheet holds no rows of numbers", hint="Save the sheet with the recording as CSV.")
+        raise refused(
+            "the spreadsheet holds no rows of numbers", hint="Save the sheet with the recording as CSV."
+        )
     first = min(next(i for i, cell in enumerate(row) if not is_empty(cell)) for row in rows)
     rows = [row[first:] for row in rows]
     widths = Counter(len(row) for row in rows if sum(number(cell) is not None for cell in row) > len(row) / 2)

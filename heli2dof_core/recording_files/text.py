@@ -42,7 +42,10 @@ class Dialect:
     decimal: Decimal | None = None
 
     def __post_init__(self) -> None:
-        for value, known, what in ((self.separator, Separator, "separator"), (self.decimal, Decimal, "decimal")):
+        for value, known, what in (
+            (self.separator, Separator, "separator"),
+            (self.decimal, Decimal, "decimal"),
+        ):
             if value is not None and value not in get_args(known):
                 raise RecordingError(
                     f"{what} is {value!r}, which does not exist",
@@ -77,7 +80,9 @@ def read_text(data: bytes, name: str, dialect: Dialect, wanted: Wanted) -> Table
             rows.append(line)
             places.append(place)
     if not rows:
-        raise refused("the file holds no rows", name, "Give rows of numbers: time, both angles, both voltages.")
+        raise refused(
+            "the file holds no rows", name, "Give rows of numbers: time, both angles, both voltages."
+        )
     check_size(len(rows) - 50 if len(rows) > MOST_ROWS + 50 else 0, 0)
     separator, comma, width = _judged(rows, dialect)
     wanted()
@@ -158,7 +163,9 @@ def _judged(rows: list[str], dialect: Dialect) -> tuple[str, bool, int]:
                 "mat or json.",
             )
         if best:
-            near = [c for c in candidates if getattr(c, width) > 1 and getattr(c, lines) >= _CONSISTENT * best]
+            near = [
+                c for c in candidates if getattr(c, width) > 1 and getattr(c, lines) >= _CONSISTENT * best
+            ]
             # A decimal mark that more lines bear out, no blank, many lines.
             chosen = max(near, key=lambda c: (c.separator != "blank", getattr(c, lines), not c.comma))
             return chosen.separator, chosen.comma, getattr(chosen, width)

@@ -111,7 +111,9 @@ def _on_one_time(timed: list[Series], findings: list[Finding]) -> tuple[list[Ser
     axes: list[Floats] = []
     for s in timed:
         assert s.time is not None
-        if not any(len(s.time) == len(axis) and np.allclose(s.time, axis, rtol=0, atol=1e-9) for axis in axes):
+        if not any(
+            len(s.time) == len(axis) and np.allclose(s.time, axis, rtol=0, atol=1e-9) for axis in axes
+        ):
             axes.append(s.time)
     base = max(axes, key=len)
     if len(axes) == 1:
@@ -120,7 +122,9 @@ def _on_one_time(timed: list[Series], findings: list[Finding]) -> tuple[list[Ser
     low, high = max(float(axis[0]) for axis in axes), min(float(axis[-1]) for axis in axes)
     base = base[(base >= low) & (base <= high)]
     if len(base) < FEWEST_SAMPLES:
-        raise refused("the signals' times do not overlap", hint="Join files of one run, with times of one clock.")
+        raise refused(
+            "the signals' times do not overlap", hint="Join files of one run, with times of one clock."
+        )
     time = Series("time", base)
     words = f"The signals have {len(axes)} different times: they were brought to those of the finest, angles interpolated and voltages held."
     findings.append(Finding("joined_times", "warning", words))
@@ -146,7 +150,9 @@ def _collect(name: str, value: Any, found: _Found, depth: int = 0) -> None:
         if len(items) > FEWEST_SAMPLES and all(isinstance(item, int | float) for item in items):
             found.series.append(Series(name, np.array(items, dtype=np.float64)))
         elif len(items) > FEWEST_SAMPLES and all(isinstance(item, int | float | None) for item in items):
-            found.series.append(Series(name, np.array([np.nan if v is None else v for v in items], dtype=np.float64)))
+            found.series.append(
+                Series(name, np.array([np.nan if v is None else v for v in items], dtype=np.float64))
+            )
         elif items and isinstance(items[0], list) and len(items) >= 2:
             _collect_rows(name, items, found, depth)
         else:
@@ -191,7 +197,9 @@ def _structure(name: str, value: Mapping[str, Any], found: _Found, depth: int) -
         for s in found.series[before:]:
             if s.time is None and s.name != time_name and len(s.values) == len(time):
                 s.time, s.time_name = time, time_name
-        found.series[before:] = [s for s in found.series[before:] if s.name != time_name or s.time is not None]
+        found.series[before:] = [
+            s for s in found.series[before:] if s.name != time_name or s.time is not None
+        ]
 
 
 def _signals(name: str, signals: Any) -> Iterator[Series]:
@@ -223,7 +231,11 @@ def _add_timed(s: Series, time: Floats, time_name: str, found: _Found) -> None:
 def _vector(value: Any) -> Floats | None:
     if isinstance(value, list) and len(value) > 1 and all(isinstance(item, int | float) for item in value):
         value = np.array(value, dtype=np.float64)
-    if isinstance(value, np.ndarray) and value.dtype.kind in "fiu" and value.size == max((1, *value.shape)) > 1:
+    if (
+        isinstance(value, np.ndarray)
+        and value.dtype.kind in "fiu"
+        and value.size == max((1, *value.shape)) > 1
+    ):
         return value.astype(np.float64).ravel()
     return None
 

@@ -44,9 +44,7 @@ def is_the_run(table, tolerance=1e-6):
     recording = recording_of(table, guess_columns(table))
     assert len(recording.t) == N
     np.testing.assert_allclose(recording.t, T, atol=1e-6)
-    np.testing.assert_allclose(
-        recording.angles, np.column_stack([RUN["theta"], RUN["psi"]]), atol=tolerance
-    )
+    np.testing.assert_allclose(recording.angles, np.column_stack([RUN["theta"], RUN["psi"]]), atol=tolerance)
     np.testing.assert_allclose(
         recording.voltages, np.column_stack([RUN["V_p"], RUN["V_y"]]), atol=max(tolerance, 1e-6)
     )
@@ -281,12 +279,15 @@ def octave(tmp_path_factory):
     if program is None:
         pytest.skip("GNU Octave is not installed")
     folder = tmp_path_factory.mktemp("octave")
-    subprocess.run([program, "--no-history", "--quiet", "--eval", OCTAVE], cwd=folder, check=True, timeout=120)
+    subprocess.run(
+        [program, "--no-history", "--quiet", "--eval", OCTAVE], cwd=folder, check=True, timeout=120
+    )
     return folder
 
 
 @pytest.mark.parametrize(
-    "name", ["text.txt", "hdf5.h5", "v4.mat", "v6.mat", "v7.mat", "structure.txt", "structure.h5", "structure.mat"]
+    "name",
+    ["text.txt", "hdf5.h5", "v4.mat", "v6.mat", "v7.mat", "structure.txt", "structure.h5", "structure.mat"],
 )
 def test_octaves_files_are_read(octave, name):
     is_the_run(read_table((octave / name).read_bytes()), 1e-5)
@@ -355,7 +356,10 @@ def test_one_signal_per_file_is_joined(tmp_path):
     np.testing.assert_allclose(recording.t, T[:59], atol=1e-9)
     np.testing.assert_allclose(recording.angles[:, 1], RUN["psi"][:59], atol=1e-4)
     np.testing.assert_allclose(recording.voltages[:, 0], RUN["V_p"][:59], atol=1e-12)
-    untimed = [(name, read_table(b"\n".join(b"%.6f" % v for v in RUN[role]))) for name, role in (("pitch", "theta"), ("yaw", "psi"))]
+    untimed = [
+        (name, read_table(b"\n".join(b"%.6f" % v for v in RUN[role])))
+        for name, role in (("pitch", "theta"), ("yaw", "psi"))
+    ]
     assert joined_tables(untimed).names == ("pitch", "yaw")
     with pytest.raises(RecordingError, match="equally many"):
         joined_tables([untimed[0], ("Vp.txt", read_table(b"1\n2\n3\n"))])

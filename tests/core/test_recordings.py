@@ -188,7 +188,9 @@ def readings(changes, **columns):
     return recording_of(table_of(**changes), replace(GUESSED, **columns))
 
 
-@pytest.mark.parametrize(("unit", "factor"), [("ms", 1e3), ("us", 1e6), ("ns", 1e9), ("min", 1 / 60), ("h", 1 / 3600)])
+@pytest.mark.parametrize(
+    ("unit", "factor"), [("ms", 1e3), ("us", 1e6), ("ns", 1e9), ("min", 1 / 60), ("h", 1 / 3600)]
+)
 def test_time_has_a_unit_and_an_epoch_does_not_matter(unit, factor):
     own = readings({"time": 1000 * 3600 * factor + T * factor}, time_unit=unit)
     np.testing.assert_allclose(own.t, T, atol=1e-6)
@@ -218,9 +220,21 @@ def test_the_unit_of_time_is_guessed(name, time, unit):
         (1e6 * T, "s", "columns.time_unit", "column 'time' with the unit s, rows lie 2e.03 s apart", "in us"),
         (1e3 * T, "s", "columns.time_unit", "rows lie 2 s apart", "in ms"),
         (T, "ns", "columns.time_unit", "rows lie 2e-12 s apart", "in s"),
-        (np.where(T[3] <= T, T + 1.7e9, T), "s", "columns.time", "row 5, column 'time' lies 1.7e.09 s after", "clock"),
+        (
+            np.where(T[3] <= T, T + 1.7e9, T),
+            "s",
+            "columns.time",
+            "row 5, column 'time' lies 1.7e.09 s after",
+            "clock",
+        ),
         (500 * T, "s", "columns.time_unit", "rows lie 1 s apart|1 s", ""),
-        (np.where(T[20] <= T, T - 0.01, T), "s", "columns.time", "lies 0.008 s before the row above", "sample time"),
+        (
+            np.where(T[20] <= T, T - 0.01, T),
+            "s",
+            "columns.time",
+            "lies 0.008 s before the row above",
+            "sample time",
+        ),
         (np.round(T, 2), "s", "columns.time", "repeats the time before", "more digits"),
         (np.zeros(50), "s", "columns.time", "repeats the time before", "sample time"),
     ],
@@ -295,6 +309,7 @@ def test_decimation_averages_the_voltages():
     assert decimated(own, 1) is own
     with pytest.raises(RecordingError, match="left"):
         readings({}, decimate=10)
+
 
 @pytest.mark.parametrize(
     ("names", "unit"),
