@@ -8,8 +8,9 @@
 >>> report.step["nonlinear"].response.theta.shape
 (501,)
 
-`read_recording(path)` reads what a rig did; `driven_in_segments` lays the model over it and `identify` finds the rig's
-parameters. `formulas()` gives the derivation as SymPy objects, `to_control()` of a plant, a design or a loop a
+`read_recording(path)` reads what a rig did; `driven_in_segments` lays the model over it and `identify` finds
+the rig's parameters. `formulas()` gives the derivation
+as SymPy objects, `to_control()` of a plant, a design or a loop a
 `control.StateSpace`. Results are frozen; a notebook shows them as small tables.
 
 Knows no web, no 3D and no plot. SymPy and python-control are imported when they are first needed.

@@ -59,7 +59,8 @@ def identify(
     recorded voltages in segments whose starting states are unknown too, is fitted by SciPy's trust-region
     Gauss–Newton method, starting states eliminated within each step (Golub & Pereyra, SIAM J. Numer. Anal. 10
     (1973) 413–432). Short segments bring a wrong rig near; then both axes are weighted alike, then by their
-    residuals. Intervals are those of `sandwich_covariance`.
+    residuals. Intervals are those of `grouped_covariance`, and never narrower
+    than for white residuals.
 
     Args:
         p: the rig as it is thought to be; what is not free stays.
@@ -100,8 +101,11 @@ def _concluded(
     unknowns = len(names) + 4 * len(search.bounds)
     groups = groups_of(search.bounds)
     covariance = grouped_covariance(J, r, groups, after.basis)
-    widths = student_quantile(len(groups) - len(names)) * search.scales * np.sqrt(np.diag(covariance))
+    own = student_quantile(len(groups) - len(names)) * np.sqrt(np.diag(covariance))
     plain = QUANTILE * search.scales * np.sqrt(np.diag(plain_covariance(J[inside], r[inside], unknowns)))
+    widths = np.maximum(
+        search.scales * own, plain
+    )  # few groups may underrate what white noise does by itself
     missed = unmodelled(
         search.rig(values),
         recording,

@@ -87,8 +87,9 @@ def unmodelled(
     best = int(np.argmax(scores))
     if scores[best] >= SURE:
         words = (
-            f"The residuals follow {shapes[best][0]} more than by chance ({scores[best]:.1f} standard deviations), which "
-            "the model leaves out: the values are biased, and the intervals may not hold the truth."
+            f"The residuals follow {shapes[best][0]} more than by chance ({scores[best]:.1f} "
+            "standard deviations), which the model leaves out: the values are "
+            "biased, and the intervals may not hold the truth."
         )
         return [Finding("model_error", "warning", words)]
     flat = J.reshape(-1, k)
@@ -105,9 +106,9 @@ def unmodelled(
         if crossed and np.max(shifts) > MATTERS:
             worst = int(np.argmax(shifts))
             words = (
-                f"The {word} motor's voltage passes 0. A dead band of {DEAD_BAND:g} V there, which the model does not "
-                f"have, would move {names[worst]} by {shifts[worst]:.1f} half widths of its interval without being seen "
-                "in the residuals: the intervals hold for a motor without one."
+                f"The {word} motor's voltage passes 0. A dead band of {DEAD_BAND:g} V there, which the "
+                f"model does not have, would move {names[worst]} by {shifts[worst]:.1f} half widths of its interval "
+                "without being seen in the residuals: the intervals hold for a motor without one."
             )
             found.append(Finding(f"{word}_dead_band_unseen", "info", words))
     return found

@@ -64,7 +64,7 @@ def driven_by_voltages(
         starts = rough_starts(recording, bounds)
         for start, (first, end) in zip(starts, bounds.tolist(), strict=True):
             own = slice(first, end)
-            states = run_held(p, start, recording.t[own], recording.voltages[own], travel, wanted)
+            states = run_held(p, start, recording.t[own], recording.voltages[own], travel, wanted=wanted)
             angles[own] = states[:, :2]
         return _overlay(recording, angles, recording.voltages, bounds)
 
@@ -125,7 +125,7 @@ def driven_by_references(
             f"{count} samples of the controller are too many",
             field="scenario.digital.sample_time",
             value=controller.sample_time,
-            hint=f"At most {MOST_SAMPLE_TIMES} are simulated: record a shorter time, or let the controller run slower.",
+            hint=f"At most {MOST_SAMPLE_TIMES} are simulated: record less, or let the controller run slower.",
         )
     bounds = stretches(recording.t)
     angles, voltages = np.full_like(recording.angles, np.nan), np.full_like(recording.voltages, np.nan)

@@ -15,7 +15,7 @@ from .recordings import ANGLES, Columns, Table
 _MEASURED = r"(angle|meas|measured|enc|encoder|pos|position|deg|rad)?"
 _WANTED = r"(ref|reference|d|des|desired|cmd|command|setpoint|sp|target)"
 _NAMES = {
-    "time": r"t|time|times|zeit|sec|seconds|timestamp|elapsed|elapsedtime|timems|timeus|ms|millis|micros|clock|simtime",
+    "time": r"t|time|times|zeit|sec|seconds|timestamp|elapsed|elapsedtime|ms|millis|micros|clock|simtime",
     "theta": rf"(theta|pitch|elevation|th){_MEASURED}",
     "psi": rf"(psi|yaw|travel|azimuth){_MEASURED}",
     "V_p": r"(v|u|um|volt|voltage|vm|motor)(p|pitch|theta|main|1|0)|(pitch|main)(motor)?(v|volt|voltage|u)|vmp",
@@ -33,7 +33,7 @@ _LARGE_PITCH, _LARGE_YAW = radians(115), 10.0
 
 
 def role_of(name: str) -> str | None:
-    """What a column of this name probably is. Of our own exports the nonlinear model's: its voltages hold the trim."""
+    """What a column of this name probably is."""
     bare = _MODEL.sub("", _PARTS.sub("", split_unit(name)[0].strip()))
     plain = re.sub(r"[^a-z0-9()]", "", bare.lower().translate(_GREEK))
     plain = re.sub(r"[()]", "", plain) if re.fullmatch(r"[vu]m?\(\d\)", plain) else plain

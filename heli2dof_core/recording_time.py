@@ -71,7 +71,7 @@ def judged_time(
         )
     kept = np.concatenate([[0], np.flatnonzero(steps > 0) + 1])
     if len(same):
-        words = f"{len(same)} rows that repeat the time before were left out, the first of them row {same[0] + 2} of the data."
+        words = f"{len(same)} rows that repeat the time before were left out, first row {same[0] + 2} of the data."
         findings.append(Finding("repeated_times", "warning", words))
     t = (raw[kept] - raw[0]) * SECONDS[unit]
     _require_plausible(t, kept, name, unit, refused)
@@ -162,7 +162,7 @@ def timing_remarks(t: Floats, *, averaged: bool = False) -> list[Finding]:
     if usual > COARSE and not averaged:
         words = (
             f"Rows lie {1e3 * usual:.3g} ms apart. If the controller ran faster, its voltages in between are unknown "
-            "and results are biased: record every sample; whoever thins rows out should average the voltages (decimate)."
+            "and results are biased: record every sample; where rows are dropped, average the voltages (decimate)."
         )
         found.append(Finding("coarse_samples", "info", words))
     return found

@@ -53,7 +53,7 @@ def known_unit(text: str) -> tuple[Kind, str] | None:
 
 
 def split_unit(name: str) -> tuple[str, tuple[Kind, str] | None]:
-    """A column's name without its unit, and the unit: ``Time (ms)``, ``θ [deg]``, ``t / s``, ``pitch_deg``, ``timeMs``.
+    """A column's name without its unit, and the unit: ``Time (ms)``, ``t / s``, ``pitch_deg``, ``timeMs``.
 
     A bracket that holds no unit, such as the number in ``pitch(1)``, stays with the name.
     """
@@ -69,5 +69,5 @@ def split_unit(name: str) -> tuple[str, tuple[Kind, str] | None]:
 
 
 def _counts(word: str, unit: tuple[Kind, str]) -> bool:
-    """Whether a word behind a name is a unit: ``V_h`` and ``theta_d`` are no hours and days, nor ``time_1`` a unit."""
+    """Whether a word behind a name is a unit: ``theta_d`` are no days."""
     return unit[0] in ("time", "angle", "voltage", "rate") and (len(word) > 1 or word in "sSV°º")

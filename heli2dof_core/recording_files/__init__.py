@@ -60,6 +60,11 @@ def read_table(
         )
     if data[:2] == b"\x1f\x8b":
         return read_table(_gunzipped(data, name), name.removesuffix(".gz"), dialect, wanted)
+    return _read(data, name, dialect or Dialect(), wanted)
+
+
+def _read(data: bytes, name: str, dialect: Dialect, wanted: Wanted) -> Table:
+    """The reader of each kind, by the file's first bytes."""
     if data.startswith(_HDF5) or data[512:].startswith(_HDF5):  # MATLAB's begins with 512 bytes of its own
         return read_hdf5(data, name, wanted)
     if data.startswith(b"PK\x03\x04"):
@@ -77,7 +82,7 @@ def read_table(
         return read_octave(data, name, wanted)
     if is_json(data):
         return read_json(data, name, wanted)
-    return read_text(data, name, dialect or Dialect(), wanted)
+    return read_text(data, name, dialect, wanted)
 
 
 def read_files(paths: Sequence[str | Path], dialect: Dialect | None = None) -> Table:

@@ -1,10 +1,11 @@
-"""Cells of text as numbers: decimal points and commas, units behind numbers, durations, dates, unusual minus signs."""
+"""Cells of text as numbers: decimal points and commas, units behind numbers, durations, dates."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable
 from datetime import UTC, datetime, time, timedelta
+from math import isnan
 from typing import Any
 
 from ..recording_units import SECONDS, known_unit
@@ -120,13 +121,13 @@ def numbers(cells: list[Cell], comma: bool) -> tuple[list[float], str, int | Non
             bad = place
         found.append(own or _NOTHING)
     units = {unit for value, unit in found if unit}
-    if units and any(not unit and value == value for value, unit in found):  # NaN differs from itself
+    if units and any(not unit and not isnan(value) for value, unit in found):
         units.add("")
     if len(units) <= 1:
         return [value for value, _ in found], next(iter(units), ""), bad
     if units <= set(SECONDS) and "" not in units:
         return [value * SECONDS.get(unit, 1.0) for value, unit in found], "s", bad
-    odd = next(place for place, (value, unit) in enumerate(found) if value == value and unit != found[0][1])
+    odd = next(place for place, (value, unit) in enumerate(found) if not isnan(value) and unit != found[0][1])
     return [value for value, _ in found], "", odd if bad is None else bad
 
 

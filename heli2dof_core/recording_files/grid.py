@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isnan
 
 import numpy as np
 
@@ -62,7 +63,7 @@ def table_of_grid(grid: Grid, wanted: Wanted) -> Table:
         wanted()
         cells = [row[j] if j < len(row) else "" for row in body]
         values, unit, bad = numbers(cells, grid.comma)
-        if all(map(_nothing, values)) and (not name or bad is not None):
+        if all(map(isnan, values)) and (not name or bad is not None):
             if name:
                 left_out.append(name)
             continue
@@ -120,10 +121,6 @@ def unique_names(names: Sequence[str]) -> list[str]:
     return result
 
 
-def _nothing(value: float) -> bool:
-    return value != value
-
-
 def _is_data(grid: Grid, row: Sequence[Cell]) -> bool:
     near = abs(len(row) - grid.width) <= (1 if grid.width > 2 else 0)
     return near and share_of_numbers(list(row), grid.comma) >= MOSTLY and not _units(row)
@@ -151,16 +148,21 @@ def _head(grid: Grid, start: int) -> tuple[list[str], dict[int, str]]:
             return (named if len(named) == width else _shorter(grid, named, start)), units
         if len(named) > 1 and not any(mark in " ".join(named) for mark in ":="):
             raise _mismatch(grid, start, len(grid.rows[start]), len(named))
+    return _of_comments(grid, units)
+
+
+def _of_comments(grid: Grid, units: dict[int, str]) -> tuple[list[str], dict[int, str]]:
+    """Names and units from the nearest comments that have a cell for each column."""
     for ways in reversed(grid.comments):
         for cells in ways:
-            if len(cells) != width:
+            if len(cells) != grid.width:
                 continue
             if _units(cells):
                 units = units or dict(enumerate(cells))
                 break
             if share_of_numbers(list(cells), grid.comma) < MOSTLY:
                 return list(cells), units
-    return [""] * width, units
+    return [""] * grid.width, units
 
 
 def _shorter(grid: Grid, named: list[str], start: int) -> list[str]:
@@ -191,6 +193,3 @@ def _mismatch(grid: Grid, i: int, cells: int, width: int) -> Exception:
         str(list(grid.rows[i]))[:100],
         "Choose the separator, or correct this row. If commas stand before decimals, separate columns by semicolons.",
     )
-
-
-Reader = Callable[..., Table]

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from ..errors import RecordingError
+from ..errors import Heli2DofError
 from ..recordings import Table
 from .limits import DEEPEST, MOST_VARIABLES, Wanted, check_unpacked, refused
 from .variables import Unreadable, table_of_variables
@@ -29,7 +28,7 @@ def read_hdf5(data: bytes, name: str, wanted: Wanted) -> Table:
     try:
         with h5py.File(io.BytesIO(data), "r") as file:
             content = _Reader(h5py, file, wanted).content()
-    except RecordingError:
+    except Heli2DofError:
         raise
     except (OSError, RuntimeError, ValueError, KeyError, TypeError, AttributeError, IndexError) as error:
         raise refused(
@@ -165,6 +164,3 @@ def range_of(base: float, limit: float, step: float, count: int | None = None) -
 
 def _text(value: Any) -> str:
     return value.decode("utf-8", errors="replace") if isinstance(value, bytes) else str(value)
-
-
-Read = Callable[[bytes, str, Wanted], Table]

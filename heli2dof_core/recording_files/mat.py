@@ -1,33 +1,41 @@
-"""MATLAB's files up to version 7, checked for what they would unpack to before SciPy reads them."""
+"""MATLAB's files of version 4 to 7, within limits that hold before anything is unpacked.
+
+They are read here and not by SciPy, whose reader ends the whole process on some damaged files. Formats: MathWorks,
+MAT-File Format.
+"""
 
 from __future__ import annotations
 
-import io
 import struct
-import warnings
 import zlib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from itertools import islice
 from math import prod
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from ..errors import RecordingError
+from ..errors import Heli2DofError, RecordingError
 from ..recordings import Table
-from .limits import DEEPEST, MOST_UNPACKED, MOST_VARIABLES, Wanted, check_unpacked, refused
+from .limits import DEEPEST, MOST_VARIABLES, Wanted, check_unpacked, refused
 from .variables import Unreadable, table_of_variables
 
 _MATRIX, _COMPRESSED = 14, 15
 _CELL, _STRUCT, _OBJECT, _CHAR, _SPARSE, _FUNCTION, _OPAQUE = 1, 2, 3, 4, 5, 16, 17
-_UNREAD = {_OBJECT: "an object", _SPARSE: "a sparse matrix", _FUNCTION: "a function", _OPAQUE: "an object"}
+_COMPLEX = 0x800
+_STORED = MappingProxyType(
+    {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8"}
+)
+"""How numbers are stored, by the type of their element."""
+_V4_STORED = ("f8", "f4", "i4", "i2", "u2", "u1")
 _PART = 2**18
-_DAMAGED = "Save it again with save(…, '-v7')."
+_WAY_OUT = "Save it again with save(…, '-v7')."
 
 
 def is_v4(data: bytes) -> bool:
-    """Whether the bytes begin as a .mat of version 4, which has no mark: a plausible header, and room for its data."""
-    return any(_v4_variable(data, 0, order) is not None for order in "<>")
+    """Whether the bytes begin as a .mat of version 4, which has no mark: by its first header."""
+    return any(_v4_header(data, 0, order) is not None for order in "<>")
 
 
 def read_mat(data: bytes, name: str, wanted: Wanted) -> Table:
@@ -36,116 +44,80 @@ def read_mat(data: bytes, name: str, wanted: Wanted) -> Table:
     Raises:
         RecordingError: it is damaged, too large once unpacked, or holds no columns.
     """
-    from scipy.io import loadmat
-
     try:
-        if data.startswith(b"MATLAB") or not is_v4(data):
-            known = _Walk(wanted).variables(data)
-        else:
-            known = [_Variable(own, 0) for own in _v4_names(data)]
-        wanted()
-        names = [v.name for v in known if not v.unread and v.name]
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            content = loadmat(
-                io.BytesIO(data),
-                simplify_cells=True,
-                variable_names=names,
-                verify_compressed_data_integrity=False,
-            )
-    except RecordingError:
+        own = data.startswith(b"MATLAB") or not is_v4(data)
+        values = _Reader(wanted).variables(data) if own else _v4_variables(data, wanted)
+    except Heli2DofError:
         raise
-    except Exception as error:  # its reader raises whatever the bytes provoke
-        raise refused("the .mat file is damaged or of an unknown version", name, _DAMAGED) from error
-    values: dict[str, Any] = {
-        key: _readable(value) for key, value in content.items() if not key.startswith("__")
-    }
-    values |= {v.name: Unreadable(v.unread) for v in known if v.unread and v.name}
+    except (struct.error, ValueError, IndexError, OverflowError) as error:
+        raise refused("the .mat file is damaged or of an unknown version", name, _WAY_OUT) from error
     return table_of_variables(values, ".mat file")
 
 
-def _readable(value: Any, depth: int = 0) -> Any:
-    """SciPy's values as dicts, lists and arrays; what it could not read is named."""
-    if depth > DEEPEST:
-        return None
-    if isinstance(value, dict):
-        return {str(key): _readable(item, depth + 1) for key, item in value.items()}
-    if isinstance(value, np.ndarray) and value.dtype.names:
-        known = value.dtype.names[:3] == ("s0", "s1", "s2") and value.size
-        return Unreadable(_class(value.ravel()[0]["s2"]) if known else "an object")
-    if isinstance(value, np.ndarray) and value.dtype == object:
-        return [_readable(item, depth + 1) for item in value.ravel()]
-    if isinstance(value, list):
-        return [_readable(item, depth + 1) for item in value]
-    if isinstance(value, np.ndarray) and value.dtype.kind == "c":
-        return Unreadable("complex numbers")
-    return value
+def _damaged() -> RecordingError:
+    return refused("the .mat file is damaged", hint=_WAY_OUT)
 
 
-def _class(name: Any) -> str:
-    text = name.decode("latin-1") if isinstance(name, bytes) else str(name)
-    return f"MATLAB's {text}" if text.isidentifier() else "an object"
-
-
-@dataclass(frozen=True)
-class _Variable:
-    name: str
-    size: int
-    unread: str = ""
-
-
-def _v4_variable(data: bytes, place: int, order: str) -> tuple[_Variable, int] | None:
-    if place + 20 > len(data):
-        return None
-    kind, rows, columns, imaginary, length = struct.unpack_from(order + "5i", data, place)
+def _v4_header(data: bytes, place: int, order: str) -> tuple[str, str, int, tuple[int, int], int] | None:
+    """Name, dtype, kind, shape and end of a variable; None where there is none."""
+    head = data[place : place + 20].ljust(20, b"\xff")
+    kind, rows, columns, imaginary, length = struct.unpack(order + "5i", head)
     machine, zero, precision, matrix = kind // 1000, kind // 100 % 10, kind // 10 % 10, kind % 10
-    if not (0 <= kind < 5000 and machine == (order == ">") and zero == 0 and precision < 6 and matrix < 3):
+    plausible = machine == (order == ">") and zero == 0 and precision < 6 and matrix < 3
+    if not (0 <= kind < 5000 and plausible and min(rows, columns) >= 0 and imaginary in (0, 1)):
         return None
-    if min(rows, columns) < 0 or imaginary not in (0, 1) or not 1 <= length <= 64:
+    dtype = np.dtype(order + _V4_STORED[precision])
+    own = data[place + 20 : place + 20 + max(0, length)].rstrip(b"\0")
+    end = place + 20 + length + rows * columns * dtype.itemsize * (1 + imaginary)
+    if not 1 <= length <= 64 or end > len(data) or not own.isascii() or not own.decode().isidentifier():
         return None
-    size = rows * columns * (8, 4, 4, 2, 2, 1)[precision] * (1 + imaginary)
-    end = place + 20 + length + size
-    own = data[place + 20 : place + 20 + length].rstrip(b"\0")
-    if end > len(data) or not own.isascii() or not own.decode().isidentifier():
-        return None
-    return _Variable(own.decode(), rows * columns * 8), end
+    return own.decode(), dtype.str, matrix + 10 * imaginary, (rows, columns), end
 
 
-def _v4_names(data: bytes) -> list[str]:
-    order = "<" if _v4_variable(data, 0, "<") else ">"
-    names, place, total = [], 0, 0
+def _v4_variables(data: bytes, wanted: Wanted) -> dict[str, Any]:
+    order = "<" if _v4_header(data, 0, "<") else ">"
+    found: dict[str, Any] = {}
+    place = total = 0
     while place < len(data):
-        found = _v4_variable(data, place, order)
-        if found is None:
-            raise refused("the .mat file is damaged", hint=_DAMAGED)
-        variable, place = found
-        total += variable.size
+        wanted()
+        header = _v4_header(data, place, order)
+        if header is None:
+            raise _damaged()
+        name, dtype, kind, shape, end = header
+        total += 8 * prod(shape)
         check_unpacked(total)
-        names.append(variable.name)
-    return names
+        if kind == 0:
+            start = end - prod(shape) * np.dtype(dtype).itemsize
+            found[name] = np.frombuffer(data[start:end], dtype).astype(float).reshape(shape, order="F")
+        elif kind != 1:
+            found[name] = Unreadable("a sparse matrix" if kind % 10 == 2 else "complex numbers")
+        place = end
+    return found
 
 
-class _Walk:
-    """Goes through a file of version 5 to 7 without unpacking more than is allowed, whatever its headers claim."""
+class _Reader:
+    """Reads a file of version 5 to 7; what its headers claim is held against the bytes that are there."""
 
     def __init__(self, wanted: Wanted) -> None:
         self.wanted, self.order = wanted, "<"
         self.unpacked = self.numbers = self.parts = 0
 
-    def variables(self, data: bytes) -> list[_Variable]:
-        """Names, and what cannot be read."""
-        self.order = ">" if data[126:128] == b"MI" else "<"
+    def variables(self, data: bytes) -> dict[str, Any]:
+        """By name: arrays of numbers, texts, lists for cells, dicts for structures, or why a variable is not read."""
         if data[126:128] not in (b"MI", b"IM"):
-            raise refused("the .mat file is damaged", hint=_DAMAGED)
-        found = []
+            raise _damaged()
+        self.order = ">" if data[126:128] == b"MI" else "<"
+        found: dict[str, Any] = {}
         for kind, start, end in self._elements(data, 128, len(data)):
             self.wanted()
-            own, first, last = data, start, end
+            own, part = data, (kind, start, end)
             if kind == _COMPRESSED:
                 own = self._unpacked(data[start:end])
-                kind, first, last = next(self._elements(own, 0, len(own)), (0, 0, 0))
-            if kind == _MATRIX:
-                found.append(self._matrix(own, first, last, 0))
+                part = next(self._elements(own, 0, len(own)), (0, 0, 0))
+            if part[0] == _MATRIX:
+                name, value = self._matrix(own, part[1], part[2], 0)
+                if name:  # what has none holds the objects' insides
+                    found[name] = value
         return found
 
     def _unpacked(self, packed: bytes) -> bytes:
@@ -154,7 +126,7 @@ class _Walk:
             try:
                 part = unpacker.decompress(rest, _PART)
             except zlib.error as error:
-                raise refused("the .mat file is damaged", hint=_DAMAGED) from error
+                raise _damaged() from error
             if not part:
                 break
             self.unpacked += len(part)
@@ -165,12 +137,12 @@ class _Walk:
         return b"".join(parts)
 
     def _elements(self, data: bytes, place: int, end: int) -> Iterator[tuple[int, int, int]]:
-        """Kind, start and end of each element; a damaged length ends them."""
+        """Kind, start and end of each element."""
         while place + 8 <= end:
             self.parts += 1
             if self.parts > 20 * MOST_VARIABLES:
                 raise refused(
-                    "the .mat file holds too many parts", hint="Save only the variables of the recording."
+                    "the .mat file holds too many parts", hint="Save the recording's variables only."
                 )
             kind, size = struct.unpack_from(self.order + "II", data, place)
             if kind >> 16:  # a small element: length and data within these eight bytes
@@ -179,41 +151,88 @@ class _Walk:
                 continue
             start = place + 8
             if size > end - start:
-                raise refused("the .mat file is damaged", hint=_DAMAGED)
+                raise _damaged()
             yield kind, start, start + size
             place = start + size + (0 if kind == _COMPRESSED else -size % 8)
 
-    def _matrix(self, data: bytes, start: int, end: int, depth: int) -> _Variable:
+    def _matrix(self, data: bytes, start: int, end: int, depth: int) -> tuple[str, Any]:
+        """Name and value of an array."""
         if depth > 4 * DEEPEST:
             raise refused("the .mat file is nested too deep", hint="Save plain vectors.")
         parts = self._elements(data, start, end)
         flags = next(parts, None)
-        if flags is None or flags[2] - flags[1] < 4:
-            return _Variable("", 0)
-        kind = struct.unpack_from(self.order + "I", data, flags[1])[0] & 0xFF
+        if flags is None:
+            return "", None
+        word = struct.unpack_from(self.order + "I", data, flags[1])[0]
+        kind = word & 0xFF
         if kind == _OPAQUE:
-            own, _, what = ([data[a:b] for _, a, b in parts] + [b""] * 3)[:3]
-            return _Variable(own.decode("latin-1"), 0, _class(what))
-        dims = next(parts, (0, 0, 0))
-        count = (dims[2] - dims[1]) // 4
-        shape = struct.unpack_from(self.order + f"{count}i", data, dims[1])
-        named = next(parts, (0, 0, 0))
-        name = data[named[1] : named[2]].decode("latin-1")
+            name, _, what = ([data[a:b] for _, a, b in islice(parts, 3)] + [b""] * 3)[:3]
+            return name.decode("latin-1"), Unreadable(_class(what))
+        _, first, last = next(parts, (0, 0, 0))
+        shape = struct.unpack_from(f"{self.order}{(last - first) // 4}i", data, first)
+        _, first, last = next(parts, (0, 0, 0))
+        name = data[first:last].decode("latin-1")
         if min(shape, default=0) < 0:
-            raise refused("the .mat file is damaged", hint=_DAMAGED)
+            raise _damaged()
+        return name, self._value(
+            data, parts, (kind, word, prod(shape) if shape else 0, shape), end - start, depth
+        )
+
+    def _value(  # noqa: PLR0911
+        self, data: bytes, parts: Any, about: tuple[int, int, int, tuple[int, ...]], room: int, depth: int
+    ) -> Any:
+        kind, word, size, shape = about
         if kind in (_FUNCTION, _SPARSE):
-            return _Variable(name, 0, _UNREAD[kind])
-        size = prod(shape)
-        if kind in (_CELL, _STRUCT, _OBJECT):
-            # What a cell or a structure claims to hold takes eight bytes each at least.
-            if size > (end - start) // 8 + 1:
-                raise refused("the .mat file is damaged", hint=_DAMAGED)
-            for part, first, last in parts:
-                if part == _MATRIX:
-                    self._matrix(data, first, last, depth + 1)
-            return _Variable(name, size, _UNREAD.get(kind, ""))
+            return Unreadable("a function" if kind == _FUNCTION else "a sparse matrix")
+        if kind == _OBJECT:
+            _, first, last = next(parts, (0, 0, 0))
+            return Unreadable(_class(data[first:last]))
+        if kind in (_CELL, _STRUCT):
+            if size > room // 8 + 1:  # each takes eight bytes at least
+                raise _damaged()
+            if kind == _CELL:
+                return [self._inner(data, part, depth) for part in islice(parts, size)]
+            return self._structures(data, parts, size, depth)
         self.numbers += 8 * size
-        check_unpacked(self.numbers, name)
-        if self.numbers > MOST_UNPACKED or size > 8 * (end - start):
-            raise refused("the .mat file is damaged", name, _DAMAGED)
-        return _Variable(name, size)
+        check_unpacked(self.numbers)
+        stored, first, last = next(parts, (0, 0, 0))
+        if kind == _CHAR:
+            return _text(data[first:last], stored, self.order)
+        if word & _COMPLEX:
+            return Unreadable("complex numbers")
+        if stored not in _STORED:
+            return None if not size else Unreadable("of an unknown kind")
+        flat = np.frombuffer(data[first:last], self.order + _STORED[stored])
+        return flat.astype(np.float64).reshape(shape, order="F")
+
+    def _structures(self, data: bytes, parts: Any, size: int, depth: int) -> Any:
+        _, first, last = next(parts, (0, 0, 0))
+        width = struct.unpack_from(self.order + "i", data, first)[0] if last - first >= 4 else 0
+        _, first, last = next(parts, (0, 0, 0))
+        if width <= 0:
+            return None
+        names = [
+            data[place : place + width].partition(b"\0")[0].decode("latin-1")
+            for place in range(first, last, width)
+        ]
+        if not names:
+            return None
+        found = [
+            {key: self._inner(data, next(parts, (0, 0, 0)), depth) for key in names} for _ in range(size)
+        ]
+        return found[0] if size == 1 else found
+
+    def _inner(self, data: bytes, part: tuple[int, int, int], depth: int) -> Any:
+        kind, first, last = part
+        return self._matrix(data, first, last, depth + 1)[1] if kind == _MATRIX else None
+
+
+def _text(data: bytes, stored: int, order: str) -> str:
+    wide = {4: "utf-16", 17: "utf-16", 18: "utf-32"}.get(stored)
+    coding = f"{wide}-{'le' if order == '<' else 'be'}" if wide else "utf-8"
+    return data[:1000].decode(coding, errors="replace")
+
+
+def _class(name: bytes) -> str:
+    text = name.decode("latin-1")
+    return f"MATLAB's {text}" if text.isidentifier() else "an object"

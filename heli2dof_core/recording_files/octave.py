@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import Heli2DofError
 from ..recordings import Table
 from .hdf5 import range_of
 from .limits import DEEPEST, MOST_VARIABLES, Wanted, check_unpacked, refused
@@ -29,9 +30,9 @@ def read_octave(data: bytes, name: str, wanted: Wanted) -> Table:
     """
     try:
         content = _Reader(decoded(data, name), wanted).content()
+    except Heli2DofError:
+        raise
     except (ValueError, IndexError) as error:
-        if hasattr(error, "hint"):
-            raise
         raise refused("Octave's file is damaged", name, "Save it again, or with save -v7.") from error
     return table_of_variables(content, "file")
 
@@ -75,7 +76,7 @@ class _Reader:
             self.wanted()
         return [float(word) for word in self.lines[self.place - 1].split()]
 
-    def _value(self, depth: int) -> Any:
+    def _value(self, depth: int) -> Any:  # noqa: PLR0911
         self.parts += 1
         if depth > 2 * DEEPEST or self.parts > MOST_VARIABLES:
             raise ValueError("nested too deep")

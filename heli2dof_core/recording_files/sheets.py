@@ -9,7 +9,7 @@ from collections import Counter
 from dataclasses import replace
 from typing import Any
 
-from ..errors import RecordingError
+from ..errors import Heli2DofError, RecordingError
 from ..findings import Finding
 from ..recordings import Table
 from .cells import is_empty, number
@@ -43,11 +43,9 @@ def read_sheet(data: bytes, name: str, wanted: Wanted) -> Table:
                 raise refused("the spreadsheet holds too many parts", name, "Save the one sheet as CSV.")
             _require_few_strings(packed, names, wanted)
         return _largest(data, wanted)
-    except RecordingError:
+    except Heli2DofError:
         raise
     except Exception as error:  # its readers raise whatever the bytes provoke
-        if type(error).__name__ == "CancelledError":
-            raise
         raise refused("the spreadsheet is damaged", name, "Save it again, or as CSV.") from error
 
 

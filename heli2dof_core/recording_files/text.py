@@ -159,8 +159,8 @@ def _judged(rows: list[str], dialect: Dialect) -> tuple[str, bool, int]:
         if best and best < _A_TABLE * len(sample):
             raise refused(
                 f"only {best} of {len(sample)} lines are rows of numbers",
-                hint="Give a table: time, both angles and both voltages as columns of numbers. Of a design, export csv, "
-                "mat or json.",
+                hint="Give a table: time, both angles and both voltages as columns of numbers. Of a design, "
+                "export csv, mat or json.",
             )
         if best:
             near = [
@@ -179,7 +179,7 @@ def _judged(rows: list[str], dialect: Dialect) -> tuple[str, bool, int]:
 
 @dataclass(frozen=True)
 class _Candidate:
-    """How a separator and a decimal mark do: lines that are all numbers, and lines that mostly are, with their widths."""
+    """How a separator and a decimal mark do: lines of numbers alone, lines mostly of numbers, and their widths."""
 
     separator: str
     comma: bool

@@ -126,7 +126,7 @@ def _on_one_time(timed: list[Series], findings: list[Finding]) -> tuple[list[Ser
             "the signals' times do not overlap", hint="Join files of one run, with times of one clock."
         )
     time = Series("time", base)
-    words = f"The signals have {len(axes)} different times: they were brought to those of the finest, angles interpolated and voltages held."
+    words = f"The signals have {len(axes)} different times and were brought to the finest (voltages held)."
     findings.append(Finding("joined_times", "warning", words))
     return [time, *(Series(s.name, _resampled(s, base)) for s in timed)], time
 

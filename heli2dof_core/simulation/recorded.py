@@ -67,6 +67,7 @@ def run_held(
     t: Floats,
     volts: Floats,
     travel: float | None,
+    *,
     wanted: Wanted = nobody_leaves,
 ) -> Floats:
     """States (n, 4) at all t under held voltages (n, 2) from `start`; pitch is stopped at ±`travel` (rad).
