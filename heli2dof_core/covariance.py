@@ -32,20 +32,31 @@ def groups_of(bounds: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.array(groups, dtype=np.int64)
 
 
+def first_correlation(bounds: NDArray[np.int64], r: Floats) -> Floats:
+    """Correlation of successive residuals within the segments, per output. r (n, outputs)."""
+    together, power = np.zeros(r.shape[1]), np.full(r.shape[1], 1e-300)
+    for first, end in bounds.tolist():
+        together += np.sum(r[first : end - 1] * r[first + 1 : end], axis=0)
+        power += np.sum(r[first : end - 1] ** 2, axis=0)
+    return np.clip(together / power, -0.99, 0.99)
+
+
 def grouped_covariance(
-    J: Floats, r: Floats, groups: NDArray[np.int64], basis: Floats | None = None
+    J: Floats, r: Floats, groups: NDArray[np.int64], basis: Floats | None = None, power: float = 0.5
 ) -> Floats:
     """The sandwich over groups of samples, (k, k): right whatever the correlation within a group is.
 
     (JᵀJ)⁻¹ S (JᵀJ)⁻¹ with S of the groups' scores J_gᵀ(I − H_gg)^(−1/2) r_g (Bell & McCaffrey, Survey Methodology 28
     (2002) 169–181, "CR2"; Cameron & Miller, J. Human Resources 50 (2015) 317–372, section VI.B). H_gg is what the fit
     takes out of a group's residuals, starting states included: they swallow the slow part of correlated noise, which
-    sums over lags of the residuals (Newey & West) therefore miss. For white residuals S is unbiased.
+    sums over lags of the residuals (Newey & West) therefore miss. For white residuals S is unbiased. With the power 1
+    ("CR3", the jackknife) it is too large for them, and meant for correlated ones.
 
     Args:
         J: derivatives of the residuals, (n, outputs, k), starting states eliminated.
         r: residuals, (n, outputs).
         groups: first and last + 1 of each, (groups, 2).
+        power: of (I − H_gg)⁻¹.
         basis: orthonormal in each segment, of what its starting state can do, (n, outputs, states).
     """
     k = J.shape[-1]
@@ -60,7 +71,7 @@ def grouped_covariance(
         U, s, _ = np.linalg.svd(taken, full_matrices=False)
         left = 1.0 - np.minimum(s, 1.0) ** 2
         # What a group alone determines is left as it is: of that there are no residuals.
-        gain = np.where(left > _DETERMINED, 1.0 / np.sqrt(np.maximum(left, _DETERMINED)), 1.0) - 1.0
+        gain = np.where(left > _DETERMINED, np.maximum(left, _DETERMINED) ** -power, 1.0) - 1.0
         score = own.T @ (residuals + U @ (gain * (U.T @ residuals)))
         S += np.outer(score, score)
     return np.asarray(root @ S @ root.T, dtype=np.float64)

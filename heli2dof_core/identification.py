@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .checks import require_within
-from .covariance import grouped_covariance, groups_of, plain_covariance, student_quantile
+from .covariance import first_correlation, grouped_covariance, groups_of, plain_covariance, student_quantile
 from .errors import InvalidInputError, RecordingError
 from .findings import Finding
 from .identified import Estimate, Identification, Progress
@@ -36,6 +36,8 @@ COARSE_ENCODER = 0.45
 """Residuals in encoder steps below which their rounding is no noise (alone it makes 0.29): it moves with the angle
 and biases what is found; then the intervals held the truth in half of the bench's runs only."""
 _POOR_CONDITION = 1e6
+CORRELATED = 0.5
+"""Correlation of successive residuals above which they are no white noise."""
 
 
 def default_free(p: Parameters) -> tuple[str, ...]:
@@ -100,7 +102,9 @@ def _concluded(
     inside = search.inside
     unknowns = len(names) + 4 * len(search.bounds)
     groups = groups_of(search.bounds)
-    covariance = grouped_covariance(J, r, groups, after.basis)
+    rho = first_correlation(search.bounds, r)
+    power = 1.0 if np.max(rho) > CORRELATED else 0.5
+    covariance = grouped_covariance(J, r, groups, after.basis, power)
     own = student_quantile(len(groups) - len(names)) * np.sqrt(np.diag(covariance))
     plain = QUANTILE * search.scales * np.sqrt(np.diag(plain_covariance(J[inside], r[inside], unknowns)))
     widths = np.maximum(
@@ -137,6 +141,7 @@ def _concluded(
         findings=(
             *recording.findings,
             *missed,
+            *_correlated(rho, recording.sample_time),
             *_remarks(estimates, J[inside], names, search),
         ),
     )
@@ -306,6 +311,18 @@ def _require_excited(J: Floats, names: tuple[str, ...]) -> None:
             value=list(silent or names),
             hint="Leave some out, or record steps of both references, one after the other.",
         )
+
+
+def _correlated(rho: Floats, sample_time: float) -> list[Finding]:
+    worst = float(np.max(rho))
+    if worst <= CORRELATED:
+        return []
+    axis, span = ("pitch", "yaw")[int(np.argmax(rho))], -1e3 * sample_time / np.log(worst)
+    words = (
+        f"The residuals in {axis} are correlated over some {span:.2g} ms. The intervals allow for that, but from few "
+        "segments: they may be too narrow. Record longer, or look for what the model leaves out."
+    )
+    return [Finding("correlated_residuals", "warning", words)]
 
 
 def _pair(values: Floats) -> tuple[float, float]:

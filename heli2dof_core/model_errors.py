@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .covariance import first_correlation
 from .findings import Finding
 from .recordings import Recording
 from .signals import Floats
@@ -123,12 +124,7 @@ class _Whitened:
 
     def __init__(self, bounds: NDArray[np.int64], r: Floats, own: Floats) -> None:
         self.bounds, self.own = bounds, own
-        before = np.zeros(2)
-        power = np.full(2, 1e-300)
-        for a, b in bounds.tolist():
-            before += np.sum(r[a : b - 1] * r[a + 1 : b], axis=0)
-            power += np.sum(r[a : b - 1] ** 2, axis=0)
-        self.rho = np.clip(before / power, -0.99, 0.99)[:, None]
+        self.rho = first_correlation(bounds, r)[:, None]
 
     def free_of_starts(self, columns: Floats) -> Floats:
         """Filtered columns (n, 2, c) without what starting states could make, (rows, c)."""

@@ -273,6 +273,16 @@ def test_a_dead_band_is_told(band, soft, code):
     assert ("model_error" in codes) <= (band > 0)
 
 
+def test_correlated_noise_is_told():
+    spec, recording = with_band(0.0, 0, seed=2)
+    last, noise = np.zeros(2), np.empty_like(recording.angles)
+    for k, e in enumerate(np.random.default_rng(1).standard_normal(noise.shape)):
+        noise[k] = last = 0.97 * last + np.sqrt(1 - 0.97**2) * 1e-3 * e
+    told = identify(spec.parameters, replace(recording, angles=recording.angles + noise)).findings
+    assert "correlated_residuals" in {f.code for f in told}
+    assert "correlated_residuals" not in {f.code for f in identify(spec.parameters, recording).findings}
+
+
 @pytest.mark.parametrize("change", ["volts", "time", "huge"])
 def test_a_rig_that_runs_away_is_refused_wherever_it_is_simulated(change):
     spec, loop, _, _, recording = made(duration=2.0)
