@@ -7,38 +7,63 @@ BIN := $(VENV)/bin
 IMAGE ?= heli2dof
 IMAGE_BUILDER ?= docker build
 BESIDE := --numprocesses=2 --dist=loadfile
+# Children of the tests start as a user's do, with Python's bytecode kept.
+unexport PYTHONDONTWRITEBYTECODE
 PACKAGING := pyproject.toml constraints.txt package.json package-lock.json hatch_build.py
 SOURCES := $(shell find app heli2dof_core static -type f -not -path '*/vendor/*' -not -name '*.pyc' 2>/dev/null)
+PYTEST = CHROMIUM=$(CHROMIUM) $(BIN)/pytest $(BESIDE)
 # Without windows (chromium-headless-shell, as Playwright itself prefers) the tests take two thirds of the time.
 CHROMIUM ?= $(firstword $(shell command -v chromium-headless-shell chromium chromium-browser google-chrome))
 
-.PHONY: help serve test check types unit page-test e2e screenshot bench docs image clean
+.PHONY: help serve test quick check style static-types floors types kernels unit page-test e2e steady mutation screenshot \
+  bench docs image clean browser
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
 serve: $(VENV)/.installed ## build what is needed and start the app on http://127.0.0.1:$(PORT)
 	@exec $(BIN)/heli2dof serve --port $(PORT)
 
-test: $(VENV)/.tools browser check page-test unit ## build what the tests need and run them all
+test: $(VENV)/.tools node_modules/.installed browser ## build what the tests need and run them all
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check page-test kernels
+	@$(MAKE) --no-print-directory unit
 
-check: $(VENV)/.tools types ## style, types, floors
-	$(BIN)/ruff check .
-	$(BIN)/ruff format --check .
-	$(BIN)/pyright
-	$(BIN)/lint-imports
+quick: $(VENV)/.tools node_modules/.installed browser ## what is soon told: style, types, floors, laws of the core, the page's units, a page that opens
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check page-test kernels
+	@$(PYTEST) -m "not slow" tests/core tests/authorities tests/test_architecture.py \
+	  tests/e2e/test_page.py::test_gain_shown_is_the_gain_of_the_poles_shown
+
+check: style static-types types floors ## style, types, floors
+
+style: $(VENV)/.tools
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check .
+
+static-types: $(VENV)/.tools
+	@$(BIN)/pyright
+
+floors: $(VENV)/.tools
+	@$(BIN)/lint-imports
 
 types: $(VENV)/.tools node_modules/.installed ## the page's JSDoc types, by TypeScript
-	$(BIN)/node tests/page/check_types.mjs
+	@$(BIN)/node tests/page/check_types.mjs
 
-unit: $(VENV)/.tools node_modules/.installed ## the Python tests, the browser's among them, in two processes
-	@$(BIN)/python -c 'from heli2dof_core.engine import warm_up; warm_up()' # once, not in each process at once
-	CHROMIUM=$(CHROMIUM) $(BIN)/pytest $(BESIDE)
+kernels: $(VENV)/.tools # once, not in each process at once
+	@$(BIN)/python -c 'from heli2dof_core.engine import warm_up; warm_up()'
+
+unit: $(VENV)/.tools node_modules/.installed kernels ## the Python tests, the browser's among them, in two processes
+	@$(PYTEST)
 
 page-test: $(VENV)/.tools ## the page's pure modules
-	$(BIN)/node --test tests/page/*.test.mjs
+	@$(BIN)/node --test --test-reporter=dot tests/page/*.test.mjs
 
-e2e: $(VENV)/.tools node_modules/.installed browser ## the browser tests alone
-	CHROMIUM=$(CHROMIUM) $(BIN)/pytest $(BESIDE) tests/e2e
+e2e: $(VENV)/.tools node_modules/.installed browser kernels ## the browser tests alone
+	@$(PYTEST) -m browser
+
+steady: $(VENV)/.tools node_modules/.installed browser kernels ## the browser tests beside busy processes, and with all late
+	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.steady
+
+mutation: $(VENV)/.tools node_modules/.installed ## change the core and the page in forty places, one by one: which changes does no test see?
+	$(BIN)/python -m tests.mutation --jobs 2 $(if $(SEED),--seed $(SEED))
 
 screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.screenshot docs/screenshot.png
@@ -57,7 +82,6 @@ image: ## build the container with $(IMAGE_BUILDER)
 clean: ## remove what was built
 	rm -rf $(VENV) node_modules static/vendor build dist
 
-.PHONY: browser
 browser:
 	@test -n "$(CHROMIUM)" || { echo "The browser tests need Chromium. Debian: sudo apt-get install chromium-headless-shell. \
 	Elsewhere: install Chromium or Chrome and call: make test CHROMIUM=/path/to/it" >&2; exit 1; }

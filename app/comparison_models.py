@@ -38,6 +38,9 @@ class Placement(Model):
     groups: list[Group] | None = None
     closed_loop_poles: list[Complex]
     pole_error: float | None = Field(None, description="largest distance of a pole from the one asked for")
+    pole_error_bound: float | None = Field(
+        None, description="how far rounding may have moved the poles told, and so their error"
+    )
     norm: float = Field(description="Frobenius norm of K")
     spectral_norm: float = Field(description="largest singular value of K")
     eigenvector_condition: float | None = Field(None, description="κ₂ of the closed loop's eigenvectors")
@@ -77,6 +80,9 @@ class ComparisonRow(Model):
     closed_loop_poles: list[Complex] | None = None
     pole_error: float | None = Field(
         None, description="largest distance of a pole from the one asked for, rad/s"
+    )
+    pole_error_bound: float | None = Field(
+        None, description="how far rounding may have moved the poles told, and so their error"
     )
     norm: float | None = Field(None, description="Frobenius norm of K")
     spectral_norm: float | None = Field(None, description="largest singular value of K")

@@ -43,6 +43,7 @@ def assessment_reply(result: Assessment) -> Reply:
     }
     if result.pole_error is not None:
         reply["pole_error"] = result.pole_error
+        reply["pole_error_bound"] = result.pole_error_bound
     if result.eigenvector_condition is not None:
         reply["eigenvector_condition"] = result.eigenvector_condition
     if isinstance(placement, IntegralPlacement):

@@ -1,7 +1,9 @@
-"""The compiled kernels of a server: made in a process of their own, then loaded from Numba's cache.
+"""The compiled kernels of a server: loaded from Numba's cache, which a process of its own fills where it must.
 
 Compiling holds Python's lock for ten seconds and more, in which no drag would be answered. So a child
 process compiles while the interpreted kernels answer; the server then loads what it left on the disk.
+Where an earlier start has left everything there is no child. The server itself never compiles: what is
+missing against expectation is an error in loading (`heli2dof_core.kernel_cache`), and the child's work.
 """
 
 from __future__ import annotations
@@ -18,7 +20,8 @@ from pathlib import Path
 from time import perf_counter
 
 import heli2dof_core
-from heli2dof_core.engine import engine, warm_up
+from heli2dof_core.engine import engine, kept, warm_up
+from heli2dof_core.kernel_cache import NotKeptError
 
 _log = logging.getLogger(__name__)
 COMPILE = "from heli2dof_core.engine import warm_up; warm_up()"
@@ -39,18 +42,39 @@ class KernelCompiler:
         began = perf_counter()
         try:
             seed_cache()
-            command, environment = compiler()
-            self._child = subprocess.Popen(command, env=environment)
-            status = self._child.wait()
-            if self._closed.is_set():
-                return
-            if status:
-                raise RuntimeError(f"the compiler's process ended with status {status}")
-            warm_up()
+            # Compiled twice where another server that starts on the same cache rewrites it while this one loads.
+            ways = (self._loaded, self._compiled_and_loaded, self._compiled_and_loaded)
+            if not any(way() for way in ways) and not self._closed.is_set():
+                raise RuntimeError("Numba's cache does not keep what was compiled")
         except Exception as error:
             _log.warning("the kernels stay interpreted, responses take twenty times longer: %s", error)
         else:
-            _log.info("kernels ready after %.1f s", perf_counter() - began)
+            if engine().compiled:
+                _log.info("kernels ready after %.1f s", perf_counter() - began)
+
+    def _loaded(self) -> bool:
+        """Loads what an earlier start has left, where all of it is there; this process never compiles."""
+        return kept() and self._load()
+
+    def _compiled_and_loaded(self) -> bool:
+        if self._closed.is_set():
+            return False
+        command, environment = compiler()
+        self._child = subprocess.Popen(command, env=environment)
+        status = self._child.wait()
+        if self._closed.is_set():
+            return False
+        if status:
+            raise RuntimeError(f"the compiler's process ended with status {status}")
+        return self._load()
+
+    def _load(self) -> bool:
+        try:
+            warm_up(compiling=False)
+        except NotKeptError as error:
+            _log.info("the kernels are compiled anew: %s", error)
+            return False
+        return True
 
     def close(self) -> None:
         """Ends the child process, if there still is one."""

@@ -6,7 +6,7 @@ import asyncio
 import asyncio.selector_events
 import contextlib
 from collections import Counter, OrderedDict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from ipaddress import IPv6Address, ip_address
 from time import monotonic
 from typing import Any
@@ -49,15 +49,15 @@ def read_in_small_parts() -> None:
 
 
 class Buckets:
-    """Tokens by address: `rate` of them come back in a second, up to `burst`."""
+    """Tokens by address: `rate` of them come back in a second of `clock`, up to `burst`."""
 
-    def __init__(self, rate: float, burst: float) -> None:
-        self._rate, self._burst = rate, burst
+    def __init__(self, rate: float, burst: float, clock: Callable[[], float] = monotonic) -> None:
+        self._rate, self._burst, self._clock = rate, burst, clock
         self._left: OrderedDict[str, tuple[float, float]] = OrderedDict()
 
     def take(self, address: str) -> float:
         """Takes one; returns 0, or after how many seconds there is one again."""
-        now = monotonic()
+        now = self._clock()
         left, last = self._left.pop(address, (self._burst, now))
         left = min(self._burst, left + (now - last) * self._rate)
         wait = 0.0 if left >= 1 else (1 - left) / self._rate
@@ -93,9 +93,11 @@ class OpenSockets:
 class Limits:
     """Refuses what goes beyond the settings, each with its clear answer; tells the core's threads who asks."""
 
-    def __init__(self, app: ASGIApp, settings: Settings, sockets: OpenSockets) -> None:
+    def __init__(
+        self, app: ASGIApp, settings: Settings, sockets: OpenSockets, clock: Callable[[], float] = monotonic
+    ) -> None:
         self._app, self._settings, self._open = app, settings, sockets
-        self._buckets = Buckets(settings.request_rate, settings.request_burst)
+        self._buckets = Buckets(settings.request_rate, settings.request_burst, clock)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Passes on what is within the limits."""

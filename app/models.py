@@ -65,6 +65,9 @@ class Gains(Model):
     pole_error: float | None = Field(
         None, description="largest distance of a pole from the one asked for, rad/s"
     )
+    pole_error_bound: float | None = Field(
+        None, description="how far rounding may have moved the poles told, and so their error"
+    )
     norm: float = Field(description="Frobenius norm of K")
     spectral_norm: float = Field(description="largest singular value of K")
     eigenvector_condition: float | None = Field(None, description="κ₂ of the closed loop's eigenvectors")

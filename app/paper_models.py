@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from pydantic import Field
 
 from .models import Complex, Model
@@ -80,7 +82,7 @@ class Proof(Model):
 
 
 class Erratum(Model):
-    """One mistake with its proof."""
+    """One mistake with its proof: an erratum where the paper's own numbers confirm it, else unclear in our copy."""
 
     name: str
     where: str
@@ -88,6 +90,10 @@ class Erratum(Model):
     correct: Typeset
     why: str
     effect: str
+    standing: Literal["confirmed", "unclear"] = Field(
+        description="confirmed by the paper's own printed numbers, or unclear in our copy of it"
+    )
+    evidence: str | None = Field(None, description="the printed numbers that confirm it")
     proof: Proof
 
 

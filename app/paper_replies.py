@@ -93,7 +93,7 @@ def _printed(printed: Printed) -> Reply:
 
 
 def _erratum(erratum: Erratum) -> Reply:
-    proof = erratum.prove()
+    proof, evidence = erratum.prove(), erratum.evidence
     return {
         "name": erratum.name,
         "where": erratum.where,
@@ -101,6 +101,8 @@ def _erratum(erratum: Erratum) -> Reply:
         "correct": _typeset(erratum.correct),
         "why": erratum.why,
         "effect": erratum.effect,
+        "standing": "unclear" if evidence is None else "confirmed",
+        **({} if evidence is None else {"evidence": evidence.words}),
         "proof": {
             "statement": proof.statement,
             "correct": _evidence(proof.correct),

@@ -6,6 +6,8 @@ import base64
 import hashlib
 from collections.abc import Iterable
 
+from heli2dof_core.export.report_style import STYLE
+
 NOTHING = "default-src 'none'; frame-ancestors 'none'"
 """Of what is no page, as JSON: shown by itself it loads nothing."""
 
@@ -21,12 +23,15 @@ def hash_source(text: bytes) -> str:
 
 
 def page(ancestors: Iterable[str]) -> str:
-    """Of the page: everything from its own origin, nothing inline."""
+    """Of the page: everything from its own origin, nothing inline but the laboratory report's own style.
+
+    The page opens the report from a blob, which inherits this policy; the style's hash allows that one content.
+    """
     return _joined(
         ancestors,
         default_src="'none'",
         script_src="'self'",
-        style_src="'self'",
+        style_src=f"'self' {hash_source(STYLE.encode())}",
         img_src="'self'",
         connect_src="'self'",
         frame_src="'self'",

@@ -81,7 +81,7 @@ def problem_of(error: Exception) -> dict[str, Any]:  # noqa: PLR0911
                 503,
                 str(error),
                 "overdue",
-                hint="Ask for less: fewer rigs, a shorter or less exact experiment.",
+                hint="Ask for less: fewer rigs, a shorter experiment or a looser tolerance.",
             )
         case HTTPException(status_code=400):  # FastAPI's own, for a body that its parser gives up on
             hint = "Send one JSON object in UTF-8, not nested a thousand deep."

@@ -61,7 +61,7 @@ class FairQueue:
         address, connection = job.client
         with self._changed:
             if len(self) >= self._most:
-                raise BusyError("The server has as much slow work waiting as it takes.", 5)
+                raise BusyError("The server is busy: too many slow requests are waiting.", 5)
             if self._count[job.client] >= self._most_each:
                 raise BusyError(f"{self._most_each} of your requests are waiting already.", 2)
             self._count[job.client] += 1

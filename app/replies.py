@@ -75,6 +75,7 @@ def gains_reply(design: Design) -> Reply:
             "poles": poles_reply(design.poles.values),
             "closed_loop_poles": poles_reply(design.closed_loop_poles),
             "pole_error": design.pole_error,
+            "pole_error_bound": design.pole_error_bound if design.aims else None,
             "norm": design.norm,
             "spectral_norm": design.spectral_norm,
             "eigenvector_condition": design.eigenvector_condition,

@@ -262,7 +262,9 @@ class DigitalController(Strict):
     sample_time: Annotated[float, within(1e-4, 1.0)] = Field(
         default=0.002, description="s; voltages are held between samples"
     )
-    delay: bool = Field(default=False, description="voltages reach the motors one sample late")
+    delay: bool = Field(
+        default=False, description="voltages reach the motors one sample late, after the trim"
+    )
     encoders: EncoderCounts | None = Field(default=None, description="the preset's where left out")
     rates: Rates = Field(default="filtered", description="filtered: from the angles, 20 Hz, damping 0.85")
     noise: Annotated[float, within(0.0, 1.0)] = Field(

@@ -92,6 +92,18 @@ class Settings(BaseSettings):
         le=60.0,
         description="seconds for which it serves on after SIGTERM while `/healthz` says 503",
     )
+    grace: float = Field(
+        default=9.5,
+        ge=1.0,
+        le=3600.0,
+        description="seconds after these in which answers are finished; then it ends, whatever still computes",
+    )
+    ping: float = Field(
+        default=5.0,
+        gt=0.0,
+        le=3600.0,
+        description="seconds between pings on a WebSocket; one that is not answered for as long ends it",
+    )
     static: Path = Field(default_factory=static_folder, description="folder of the page's files")
 
     # Limits. A class of forty behind one address must never meet those per address: each of its pages opens four

@@ -29,7 +29,7 @@ class Scan:
 def scan(A: Floats, B: Floats) -> Scan:
     """Scans b₁ … b_p, Ab₁ … left to right; σ_i is the number of columns kept of input i.
 
-    States and columns are scaled first, so that units do not decide (`_scaled`). In place of A^k b_i
+    States and columns are scaled first, so that units do not decide (`in_own_units`). In place of A^k b_i
     stands A times what A^(k−1) b_i added to the columns before it: both span the same space, but
     powers of A all turn towards its fastest mode, and rank could not be told from rounding. A column
     is kept if it leaves the smallest singular value above `RANK_TOLERANCE`, and above what rounding
@@ -44,7 +44,9 @@ def scan(A: Floats, B: Floats) -> Scan:
         UncontrollableError: fewer than n independent columns exist.
     """
     n, p = B.shape
-    A, B = _scaled(A, B)
+    A, B, *_ = in_own_units(A, B)
+    lengths = np.linalg.norm(B, axis=0)
+    B = B / np.where(lengths > 0, lengths, 1.0)
     rounding = 100 * n * np.finfo(float).eps
     kept = np.empty((n, 0))
     chains: list[tuple[Floats, float] | None] = [(column, 0.0) for column in B.T]
@@ -68,8 +70,9 @@ def scan(A: Floats, B: Floats) -> Scan:
             indices[i] += 1
             weakest = min(weakest, smallest)
     if kept.shape[1] < n:
+        who = "the inputs reach" if p > 1 else "the input reaches"
         raise UncontrollableError(
-            f"the inputs reach only {kept.shape[1]} of the {n} states",
+            f"{who} only {kept.shape[1]} of the {n} states",
             field="B",
             hint="Add an input, or take the states that no input reaches out of the model.",
         )
@@ -81,24 +84,23 @@ def controllability_indices(A: Floats, B: Floats) -> tuple[int, ...]:
     return scan(A, B).indices
 
 
-def _scaled(A: Floats, B: Floats) -> tuple[Floats, Floats]:
-    """The pair in units of its own: rank, in exact arithmetic, stays as it is.
+def in_own_units(A: Floats, B: Floats) -> tuple[Floats, Floats, Floats, float]:
+    """(D⁻¹AD/ω, D⁻¹B/ω, D's diagonal, ω): the pair in units of its own, in which rank, if exact, stays as it is.
 
-    Time is in units of A's size, each state in units of what the inputs make of it, and the columns of
-    B have length 1. With |A| / ρ(|A|) in place of A the result is the same in all units of states, inputs and time.
-    Balancing is not: it takes an entry of 1e-200 as seriously as one of 1.
+    Time is in units of A's size, 1/ω, and each state in units of what the inputs make of it; ω and D are powers of 2,
+    so that nothing is rounded. With |A| / ρ(|A|) in place of A the result is the same in all units of states, inputs
+    and time. Balancing is not: it takes an entry of 1e-200 as seriously as one of 1. A gain k for the result is
+    k D⁻¹ for the pair.
     """
     size = np.abs(A)
-    speed = float(np.max(np.abs(np.linalg.eigvals(size)))) or 1.0
+    speed = float(np.exp2(np.rint(np.log2(float(np.max(np.abs(np.linalg.eigvals(size)))) or 1.0))))
     reached = np.abs(B) / np.maximum(np.max(np.abs(B), axis=0), np.finfo(float).tiny)
     largest = power = np.max(reached, axis=1)
     for _ in range(len(A) - 1):
         power = size @ power / speed
         largest = np.maximum(largest, power)
-    units = np.where(largest > 0, largest, 1.0)
-    inputs = B / units[:, None]
-    lengths = np.linalg.norm(inputs, axis=0)
-    return A / speed * units / units[:, None], inputs / np.where(lengths > 0, lengths, 1.0)
+    units = np.exp2(np.rint(np.log2(np.where(largest > 0, largest, 1.0))))
+    return A / speed * units / units[:, None], B / units[:, None] / speed, units, speed
 
 
 def _orthogonal(column: Floats, basis: Floats) -> Floats:

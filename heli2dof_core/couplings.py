@@ -61,13 +61,11 @@ class Structure:
 
 def require_controllable(parameters: Parameters) -> None:
     """Raises UncontrollableError if γ = 0: the motors' torques are parallel."""
-    p = parameters
-    products = abs(p.K_pp * p.K_yy) + abs(p.K_py * p.K_yp)
-    if abs(p.gamma) <= NEGLIGIBLE * products:
+    if parameters.independence <= NEGLIGIBLE:
         raise UncontrollableError(
-            "the rig is not controllable: K_pp K_yy = K_py K_yp, so both motors push alike",
+            "the rig is not controllable: K_pp K_yy = K_py K_yp, so both motors act alike",
             field="parameters",
-            value=p.gamma,
+            value=parameters.gamma,
             hint="Change one thrust constant so that K_pp K_yy and K_py K_yp differ.",
         )
 

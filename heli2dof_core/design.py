@@ -4,22 +4,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import hypot, sqrt
+from math import hypot, isfinite, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .compiled import gain
 from .couplings import Structure, require_structure
-from .eigenvalues import eigenvalues
+from .errors import StructureUnavailableError
 from .findings import Finding
 from .interop import state_space
-from .placement.assess import eigenvector_condition
+from .placement.exact import exact_coefficients, exact_matrix, float_matrix
 from .placement.lqr_integral import IntegralPlacement
 from .placement.method import Task, Weights
 from .placement.registry import method as method_named
+from .placement.verdict import Verdict, eigenvector_condition, judge
 from .plant import Plant
-from .poles import PoleSet, match_poles
+from .poles import PoleSet
 from .remarks import design_remarks
 from .signals import INPUTS, OUTPUTS, STATES, C, Complexes, Floats
 from .tables import Shown, Table, latex_matrix, number, poles
@@ -58,19 +59,24 @@ class Design(Shown):
         return self.plant.A - self.plant.B @ self.K
 
     @cached_property
-    def closed_loop_poles(self) -> Complexes:
-        """Eigenvalues of A − BK as computed, in the order of `poles`, rad/s."""
-        found = eigenvalues(self.A_closed)
-        return np.array([found[i] for i in match_poles(self.poles.values, found)])
+    def verdict(self) -> Verdict:
+        """Where the poles of A − BK are, exactly where floats do not tell it."""
+        return judge(self.plant.A, self.plant.B, self.K, self.poles.array)
 
-    @cached_property
+    @property
+    def closed_loop_poles(self) -> Complexes:
+        """Eigenvalues of A − BK, in the order of `poles`, rad/s."""
+        return self.verdict.poles
+
+    @property
     def pole_error(self) -> float | None:
         """Largest distance between these and `poles`, rad/s; None where the method chose its own."""
-        if not self.aims:
-            return None
-        return max(
-            abs(p - q) for p, q in zip(self.closed_loop_poles.tolist(), self.poles.values, strict=True)
-        )
+        return self.verdict.error if self.aims else None
+
+    @property
+    def pole_error_bound(self) -> float:
+        """How far rounding may have moved `closed_loop_poles` as told, and so `pole_error`, rad/s."""
+        return self.verdict.bound
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
@@ -90,7 +96,7 @@ class Design(Shown):
 
     @cached_property
     def eigenvector_condition(self) -> float | None:
-        """κ₂ of the closed loop's eigenvectors; None where there are too few (see `placement.assess`)."""
+        """κ₂ of the closed loop's eigenvectors; None where there are too few (see `placement.verdict`)."""
         return eigenvector_condition(self.A_closed)
 
     @cached_property
@@ -164,9 +170,43 @@ def design(
 
 
 def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats:
-    """K by the closed form that the derivation gives, 2×4."""
+    """K by the closed form that the derivation gives, 2×4.
+
+    It divides by γ, shifted by γ², so that as many digits are lost as γ's terms cancel, or twice as many. Where the
+    motors push nearly alike the same construction runs over the rational numbers, which loses none, and so it does
+    where a product leaves the floats' range.
+
+    Raises:
+        StructureUnavailableError: the rig has no such structure, or K is beyond the floats' range.
+    """
     require_structure(plant.parameters, structure)
+    if plant.nearly_parallel:
+        return _exact_gain(plant, poles, structure)
     arguments = (*poles.coefficients, *plant.parameters.as_dict().values(), plant.theta_0)
-    if structure.shift is None:
-        return np.array(gain(structure)(*arguments))
-    return np.array(gain(structure.family, shifted=True)(*arguments, structure.shift))
+    try:
+        if structure.shift is None:
+            rows = gain(structure)(*arguments)
+        else:
+            rows = gain(structure.family, shifted=True)(*arguments, structure.shift)
+    except ArithmeticError:
+        return _exact_gain(plant, poles, structure)
+    return np.array(rows) if isfinite(sum(map(sum, rows))) else _exact_gain(plant, poles, structure)
+
+
+def _exact_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats:
+    from sympy import QQ
+
+    from .symbolic.full_rank import member
+
+    shift = None if structure.shift is None else QQ(*float(structure.shift).as_integer_ratio())
+    polynomials = [exact_coefficients(pair) for pair in (poles.values[:2], poles.values[2:])]
+    try:
+        return float_matrix(
+            member(exact_matrix(plant.A), exact_matrix(plant.B), structure, polynomials, shift).K
+        )
+    except ArithmeticError as error:
+        raise StructureUnavailableError(
+            "the gain of this structure is too large a number for this rig",
+            field="parameters",
+            hint="Make the motors' thrusts larger or less alike, or choose another coupling.",
+        ) from error

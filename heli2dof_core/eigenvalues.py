@@ -19,6 +19,13 @@ def _geev() -> Any:
     return get_lapack_funcs("geev")
 
 
+@cache
+def _gebal() -> Any:
+    from scipy.linalg import get_lapack_funcs
+
+    return get_lapack_funcs("gebal")
+
+
 def eigenvalues(A: Floats) -> list[complex]:
     """Eigenvalues of a real square matrix, by LAPACK's geev as in `numpy.linalg.eigvals`.
 
@@ -32,15 +39,27 @@ def eigenvalues(A: Floats) -> list[complex]:
 
 def eigenvectors(A: Floats) -> Floats | Complexes:
     """Eigenvectors of length 1 of a real square matrix, as columns; errors as `eigenvalues`."""
-    _, imaginary, vectors = _solved(A, vectors=True)
+    return spectrum(A)[1]
+
+
+def balanced(A: Floats) -> tuple[Floats, Floats]:
+    """D⁻¹ A D with rows and columns of like size, and D's diagonal, powers of 2 (LAPACK's gebal)."""
+    matrix, _, _, units, _ = _gebal()(A, scale=1)
+    return matrix, units
+
+
+def spectrum(A: Floats) -> tuple[list[complex], Floats | Complexes]:
+    """Eigenvalues, and the eigenvectors of length 1 as columns; errors as `eigenvalues`."""
+    real, imaginary, vectors = _solved(A, vectors=True)
+    values = list(map(complex, real, imaginary))
     if not any(imaginary):
-        return vectors
+        return values, vectors
     columns = vectors.astype(np.complex128)
     for i, part in enumerate(imaginary):
         if part > 0:  # a conjugate pair is kept as its real and its imaginary part
             columns[:, i] = vectors[:, i] + 1j * vectors[:, i + 1]
             columns[:, i + 1] = columns[:, i].conj()
-    return columns
+    return values, columns
 
 
 def _solved(A: Floats, *, vectors: bool) -> tuple[list[float], list[float], Floats]:

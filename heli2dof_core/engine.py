@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from hashlib import sha256
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from threading import Lock
@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from .kernel_cache import KernelCache
 from .layout import (
     ALPHA,
     AUGMENTED,
@@ -98,18 +99,29 @@ def engine() -> Engine:
     return _ready[-1]
 
 
-def warm_up() -> Engine:
+def warm_up(*, compiling: bool = True) -> Engine:
     """Loads the compiled kernels from Numba's cache, or compiles them, which takes some ten seconds.
 
     Until it returns, other threads go on with the interpreted ones.
+
+    Args:
+        compiling: whether it may compile, and leave a sign that the cache is whole.
+
+    Raises:
+        NotKeptError: it may not compile, and the cache does not hold everything.
     """
     with _lock:
         if not engine().compiled:
             compiled = _load("kernels")
-            _drop_stale_cache(compiled)
-            _exercise(compiled)
+            cache = _cache_of(compiled)
+            (cache.fill if compiling else cache.load)(partial(_exercise, compiled))
             _ready.append(compiled)
     return engine()
+
+
+def kept() -> bool:
+    """Whether Numba's cache says that it holds all kernels, for these sources and this machine."""
+    return _cache_of(_load("kernels")).whole()
 
 
 def _load(package: str) -> Engine:
@@ -120,22 +132,10 @@ def _load(package: str) -> Engine:
     return Engine(compiled=package == "kernels", **functions)
 
 
-def _drop_stale_cache(kernels: Engine) -> None:
-    """Empties Numba's cache where any kernel's source has changed since it was filled.
-
-    Numba looks at the file of the function that it loads, not at those of the functions it calls.
-    """
+def _cache_of(kernels: Engine) -> KernelCache:
     home = Path(__file__).parent
     sources = [*sorted((home / "kernels").glob("*.py")), home / "layout.py"]
-    present = sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
-    cache = Path(kernels.integrate.stats.cache_path)
-    stamp = cache / "heli2dof-kernels.sha256"
-    if not stamp.is_file() or stamp.read_text() != present:
-        for source in sources:
-            for kept in cache.glob(f"{source.stem}.*.nb[ci]"):
-                kept.unlink(missing_ok=True)
-        cache.mkdir(parents=True, exist_ok=True)
-        stamp.write_text(present)
+    return KernelCache(Path(kernels.integrate.stats.cache_path), sources)
 
 
 def _exercise(kernels: Engine) -> None:

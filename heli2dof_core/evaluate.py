@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
+from .behaviour import Experiment, behaviour_remarks
 from .couplings import Coupling, Lead, Structure
 from .design import FULL_RANK, Design, design
+from .errors import InvalidInputError
 from .findings import Finding, merged
 from .interaction import Interaction, interaction
 from .loop import Loop, close_loop
@@ -31,6 +33,8 @@ from .simulation.response import Response
 from .spec import Limits, Model, Outer, OuterLoop, Pairing, PIGains, Scenario
 from .tables import Shown, Table, number, poles
 from .weights import bryson_weights
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, repr=False)
@@ -114,21 +118,27 @@ class Spec(Shown):
         def given(**values: Any) -> dict[str, Any]:
             return {name: value for name, value in values.items() if value is not None}
 
-        def gains(pi: PIGains | tuple[float, float] | None) -> PIGains | None:
-            return pi if pi is None or isinstance(pi, PIGains) else PIGains(*pi)
+        def gains(pi: PIGains | tuple[float, float] | None, axis: str) -> PIGains | None:
+            return pi if pi is None or isinstance(pi, PIGains) else PIGains(*_two(pi, axis, "(kp, ti)"))
 
         structure = given(coupling=coupling, lead=lead)
-        loops = given(outer=outer, pitch=gains(pitch), yaw=gains(yaw), pairing=pairing, decoupler=decoupler)
+        loops = given(
+            outer=outer,
+            pitch=gains(pitch, "pitch"),
+            yaw=gains(yaw, "yaw"),
+            pairing=pairing,
+            decoupler=decoupler,
+        )
         scenario = given(duration=duration)
         if reference is not None:
-            scenario |= dict(zip(("theta", "psi"), reference, strict=True))
+            scenario |= zip(("theta", "psi"), _two(reference, "reference", "(theta, psi)"), strict=True)
         return replace(
             self,
             **given(
                 poles=poles if poles is None or isinstance(poles, PoleSet) else PoleSet(poles),
                 method=method,
                 structure=replace(self.structure, **structure, shift=None) if structure else None,
-                parameters=parameters and self.parameters.replaced(dict(parameters)),
+                parameters=None if parameters is None else self.parameters.replaced(parameters),
                 theta_0=theta_0,
                 outer=replace(self.outer, **loops) if loops else None,
                 scenario=replace(self.scenario, **scenario) if scenario else None,
@@ -138,6 +148,15 @@ class Spec(Shown):
     def summary(self) -> str:
         """Method, poles and outer loop."""
         return f"{self.method}, {self.structure.coupling}; poles {poles(self.poles.values)} rad/s; {self.outer.outer}"
+
+
+def _two(values: Sequence[T], field: str, what: str) -> Sequence[T]:
+    """Both values, or InvalidInputError."""
+    if len(values) != 2:
+        raise InvalidInputError(
+            f"{field} is {tuple(values)!r}", field=field, hint=f"Give two values, {what}."
+        )
+    return values
 
 
 @dataclass(frozen=True, repr=False)
@@ -173,6 +192,7 @@ class Report(Shown):
     loop: Loop
     margins: tuple[Margins, Margins] | None
     sensitivity: Sensitivity | None
+    _spec: Spec
     _courses: Courses
     _alone: tuple[str, ...]
     _nonlinear: tuple[Step, ...]
@@ -191,8 +211,9 @@ class Report(Shown):
     def findings(self) -> tuple[Finding, ...]:
         """All remarks, the gravest first."""
         own = (self.design.findings, self.loop.findings, self.interaction.findings)
-        steps = [step for steps in (self.step, *self.axis_steps.values()) for step in steps.values()]
-        return merged(*own, *(step.response.findings for step in steps))
+        experiments = (self.step, *self.axis_steps.values())
+        steps = [step for both in experiments for step in both.values()]
+        return merged(*own, *(step.response.findings for step in steps), self._behaviour(experiments))
 
     def summary(self) -> str:
         """Stability, size of K and the rig's step."""
@@ -211,6 +232,13 @@ class Report(Shown):
             *self.step["nonlinear"].tables(),
             *((Table.of("findings", ("", "what"), findings),) if self.findings else ()),
         )
+
+    def _behaviour(self, experiments: Iterable[Mapping[Model, Step]]) -> tuple[Finding, ...]:
+        pairs = [
+            Experiment(*((each[model].response, each[model].metrics) for model in ("linear", "nonlinear")))
+            for each in experiments
+        ]
+        return behaviour_remarks(self.loop, self._spec.limits, self._spec.scenario, self.margins, pairs)
 
     def _both(self, n: int) -> dict[Model, Step]:
         nonlinear = self._nonlinear[n] if self._nonlinear else self._step(n, "nonlinear")
@@ -270,6 +298,7 @@ def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = No
         loop,
         loop_margins(loop),
         loop_sensitivity(loop),
+        spec,
         courses,
         tuple(scenarios)[1:],
         nonlinear,

@@ -64,7 +64,7 @@ class Interaction(Shown):
     def reason(self) -> str:
         """Why, in words."""
         if self.relative_gain is None:
-            return "A pole lies at 0: without steady state there is no RGA."
+            return "A pole lies at 0: there is no steady state, so no RGA."
         return _reason(self.relative_gain)
 
     @property
@@ -129,23 +129,23 @@ def _reason(diagonal: float) -> str:
     """What λ₁₁ means for the pairing."""
     cross = 1 - diagonal
     if abs(diagonal - 1) < 0.05:
-        return f"λ₁₁ = {diagonal:.3f}, near 1: closing one loop hardly changes the other's gain."
+        return f"λ₁₁ = {diagonal:.3f}, near 1: the two loops hardly interact."
     if diagonal >= 0.5:
         strength = "moderate" if diagonal < 1.5 else "strong"
         return (
-            f"λ₁₁ = {diagonal:.3f}: closing the other loop divides a loop's gain by that, a {strength} "
-            f"interaction; crosswise λ₁₂ = {cross:.3f} is farther from 1"
-            + (", and negative, so integral action would be unstable." if cross < 0 else ".")
+            f"λ₁₁ = {diagonal:.3f}: closing the other loop divides a loop's gain by that, a {strength} interaction. "
+            f"Crosswise λ₁₂ = {cross:.3f} is farther from 1"
+            + (" and negative: integral action would be unstable." if cross < 0 else ".")
         )
     if diagonal < 0:
         return (
-            f"λ₁₁ = {diagonal:.3f} is negative: closing the other loop turns the sign of a loop's gain, the "
-            f"Niederlinski index is {1 / diagonal:.2f}, and integral action in both loops is unstable."
+            f"λ₁₁ = {diagonal:.3f} is negative: closing the other loop reverses the sign of a loop's gain. The "
+            f"Niederlinski index is {1 / diagonal:.2f}: integral action in both loops is unstable."
         )
-    index = "" if diagonal == 0 else f" (Niederlinski index {1 / diagonal:.2f}, positive)"
+    index = "" if diagonal == 0 else f" (Niederlinski index {1 / diagonal:.2f} > 0)"
     return (
-        f"λ₁₁ = {diagonal:.3f}, below 0.5: at steady state the cross paths outweigh the direct ones; "
-        f"crosswise λ₁₂ = {cross:.3f} is nearer to 1. Diagonal pairing is not unstable for that{index}."
+        f"λ₁₁ = {diagonal:.3f}, below 0.5: at steady state the cross paths outweigh the direct ones. Crosswise "
+        f"λ₁₂ = {cross:.3f} is nearer to 1. This does not make diagonal pairing unstable{index}."
     )
 
 

@@ -14,8 +14,9 @@ INSIDE, BEYOND, SLIDING = 0, 1, 2
 NO_ANTI_WINDUP, CLAMPING, BACK_CALCULATION = 0, 1, 2
 
 # d: the digital controller's sample time, encoder steps (0: none), filter (0: true rates) as x⁺ = F x + b θ
-# and rate = w x₂, in F row by row, then b, w; computation delay in samples
-TIME, STEP, FILTERED, F, BETA, RATE, DELAY, SETTINGS = 0, 1, 3, 4, 8, 10, 11, 12
+# and rate = w x₂, in F row by row, then b, w; computation delay in samples, and the voltages that the motors have
+# until the first computed ones arrive
+TIME, STEP, FILTERED, F, BETA, RATE, DELAY, BEFORE, SETTINGS = 0, 1, 3, 4, 8, 10, 11, 12, 14
 
 # x: an experiment's references, start θ, ψ, θ̇, ψ̇, limits, travel, whether the trim is fed forward, kind of
 # anti-windup, gains of back-calculation, and volts that disturb the motors

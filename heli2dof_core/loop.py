@@ -145,7 +145,7 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
         yield Finding(
             "own_integral_action",
             "info",
-            "The method brings its own integral action, which takes the place of the PI loops.",
+            "The method has its own integral action. The PI loops are not used.",
         )
     elif loop.has_integrators:
         if not loop.stable and np.max(loop.design.closed_loop_poles.real) < 0:
@@ -160,7 +160,8 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
             yield Finding(
                 "loop_unstable",
                 "error",
-                f"The whole loop is unstable: it has a pole at {_words(slowest)} rad/s.",
+                f"The whole loop is unstable: it has a pole at {_words(slowest)} rad/s. Place all poles in the "
+                "left half plane.",
             )
         for name, gains in zip(AXES, (loop.outer.pitch, loop.outer.yaw), strict=True):
             if gains.kp == 0:
@@ -170,7 +171,8 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
         yield Finding(
             "poorly_damped",
             "warning",
-            f"The whole loop rings: its least damped pole has a damping ratio of {damping:.2f}.",
+            f"The whole loop rings: its least damping ratio is {damping:.2f}. Lower the gains or raise the "
+            "integral times.",
         )
 
 

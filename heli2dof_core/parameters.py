@@ -66,6 +66,12 @@ class Parameters:
         """γ = K_py K_yp − K_pp K_yy, minus the determinant of the thrust matrix, (N·m/V)² (Eq. 15)."""
         return self.K_py * self.K_yp - self.K_pp * self.K_yy
 
+    @property
+    def independence(self) -> float:
+        """|γ| as a share of the products that it is made of, 0 to 1: 0 where both motors push alike."""
+        products = abs(self.K_pp * self.K_yy) + abs(self.K_py * self.K_yp)
+        return abs(self.gamma) / products if products else 0.0
+
     @classmethod
     def from_components(cls, components: Components, **others: float) -> Parameters:
         """Thrust constants and l from the rig's parts (Eqs. 1, 8); `others` are the remaining values."""

@@ -24,6 +24,12 @@ STEEPEST = 1.5
 """Largest operating angle, rad: beyond it yaw's lever arm vanishes."""
 
 
+NEARLY_PARALLEL = 1e-2
+"""Relative |γ| below which the motors are said to push nearly alike."""
+SMALLEST = 1e-100
+"""|γ|, (N·m/V)², below which powers of it are no longer floats with all their digits."""
+
+
 @dataclass(frozen=True, repr=False)
 class Plant(Shown):
     """Linear model about rest at pitch angle `theta_0` (Eqs. 13, 14), in deviations from the trim.
@@ -45,6 +51,12 @@ class Plant(Shown):
     def constants(self) -> Floats:
         """The rig's part of `kernels.rig`'s constants, shape (11,)."""
         return fixed(rig_constants(self.parameters))
+
+    @cached_property
+    def nearly_parallel(self) -> bool:
+        """Whether closed forms lose digits, as they divide by γ and its powers."""
+        p = self.parameters
+        return p.independence < NEARLY_PARALLEL or abs(p.gamma) < SMALLEST
 
     @cached_property
     def statics(self) -> Floats:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import InvalidInputError
+from .rank import equilibrated, numeric_rank, rank_tolerance
 from .signals import Floats
 
 MOST_LOOPS = 7
@@ -22,16 +23,34 @@ def relative_gain_array(G: ArrayLike) -> NDArray[Any]:
     Chem. Res. 29 (1990) 1316). Rows sum to 1 where there are no more outputs than inputs, columns
     where there are no more inputs than outputs.
 
+    Rank is decided in units in which rows and columns are of one size (`rank`), so that a matrix which is
+    singular but for rounding counts as singular.
+
     Raises:
-        InvalidInputError: G is square and singular.
+        InvalidInputError: G is square and singular, or no matrix.
     """
     gains = np.asarray(G)
-    if gains.shape[-1] != gains.shape[-2]:
-        return gains * np.swapaxes(np.linalg.pinv(gains), -1, -2)
-    try:
-        return gains * np.swapaxes(np.linalg.inv(gains), -1, -2)
-    except np.linalg.LinAlgError as error:
-        raise InvalidInputError("the gain matrix is singular, so it has no RGA", field="G") from error
+    if gains.ndim < 2:
+        raise InvalidInputError(f"gains of shape {gains.shape} are no matrix", field="G")
+    rows, columns = gains.shape[-2:]
+    full = numeric_rank(gains) == min(rows, columns)
+    if rows == columns:
+        if not np.all(full):
+            raise InvalidInputError(
+                "the gain matrix is singular, so it has no RGA",
+                field="G",
+                hint="Leave out a row or a column: one of them is a combination of the others.",
+            )
+        scaled = equilibrated(gains)  # the RGA does not depend on units
+        return scaled * np.swapaxes(np.linalg.inv(scaled), -1, -2)
+    inverse = np.linalg.pinv(gains, rcond=rank_tolerance(rows, columns))
+    if np.any(full):  # the units of the shorter side do not count either
+        axis = -2 if rows > columns else -1
+        size = np.max(np.abs(gains), axis=axis, keepdims=True)
+        units = np.where(size > 0, size, 1.0)
+        right = np.linalg.pinv(gains / units, rcond=0.0) / np.swapaxes(units, -1, -2)
+        inverse = np.where(full[..., None, None], right, inverse)
+    return gains * np.swapaxes(inverse, -1, -2)
 
 
 def niederlinski_index(G: ArrayLike, pairing: tuple[int, ...] | None = None) -> float | None:
@@ -44,11 +63,14 @@ def niederlinski_index(G: ArrayLike, pairing: tuple[int, ...] | None = None) -> 
         pairing: per output the input that controls it; diagonal by default.
 
     Returns:
-        The index; None where a paired gain is 0.
+        The index, 0 where G is singular; None where a paired gain is 0.
     """
-    ordered = np.asarray(G)[:, list(pairing) if pairing is not None else slice(None)]
+    gains = equilibrated(np.asarray(G))  # nor does the index depend on units
+    ordered = gains[:, list(pairing) if pairing is not None else slice(None)]
     product = float(np.prod(np.diag(ordered)))
-    return float(np.linalg.det(ordered)) / product if product else None
+    if not product:
+        return None
+    return float(np.linalg.det(ordered)) / product if numeric_rank(ordered) == len(ordered) else 0.0
 
 
 def best_pairing(G: ArrayLike) -> tuple[int, ...]:
@@ -62,7 +84,7 @@ def best_pairing(G: ArrayLike) -> tuple[int, ...]:
         InvalidInputError: G is not square, singular, or has more than `MOST_LOOPS` loops.
     """
     gains = np.asarray(G, dtype=float)
-    n = len(gains)
+    n = gains.shape[0] if gains.ndim else 0
     if gains.shape != (n, n) or n > MOST_LOOPS:
         raise InvalidInputError(f"no pairing for gains of shape {gains.shape}", field="G")
     rga = relative_gain_array(gains)

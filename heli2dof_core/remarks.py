@@ -8,14 +8,12 @@ from itertools import combinations
 import numpy as np
 
 from .findings import Finding
-from .plant import Plant
+from .plant import NEARLY_PARALLEL, Plant
 from .poles import PoleSet
 from .signals import Complexes, Floats
 
 COINCIDENT = 1e-6
 """Poles closer than this share of their size count as one."""
-NEARLY_PARALLEL = 1e-2
-"""Relative |γ| below which the motors are said to push nearly alike."""
 FAR_OUT = 1e3
 """Poles beyond this, rad/s, are remarked on: a lab rig's motors and sensors end far below."""
 
@@ -28,7 +26,7 @@ def design_remarks(
     Where the method chose its own poles (error None), the remarks are on those.
     """
     if error is None:
-        return (_OWN_POLES, *_on_stability(found.tolist()), *_on_plant(plant))
+        return (_OWN_POLES, *_on_stability(found.tolist(), placed=False), *_on_plant(plant))
     wanted = poles.values
     return (
         *_on_stability(wanted),
@@ -41,29 +39,29 @@ def design_remarks(
 _OWN_POLES = Finding(
     "own_poles",
     "info",
-    "This method chooses its own poles, from weights: those that you placed are not used.",
+    "LQR computes its poles from Q and R. Your placed poles are ignored.",
 )
 
 
-def _on_stability(poles: Sequence[complex]) -> Iterator[Finding]:
+def _on_stability(poles: Sequence[complex], *, placed: bool = True) -> Iterator[Finding]:
     if any(p.real > 0 for p in poles):
         yield Finding(
             "right_half_plane",
             "error",
-            "A pole lies in the right half plane: without an outer loop the helicopter runs away. "
-            "Drag it left of the imaginary axis.",
+            "A pole lies in the right half plane: without an outer loop the helicopter is unstable. "
+            + ("Move it left of the imaginary axis." if placed else "Change the weights."),
         )
     elif any(p.real == 0 for p in poles):
         yield Finding(
             "imaginary_axis",
             "warning",
-            "A pole lies on the imaginary axis: its motion neither grows nor dies out.",
+            "A pole lies on the imaginary axis: its motion neither grows nor decays. Move it to the left.",
         )
     if any(p == 0 for p in poles):
         yield Finding(
             "no_steady_state",
             "warning",
-            "A pole lies at 0, so the inner loop has no steady state, and Ĝ(0) and the RGA do not exist.",
+            "A pole lies at 0: the inner loop has no steady state, so Ĝ(0) and the RGA do not exist.",
         )
 
 
@@ -74,8 +72,8 @@ def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Fi
         yield Finding(
             "repeated_poles",
             "info",
-            f"Two poles coincide at {_words(repeated[0])} rad/s. That is allowed; but the computed, and the real, "
-            "double pole splits with the square root of any small error.",
+            f"Two poles coincide at {_words(repeated[0])} rad/s. This works, but is sensitive: a model error ε "
+            "moves a double pole by about √ε.",
         )
     own = plant.poles.tolist()
     at_open = [p for p in poles if p != 0 and min(abs(q - p) for q in own) <= COINCIDENT * max(abs(p), 1.0)]
@@ -83,27 +81,26 @@ def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Fi
         yield Finding(
             "open_loop_pole",
             "info",
-            f"The pole at {_words(at_open[0])} rad/s is one of the rig's own: feedback leaves it where it is.",
+            f"The pole at {_words(at_open[0])} rad/s is a pole of the open loop: feedback leaves it where it is.",
         )
     if largest > FAR_OUT:
         volts = float(np.max(np.abs(K[:, :2]))) * np.pi / 180
         yield Finding(
             "far_out",
             "warning",
-            f"A pole lies {largest:.3g} rad/s out: one degree of error then asks for {volts:.3g} V, and noise, dead "
-            "time and the motors' own lag, which no model here holds, decide what happens.",
+            f"A pole lies {largest:.3g} rad/s out: one degree of error asks for {volts:.3g} V. Noise, dead time "
+            "and motor lag, which the model leaves out, dominate there. Place slower poles.",
         )
 
 
 def _on_plant(plant: Plant) -> Iterator[Finding]:
-    p = plant.parameters
-    share = abs(p.gamma) / (abs(p.K_pp * p.K_yy) + abs(p.K_py * p.K_yp))
+    share = plant.parameters.independence
     if share < NEARLY_PARALLEL:
         yield Finding(
             "nearly_uncontrollable",
             "warning",
-            f"Both motors push nearly alike: K_pp K_yy and K_py K_yp differ by {100 * share:.2g} % of their sum, "
-            "and the gains grow as the inverse of that.",
+            f"Both motors act nearly alike: K_pp K_yy and K_py K_yp differ by only {100 * share:.2g} % of their sum. "
+            "Expect high gains.",
         )
 
 
@@ -112,8 +109,8 @@ def _on_accuracy(poles: Sequence[complex], error: float) -> Iterator[Finding]:
         yield Finding(
             "pole_error",
             "warning",
-            f"The computed poles miss the wanted ones by up to {error:.2g} rad/s: poles that coincide, "
-            "or lie far out, are sensitive to rounding.",
+            f"The computed poles miss the requested ones by up to {error:.2g} rad/s: repeated or very fast poles are "
+            "sensitive to rounding.",
         )
 
 

@@ -139,7 +139,7 @@ def cloud_in_parts(
     for name in ("digital", "disturbance"):
         if getattr(spec.scenario, name) is not None:
             raise InvalidInputError(
-                f"the cloud knows no {name}: its controller is continuous and its motors undisturbed",
+                f"uncertain rigs take no {name}: their controller is continuous and their motors undisturbed",
                 field=f"scenario.{name}",
                 hint="Leave it out.",
             )

@@ -93,7 +93,8 @@ class Digital:
 
     Attributes:
         sample_time: between two samples; the voltages are held, s.
-        delay: the voltages reach the motors one sample after they were computed from.
+        delay: the voltages reach the motors one sample after the one that they were computed from; the first
+            ones too, so that until then the motors have the trim.
         encoders: counts per revolution of pitch and yaw; 0 measures exactly.
         rates: ``filtered`` from the angles (second order, 2π·20 rad/s, ζ 0.85), or ``true``.
         noise: standard deviation of white noise on the measured angles, rad.

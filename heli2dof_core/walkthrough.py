@@ -11,6 +11,7 @@ from .controllability import scan
 from .couplings import Structure
 from .design import Design
 from .plant import Plant
+from .rank import numeric_rank
 from .signals import Floats
 
 
@@ -54,7 +55,7 @@ def walk_through(design: Design) -> Walkthrough:
     values = (*plant.parameters.as_dict().values(), plant.theta_0)
     T, Q, constants = construction(family, shifted=bool(shift))(*values, *shift)
     inverse = design.steady_state_inverse
-    regular = abs(np.linalg.det(inverse)) > 1e-12 * float(np.max(np.abs(inverse))) ** 2
+    regular = numeric_rank(inverse) == 2
     steps = Walkthrough(
         constants={
             **dict(zip(("alpha", "beta_0", "gamma_", "a"), map(float, constants), strict=True)),

@@ -6,10 +6,20 @@
 import { backoff } from './backoff.js';
 import { ofSession, session } from './scene_session.js';
 import { decodeFrame } from './wire.js';
+import { t } from './words.js';
 
 const PROTOCOL = 'heli2dof.v1+binary';
 const PATIENCE_MS = 10_000;
 const UNUSUAL = /[^\w\-.~:/?#[\]@!$&'()*+,;=%]/gu; // what RFC 3986 knows in no address, and browsers leave in it
+
+/** What the browser says where no server answers differs from one to another, and helps nobody. @param {string|URL} address @param {RequestInit} options @returns {Promise<Response>} */
+async function reach(address, options) {
+  try {
+    return await fetch(address, options);
+  } catch {
+    throw new Error(t('No connection to the server. Try again in a moment.'));
+  }
+}
 
 /** @param {string} path @returns {URL} */
 const at = (path) => ofSession(new URL(path, document.baseURI), session());
@@ -28,7 +38,7 @@ export class ProblemError extends Error {
 /** @param {string|URL} path @param {{method?: string, body?: unknown}} [options] @returns {Promise<any>} */
 async function call(path, { method = 'GET', body } = {}) {
   const headers = body === undefined ? undefined : { 'Content-Type': 'application/json' };
-  const response = await fetch(path instanceof URL ? path : at(path), { method, headers, body: body === undefined ? undefined : JSON.stringify(body) });
+  const response = await reach(path instanceof URL ? path : at(path), { method, headers, body: body === undefined ? undefined : JSON.stringify(body) });
   const text = await response.text();
   const json = text && (response.headers.get('content-type') ?? '').includes('json') ? JSON.parse(text) : {};
   if (!response.ok) throw new ProblemError({ title: response.statusText, ...json });
@@ -62,13 +72,13 @@ export const getRigViews = () => call('scene/rigs');
 
 /** A file that the server makes of a design. @param {string} path @param {unknown} design with scenario @returns {Promise<Blob>} */
 async function fileOf(path, design) {
-  const response = await fetch(at(path), { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(design) });
+  const response = await reach(at(path), { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(design) });
   if (!response.ok) throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
   return response.blob();
 }
 /** @param {string} path @param {BodyInit} body @param {string} [type] @returns {Promise<Response>} */
 async function post(path, body, type = 'application/octet-stream') {
-  const response = await fetch(at(path), { method: 'POST', headers: { 'Content-Type': type }, body });
+  const response = await reach(at(path), { method: 'POST', headers: { 'Content-Type': type }, body });
   if (!response.ok) throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
   return response;
 }

@@ -28,7 +28,7 @@ function menu(items) {
 async function copy(e, name, format, text, told) {
   const button = /** @type {HTMLElement} */ (e.currentTarget);
   const done = await copyText(text);
-  setText(told, done ? `${name} copied as ${format}.` : 'The browser refused; select the text and copy it:');
+  setText(told, done ? `${name} copied as ${format}.` : 'The browser blocked copying. Select the text and copy it:');
   if (!done) told.after(h('textarea', { class: 'by-hand', readonly: true, rows: 5 }, text));
   button.classList.toggle('done', done);
   setTimeout(() => button.classList.remove('done'), SHOWN_MS);

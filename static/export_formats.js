@@ -14,11 +14,11 @@ export const EXPORTS = [
     { name: 'c-header', label: '.h', filename: 'heli2dof_controller.h', about: 'the header, with how it is discretized' },
   ] },
   { group: 'Numbers', formats: [
-    { name: 'csv', label: 'CSV', filename: 'heli2dof_responses.csv', about: 'both responses, every state' },
+    { name: 'csv', label: 'CSV', filename: 'heli2dof_responses.csv', about: 'both axes stepped together, by both models, every state' },
     { name: 'mat', label: '.mat', filename: 'heli2dof_data.mat', about: 'matrices and responses for MATLAB and Octave' },
     { name: 'json', label: 'JSON', filename: 'heli2dof_design.json', about: 'everything that the server says of the design' },
   ] },
   { group: 'Lab report', formats: [
-    { name: 'report', label: 'HTML', filename: 'heli2dof_report.html', about: 'one page with formulas, plots, figures of merit and findings', opens: true },
+    { name: 'report', label: 'HTML', filename: 'heli2dof_report.html', about: 'what the page shows, to print: formulas, plots, figures of merit and findings', opens: true },
   ] },
 ];

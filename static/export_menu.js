@@ -41,7 +41,7 @@ function menu(store, address) {
   async function open(format) {
     const tab = window.open('', '_blank'); // at once: later the browser would take it for an advertisement
     const file = await made(format);
-    if (!file || !tab) return tab ? tab.close() : file && setText(told, 'The browser lets no tab open: save the report instead.');
+    if (!file || !tab) return tab ? tab.close() : file && setText(told, 'The browser blocked the new tab. Save the report instead.');
     const url = URL.createObjectURL(file);
     tab.location.href = url;
     setTimeout(() => URL.revokeObjectURL(url), READ_MS);

@@ -3,7 +3,7 @@
  * A field says at itself what is wrong with a number and keeps the design as it was.
  */
 import { h, setAttr } from './dom.js';
-import { forField, parseNumber, significant } from './format.js';
+import { inField, parseComplex, parseNumber, significant } from './format.js';
 
 /**
  * @typedef {object} FieldOptions
@@ -19,6 +19,7 @@ import { forField, parseNumber, significant } from './format.js';
  * @property {string} [field]  the path under which the server names it
  * @property {{min: number, max: number, log?: boolean}} [slider]
  * @property {(v: number, stamp: number) => void} onInput
+ * @property {(p: import('./types.js').Complex, stamp: number) => void} [onComplex]  the field takes a complex number, too
  * @property {() => void} onCommit
  */
 
@@ -47,7 +48,7 @@ export class NumberField {
   #start = 0;
 
   #text() {
-    return Number.isNaN(this.value) ? '' : forField(this.value);
+    return Number.isNaN(this.value) ? '' : inField(this.value);
   }
 
   /** What stands in the empty field, and where the arrow keys start from it. @param {string} text @param {number} start */
@@ -94,7 +95,9 @@ export class NumberField {
 
   /** @param {number} stamp */
   #typed(stamp) {
-    const v = parseNumber(this.input.value);
+    const pole = this.options.onComplex ? parseComplex(this.input.value) : null;
+    if (pole && pole.im !== 0) return this.#typedComplex(pole, stamp);
+    const v = pole ? pole.re : parseNumber(this.input.value);
     const wrong = this.options.optional && !this.input.value.trim() ? '' : this.#objection(v);
     this.complain(wrong);
     if (wrong) return;
@@ -102,11 +105,20 @@ export class NumberField {
     this.options.onInput(v, stamp);
   }
 
+  /** @param {import('./types.js').Complex} pole @param {number} stamp */
+  #typedComplex(pole, stamp) {
+    const wrong = [pole.re, pole.im].map((v) => this.#objection(v)).find(Boolean) ?? '';
+    this.complain(wrong);
+    if (wrong) return;
+    this.#typing = true;
+    this.options.onComplex?.(pole, stamp);
+  }
+
   /** @param {number} v @returns {string} empty where it can be taken */
   #objection(v) {
     const { min, max, positive, integer } = this.options;
-    if (!Number.isFinite(v)) return 'a number, please';
-    if (integer && !Number.isInteger(v)) return 'a whole number, please';
+    if (!Number.isFinite(v)) return this.options.onComplex ? 'enter a number, or −3+2j' : 'enter a number';
+    if (integer && !Number.isInteger(v)) return 'enter a whole number';
     if (positive && v <= 0) return 'must be positive';
     return v < min || v > max ? `${significant(min, 3)} to ${significant(max, 3)}` : '';
   }
@@ -128,7 +140,7 @@ export class NumberField {
     const from = Number.isNaN(this.value) ? this.#start : this.value;
     const size = integer ? 1 : 10 ** Math.floor(Math.log10(Math.max(Math.abs(from), 1e-3)) + 1e-9) * (e.shiftKey ? 0.01 : 0.1);
     const v = Math.max(min, Math.min(max, from + (e.key === 'ArrowUp' ? size : -size)));
-    this.input.value = forField(Number(v.toPrecision(9)));
+    this.input.value = inField(Number(v.toPrecision(9)));
     this.#typed(e.timeStamp);
   }
 

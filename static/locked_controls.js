@@ -1,7 +1,7 @@
 /** Shows what a link has locked: its controls are disabled and say why. The store is what keeps the values. */
 import { LOCKS } from './locks.js';
 
-const WHY = 'Locked by the link with which this page was opened';
+const WHY = 'Locked by the link that opened this page';
 
 export class LockedControls {
   /** @type {Element[]} */ #marked = [];

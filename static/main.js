@@ -8,7 +8,7 @@ import { CloudFeed } from './cloud.js';
 import { byId } from './dom.js';
 import { isolated } from './isolated.js';
 import { LockedControls } from './locked_controls.js';
-import { recall } from './memory.js';
+import { recall, remember } from './memory.js';
 import { PinKeeper } from './pin_keeper.js';
 import { Turns } from './pace.js';
 import { Plots } from './plots.js';
@@ -87,8 +87,10 @@ addEventListener('pagehide', () => address.flush());
 store.addEventListener('design', (event) => {
   const { design } = store.state;
   if (!design) return;
+  const { stamp } = /** @type {CustomEvent} */ (event).detail;
+  if (stamp !== undefined && recall('tour') !== 'done') remember('tour', 'done'); // who has moved something needs no tour at the next visit
   seq += 1;
-  asked.set(seq, { stamp: /** @type {CustomEvent} */ (event).detail.stamp, design });
+  asked.set(seq, { stamp, design });
   live.send(requestOf(design, seq));
 });
 
@@ -129,7 +131,7 @@ function viewOf(view) {
 /** Quietly, once for each part. @param {unknown} error */
 function report(error) {
   console.error(error);
-  queueMicrotask(() => store.set({ fault: say`A part of this page could not be drawn: ${error instanceof Error ? error.message : error}. All else goes on.` }));
+  queueMicrotask(() => store.set({ fault: say`A part of this page could not be drawn: ${error instanceof Error ? error.message : error}. Everything else works.` }));
 }
 
 /** @type {Promise<import('./panels/tour.js').Tour>|null} */ let tours = null;
@@ -142,7 +144,7 @@ async function tour(from) {
 
 /** At a first visit, after the first picture. */
 function welcome() {
-  if (recall('tour') !== 'done') setTimeout(tour, 600);
+  if (recall('tour') !== 'done') setTimeout(() => recall('tour') !== 'done' && tour(), 600);
 }
 
 /** Panels that the first view does not need, fetched when it is there. */

@@ -39,11 +39,11 @@ export class Matrix {
 
 /** The state feedback, u = −Kx + v. @param {string} testid @param {Copied} [copied] */
 export const gainMatrix = (testid, copied) => new Matrix(testid, h('b', {}, 'K'), motors(), [symbol('θ'), symbol('ψ'), dotted('θ'), dotted('ψ')],
-  (i, j) => `k${'₁₂'[i]}${'₁₂₃₄'[j]}: ${STATES[j].unit}, what ${MOTORS[i]} gets back of ${STATES[j].name}`, copied);
+  (i, j) => `k${'₁₂'[i]}${'₁₂₃₄'[j]}: ${STATES[j].unit}, feedback from ${STATES[j].name} to ${MOTORS[i]}`, copied);
 
 /** The feedback of the integrated errors, where a method brings its own. @param {string} testid */
 export const integralMatrix = (testid) => new Matrix(testid, h('span', { class: 'sym' }, h('b', {}, 'K'), h('sub', {}, 'I')), motors(), [h('span', { class: 'sym' }, '∫', h('i', {}, 'e'), h('sub', {}, 'θ')), h('span', { class: 'sym' }, '∫', h('i', {}, 'e'), h('sub', {}, 'ψ'))],
-  (i, j) => `V/(rad·s), what ${MOTORS[i]} gets of the integrated error of ${STATES[j].name}`);
+  (i, j) => `V/(rad·s), feedback from the integrated error of ${STATES[j].name} to ${MOTORS[i]}`);
 
 /** What K is, where it is copied. */
 export const GAIN = { name: 'K', note: 'u = -K x + v, x = [theta, psi, theta_dot, psi_dot] in rad, rad/s; u = [V_p, V_y] in V' };

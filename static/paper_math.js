@@ -19,7 +19,7 @@
  * @property {'reproduced'|'differs'|'given'} verdict
  * @property {string} note
  * @typedef {{statement: string, correct: Form, printed: Form, holds: boolean, labels: [string, string]}} Proof
- * @typedef {{name: string, where: string, printed: Form, correct: Form, why: string, effect: string, proof: Proof}} Erratum
+ * @typedef {{name: string, where: string, printed: Form, correct: Form, why: string, effect: string, standing: 'confirmed'|'unclear', evidence?: string, proof: Proof}} Erratum  an erratum of the paper where its own numbers confirm it, else unclear in our copy
  * @typedef {import('./types.js').Complex} Complex
  * @typedef {{plant: string, poles: Complex[], unrounded: Complex[]}} Consequence
  * @typedef {{number: number, output: string, t: number[], curves: {name: string, title: string, angle: number[]}[]}} Curves
@@ -53,7 +53,7 @@ export function countsOf({ numbers, errata, equations }) {
   const [reproduced, differs, given] = ['reproduced', 'differs', 'given'].map(having);
   return {
     reproduced, differs, given, derivable: reproduced + differs, numbers: numbers.length,
-    errata: errata.length, proofs: errata.filter((e) => e.proof.holds).length,
+    errata: errata.filter((e) => e.standing === 'confirmed').length, unclear: errata.filter((e) => e.standing !== 'confirmed').length, proofs: errata.filter((e) => e.proof.holds).length,
     status: Object.fromEntries(groupBy(equations, (e) => e.status).map(([status, list]) => [status, list.length])),
   };
 }

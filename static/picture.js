@@ -1,5 +1,5 @@
 /** A picture of lines for a report: title, axes with units, legend; on white, whatever the page's own colours. */
-import { forField } from './format.js';
+import { inField } from './format.js';
 import { drawGhosts } from './plot_ghosts.js';
 import { hatch } from './plot_rules.js';
 import { niceStep, ticks } from './splane_math.js';
@@ -130,7 +130,7 @@ function drawMark(ctx, { kind, axis, brief }, x, y, text) {
 
 /** @param {CanvasRenderingContext2D} ctx @param {{left: number, top: number, right: number, bottom: number}} box @param {any} to */
 function drawAxes(ctx, box, { x, y, px, py, text }) {
-  const words = (/** @type {number} */ v) => forField(v).replace('-', '\u2212');
+  const words = (/** @type {number} */ v) => inField(v);
   ctx.lineWidth = 1;
   ctx.strokeStyle = LIGHT.grid;
   ctx.beginPath();

@@ -229,7 +229,7 @@ export class Plots {
     if (!this.#data) return;
     const i = indexAt(this.#data.t, this.#hover ?? this.#playhead);
     setText(this.at, say`at ${fixed(this.#data.t[i], 2)} s`);
-    setText(this.played, say`, ${word(PLAYED[motion])} played`);
+    setText(this.played, say`, ${word(PLAYED[motion])} in 3D`);
     for (const { signal, values } of this.plots) {
       ['theta', 'psi'].forEach((axis, k) => {
         const v = this.#data?.plots[signal][k === 0 ? 4 : 3]?.[i];

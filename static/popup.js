@@ -4,6 +4,7 @@
 import { h, svg } from './dom.js';
 
 const MARGIN = 8; // px to the window's edge
+const GAP = 4; // px to the button
 
 /** @type {HTMLElement|undefined} */ let panel;
 /** @type {HTMLElement|null} */ let owner = null;
@@ -22,31 +23,46 @@ function make() {
 
 /** Arrow keys walk through the grid of buttons. @param {HTMLElement} node @param {KeyboardEvent} e */
 function walk(node, e) {
-  const step = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: 0, ArrowUp: 0, Home: -Infinity, End: Infinity }[e.key];
-  if (step === undefined || !(e.target instanceof HTMLButtonElement)) return;
-  const all = [...node.querySelectorAll('button:not(:disabled)')];
-  const at = all.indexOf(e.target);
-  const here = e.target.getBoundingClientRect();
-  let next = all[Math.max(0, Math.min(all.length - 1, at + step))];
-  if (step === 0) {
-    const down = e.key === 'ArrowDown';
-    const rows = all.filter((b) => { const y = b.getBoundingClientRect().top; return down ? y > here.bottom - 2 : y < here.top - 2; });
-    const away = (/** @type {Element} */ b) => { const box = b.getBoundingClientRect(); return Math.abs(box.top - here.top) * 1000 + Math.abs(box.left - here.left); };
-    next = rows.sort((a, b) => away(a) - away(b))[0] ?? e.target;
-  }
-  /** @type {HTMLElement} */ (next).focus();
+  const all = /** @type {HTMLButtonElement[]} */ ([...node.querySelectorAll('button:not(:disabled)')]);
+  const at = all.findIndex((button) => button === e.target);
+  const next = at < 0 ? undefined : stepIn(all.map((button) => button.getBoundingClientRect()), at, e.key);
+  if (next === undefined) return;
+  all[next].focus();
   e.preventDefault();
+}
+
+/**
+ * Where a key leads from one of several boxes in the order of reading; up and down lead to the nearest in the next row.
+ * @typedef {{left: number, top: number, bottom: number}} Box
+ * @param {Box[]} boxes @param {number} at @param {string} key @returns {number|undefined} an index; undefined for other keys
+ */
+export function stepIn(boxes, at, key) {
+  const step = { ArrowRight: 1, ArrowLeft: -1, Home: -Infinity, End: Infinity }[key];
+  if (step !== undefined) return Math.max(0, Math.min(boxes.length - 1, at + step));
+  if (key !== 'ArrowDown' && key !== 'ArrowUp') return undefined;
+  const here = boxes[at];
+  const away = (/** @type {number} */ i) => Math.abs(boxes[i].top - here.top) * 1000 + Math.abs(boxes[i].left - here.left);
+  const rows = [...boxes.keys()].filter((i) => (key === 'ArrowDown' ? boxes[i].top > here.bottom - 2 : boxes[i].top < here.top - 2));
+  return rows.sort((a, b) => away(a) - away(b))[0] ?? at;
+}
+
+/**
+ * Below the button, or above it where only there is room; right edges together, within the window.
+ * @param {{top: number, bottom: number, right: number}} a the button's box @param {{width: number, height: number}} panel @param {{width: number, height: number}} view
+ * @returns {{left: number, top: number}} px
+ */
+export function placeBeside(a, { width, height }, view) {
+  const below = a.bottom + GAP + height <= view.height - MARGIN || a.top - GAP - height < MARGIN;
+  const left = Math.max(MARGIN, Math.min(a.right - width, view.width - width - MARGIN));
+  const top = below ? Math.min(a.bottom + GAP, view.height - height - MARGIN) : a.top - GAP - height;
+  return { left, top: Math.max(MARGIN, top) };
 }
 
 /** @param {HTMLElement} anchor */
 function place(anchor) {
   if (!panel) return;
-  const a = anchor.getBoundingClientRect();
-  const { width, height } = panel.getBoundingClientRect();
-  const below = a.bottom + 4 + height <= innerHeight - MARGIN || a.top - 4 - height < MARGIN;
-  const left = Math.max(MARGIN, Math.min(a.right - width, innerWidth - width - MARGIN));
-  const top = below ? Math.min(a.bottom + 4, innerHeight - height - MARGIN) : a.top - 4 - height;
-  Object.assign(panel.style, { left: `${left}px`, top: `${Math.max(MARGIN, top)}px` });
+  const { left, top } = placeBeside(anchor.getBoundingClientRect(), panel.getBoundingClientRect(), { width: innerWidth, height: innerHeight });
+  Object.assign(panel.style, { left: `${left}px`, top: `${top}px` });
 }
 
 /** Opens beside `anchor`, or closes what it had opened. @param {HTMLElement} anchor @param {string} label @param {() => (Node|string)[]} content */

@@ -1,10 +1,12 @@
 /**
- * What a designer asks of the placed poles: to settle soon enough and not to overshoot by more. Each is judged by one pair alone, as a second-order
- * system: settling to 2 % within 4/σ, overshoot e^(−πζ/√(1 − ζ²)). Pure.
+ * What a designer asks of the response: to settle soon enough and not to overshoot by more. The verdict is on the rig's steps. The s-plane's hatching is a
+ * guide: there a pair alone, as a second-order system, would miss it: settling to 2 % within 4/σ, overshoot e^(−πζ/√(1 − ζ²)). Pure.
  * @typedef {import('./types.js').Complex} Complex
  * @typedef {import('./types.js').Requirements} Requirements
  */
+import { fixed, seconds } from './format.js';
 import { character } from './poles.js';
+import { say, t } from './words.js';
 
 const SLACK = 1 + 1e-9; // a pole on the border itself is allowed
 
@@ -36,7 +38,7 @@ export function leastDamping({ overshoot }) {
   return -log / Math.hypot(Math.PI, log);
 }
 
-/** What a pole misses. One that grows never settles, and overshoots without end. @param {Complex} p @param {Requirements} r */
+/** What a pole alone would miss. One that grows never settles, and overshoots without end. @param {Complex} p @param {Requirements} r */
 export function missed(p, { settling, overshoot }) {
   const it = character(p);
   return {
@@ -45,30 +47,34 @@ export function missed(p, { settling, overshoot }) {
   };
 }
 
-/** @param {Complex} p @param {Requirements} r @returns {string} empty where it meets them */
-export function missedWords(p, r) {
+/** Where a pole lies in the hatched plane, which is a guide; empty where it lies outside. @param {Complex} p @param {Requirements} r @returns {string} */
+export function guideWords(p, r) {
   const m = missed(p, r);
-  return [m.settling && 'too slow', m.overshoot && 'overshoots'].filter(Boolean).join(', ');
+  return [m.settling && t('slower'), m.overshoot && t('less damped')].filter(Boolean).join(t(' and '));
 }
+
+/** @typedef {'theta'|'psi'} Axis @typedef {{met: boolean, settling: boolean, overshoot: boolean, text: string}} Verdict  of each requirement whether it is missed */
+/** @type {Record<Axis, string>} */
+const NAMES = { theta: 'pitch', psi: 'yaw' };
+export const AXES = /** @type {Axis[]} */ (['theta', 'psi']);
+
+/** Whether a figure of the response misses what is asked; one that does not come about does. @param {number|undefined} value @param {number|null} asked */
+export const misses = (value, asked) => asked !== null && !((value ?? Infinity) <= asked * SLACK);
 
 /**
- * The verdict on a pair: what it misses, by which pole where only one does.
- * @param {readonly Complex[]} poles @param {0|1} pair @param {Requirements} r
- * @returns {{met: boolean, text: string}}
+ * The one verdict on an axis: on the rig's own response, as the table shows it.
+ * @param {import('./types.js').Reply|null} reply @param {Axis} axis @param {Requirements} r @returns {Verdict|null} null where nothing is asked or the axis is not stepped
  */
-export function pairVerdict(poles, pair, r) {
-  const words = [2 * pair, 2 * pair + 1].map((i) => missedWords(poles[i], r));
-  if (!words[0] && !words[1]) return { met: true, text: 'meets the requirements' };
-  if (words[0] === words[1]) return { met: false, text: words[0] };
-  return { met: false, text: words.map((w, k) => w && `${2 * pair + k + 1} ${w}`).filter(Boolean).join('; ') };
+export function verdictOf(reply, axis, r) {
+  const own = reply?.axis_steps?.[axis]?.nonlinear.metrics?.[axis];
+  if (!isAsked(r) || !own) return null;
+  const [settling, overshoot] = [misses(own.settling_time, r.settling), misses(own.overshoot, r.overshoot)];
+  const words = [settling && (own.settling_time === undefined ? t('not settled') : say`settles in ${seconds(own.settling_time)}`), overshoot && say`overshoots by ${fixed(own.overshoot, 1)} %`];
+  return { met: !settling && !overshoot, settling, overshoot, text: words.filter(Boolean).join(', ') || t('requirements met') };
 }
 
-/** What the readout adds for a pole. @param {Complex} p @param {Requirements} r */
-export function readoutWords(p, r) {
-  if (!isAsked(r)) return '';
-  const words = missedWords(p, r);
-  return words ? `✕ ${words}` : '✓ meets the requirements';
-}
+/** The axes that miss what is asked, in words. @param {import('./types.js').Reply|null} reply @param {Requirements} r @returns {string[]} */
+export const missing = (reply, r) => AXES.filter((axis) => verdictOf(reply, axis, r)?.met === false).map((axis) => t(NAMES[axis]));
 
 /**
  * The forbidden regions as polygons in the plane, large enough for what is seen: right of −4/T, and outside the wedge of least damping.

@@ -24,8 +24,8 @@ export class SceneControls {
     this.seen = h('input', { type: 'checkbox', checked: true, 'data-testid': 'show-scene', onchange: onSeen });
     this.pinsLabel = h('label', { class: 'check', title: 'Pinned designs fly beside the rig as ghosts', hidden: true }, this.pins, 'pins');
     const views = h('div', { class: 'scene-views' }, this.cameras.node, this.reset);
-    this.drawn = [views, h('label', { class: 'check', title: 'The linear model flies beside the rig as a wire frame' }, this.linear, 'linear'), this.pinsLabel];
-    this.node = h('div', { class: 'scene-controls' }, this.drawn, h('label', { class: 'check', title: 'Draw the rig: switch it off where the graphics are slow' }, this.seen, '3D'));
+    this.drawn = [views, h('label', { class: 'check', title: 'Show the linear model beside the rig, as a wire frame' }, this.linear, 'linear'), this.pinsLabel];
+    this.node = h('div', { class: 'scene-controls' }, this.drawn, h('label', { class: 'check', title: 'Draw the rig. Switch it off if graphics are slow.' }, this.seen, '3D'));
   }
 
   /** @type {(camera: CameraName) => void} */

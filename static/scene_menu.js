@@ -38,7 +38,7 @@ export function sceneMenu(store, session) {
     return [
       h('h3', {}, 'The rig in its own window'),
       h('p', { class: 'caption' }, 'For a second screen, a projector or a tablet: it plays in step.'),
-      h('p', { class: 'caption' }, 'Its sliders move this page: whoever has the link has them.'), link,
+      h('p', { class: 'caption' }, 'Its sliders move this page too: anyone with the link can use them.'), link,
       h('div', { class: 'row' }, h('button', { type: 'button', 'data-testid': 'open-window', onclick: () => open(address, '_blank', 'popup,width=1100,height=760,noopener') }, 'Open'),
         h('button', { type: 'button', 'data-testid': 'copy-window-link', onclick: copy }, 'Copy link')),
       h('h3', {}, 'Take the motion away'),

@@ -49,7 +49,7 @@ export class SceneView {
     this.webgl = hasWebGl();
     this.rigs = new RigKeeper((rig) => putRig(this.session, rig));
     this.frame = h('iframe', { title: 'The rig in three dimensions', 'data-testid': 'scene', tabindex: -1 });
-    this.notice = h('p', { class: 'scene-notice', 'data-testid': 'scene-notice', role: 'status' }, this.webgl ? 'Building the rig…' : 'This browser shows no WebGL, so the rig stays unseen. All else works.');
+    this.notice = h('p', { class: 'scene-notice', 'data-testid': 'scene-notice', role: 'status' }, this.webgl ? 'Building the rig…' : 'This browser has no WebGL, so the 3D view is off. Everything else works.');
     this.hud = Object.fromEntries(['theta', 'psi', 'V_p', 'V_y'].map((name) => [name, h('span', { class: 'hud-value', 'data-testid': `hud-${name}` })]));
     const label = (/** @type {string} */ name, /** @type {Node} */ mark) => h('div', { class: `hud-item ${name}` }, mark, this.hud[name]);
     const hud = h('div', { class: 'hud', 'data-testid': 'hud' }, label('theta', symbol('θ')), label('psi', symbol('ψ')), label('V_p', symbol('V', 'p')), label('V_y', symbol('V', 'y')));
@@ -238,7 +238,7 @@ export class SceneView {
       this.player?.setSeen(seen);
       this.controls.render(this.store.state.pins.length > 0, this.controls.seen.checked);
       this.notice.hidden = ready && seen;
-      const off = this.#rests ? 'The rig rests while you drag: drawing it is slow here.' : 'The rig is switched off. All else works.';
+      const off = this.#rests ? 'The 3D view pauses while you drag: graphics are slow here.' : 'The rig is switched off. All else works.';
       setText(this.notice, seen ? reason || 'Building the rig…' : off);
     }
   }

@@ -5,6 +5,7 @@
  */
 import { cloudWords, SPREADS } from './cloud.js';
 import { h, setText, svg } from './dom.js';
+import { loopPaths } from './loop_paths.js';
 import { placesPoles } from './methods.js';
 import { drawingUnit } from './picture_scale.js';
 import { drawCloud } from './splane_cloud.js';
@@ -15,6 +16,7 @@ import { fit, outgrown, zoom } from './splane_math.js';
 import { drawPins } from './splane_pins.js';
 import { Readout } from './splane_readout.js';
 import { drawForbidden, hatchings, RequirementsBar } from './splane_requirements.js';
+import { say } from './words.js';
 
 export class SPlane {
   view = { cx: -5, cy: 0, scale: 20, width: 0, height: 0 };
@@ -24,6 +26,8 @@ export class SPlane {
   /** @type {number|null} */ #active = null;
   /** @type {import('./splane_math.js').View|null} */ #drawn = null;
   /** @type {import('./types.js').Requirements|null} */ #asked = null;
+  /** @type {import('./types.js').Reply|null} whose paths they are */ #solved = null;
+  /** @type {import('./loop_paths.js').Paths|null} */ #paths = null;
 
   /** @param {HTMLElement} root @param {import('./store.js').Store} store */
   constructor(root, store) {
@@ -39,8 +43,8 @@ export class SPlane {
       this.grid, this.forbidden);
     this.svg = svg('svg', { class: 'splane-svg', 'data-testid': 'splane', role: 'group', 'aria-label': 'Poles in the s-plane' }, this.marks.nodes);
     this.readout = new Readout();
-    this.spread = h('select', { 'data-testid': 'spread', 'aria-label': 'Uncertainty of the rig', title: 'The same controller on rigs whose parameters differ by so much: their poles as dots, their responses as bands',
-      onchange: () => store.set({ spread: Number(this.spread.value) }) }, SPREADS.map((v) => h('option', { value: v }, v ? `± ${100 * v} %` : 'exact rig')));
+    this.spread = h('select', { 'data-testid': 'spread', 'aria-label': 'Model uncertainty', title: 'Model uncertainty: the same controller on rigs whose parameters differ by so much; their poles as dots, their responses as bands',
+      onchange: () => store.set({ spread: Number(this.spread.value) }) }, SPREADS.map((v) => h('option', { value: v }, v ? say`uncertainty ± ${100 * v} %` : 'uncertainty: none')));
     this.cloud = h('canvas', { class: 'cloud', hidden: true, 'aria-hidden': 'true' });
     this.cloudText = h('div', { class: 'cloud-words', 'data-testid': 'cloud-words', role: 'status' });
     const button = (/** @type {string} */ text, /** @type {string} */ name, /** @type {string} */ key, /** @type {string} */ id, /** @type {() => void} */ act) =>
@@ -61,7 +65,8 @@ export class SPlane {
     const held = this.gestures.held;
     if (index === this.#active || (held !== null && index !== held)) return;
     this.#active = index;
-    this.readout.draw(this.store.state, index, this.view, this.unit);
+    this.readout.draw(this.store.state, index, this.view, this.unit, this.#target());
+    this.#link(true);
   };
 
   /** Takes a view that the user chose; it stays until asked to fit. */
@@ -105,8 +110,22 @@ export class SPlane {
   }
 
   /** What is read beside the pole in question. @param {State} state */
-  renderReadout({ design, requirements }) {
-    this.readout.write({ design, requirements }, this.#active);
+  renderReadout({ design, reply, answered, requirements }) {
+    this.readout.write({ design, reply, answered, requirements }, this.#active, this.#target());
+  }
+
+  /** Where the PI loops take the pole in question; of what is shown last, as all figures are. */
+  #target() {
+    const { reply, answered } = this.store.state;
+    if (this.#active === null || !placesPoles(this.store.state)) return undefined;
+    if (reply !== this.#solved) [this.#solved, this.#paths] = [reply, loopPaths(reply, answered)];
+    return this.#paths?.[this.#active].at(-1);
+  }
+
+  /** Draws the way of the pole in question to its pole of the whole loop. @param {boolean} fresh */
+  #link(fresh) {
+    const to = this.#target();
+    this.marks.drawPath(to && this.#active !== null && this.#paths ? { index: this.#active, path: this.#paths[this.#active] } : null, this.view, fresh);
   }
 
   /** @param {State} state */
@@ -125,7 +144,8 @@ export class SPlane {
     drawPins(this.svg, this.view, pins);
     drawCloud(this.cloud, this.view, this.unit, spread ? cloud : null);
     setText(this.cloudText, spread ? cloudWords(cloud, design.scenario) : '');
-    this.readout.draw(state, this.#active, this.view, this.unit);
+    this.readout.draw(state, this.#active, this.view, this.unit, this.#target());
+    this.#link(fresh);
     this.bar.render(state);
   }
 }

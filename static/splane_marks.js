@@ -9,15 +9,16 @@ import { setAttr, setText, svg } from './dom.js';
 import { poleText } from './format.js';
 import { placesPoles } from './methods.js';
 import { pairOf } from './poles.js';
-import { missedWords } from './requirements.js';
+import { guideWords, isAsked } from './requirements.js';
 import { toPixel } from './splane_math.js';
+import { say } from './words.js';
 
 export const NAMES = ['pitch', 'yaw'];
 const CROSS = 'M -5.5 -5.5 L 5.5 5.5 M -5.5 5.5 L 5.5 -5.5';
 const OPEN_MARK = 'M -4 -4 L 4 4 M -4 4 L 4 -4';
 const LOOP_MARK = 'M 0 -5.5 L 5.5 0 L 0 5.5 L -5.5 0 Z';
-const TITLE = 'Drag, or move by arrow keys (Shift: fine, Page keys: coarse). Two real poles of a pair dragged together leave the axis as a complex pair.\n' +
-  'Where marks overlap, the one on top takes the press; Tab or 1 to 4 brings another to the top.';
+const TITLE = 'Drag, or use the arrow keys (Shift: fine, Page keys: coarse). Drag two real poles of a pair together, then off the axis: they turn complex.\n' +
+  'Where marks overlap, Tab or 1 to 4 brings another to the top.';
 
 /** @param {number} i a handle: what is pressed, focused and heard */
 function handle(i) {
@@ -46,11 +47,12 @@ export class Marks {
     this.open = svg('g', { class: 'open-poles', 'data-testid': 'open-poles' });
     this.loop = svg('g', { class: 'loop-poles', 'data-testid': 'loop-poles' });
     this.links = NAMES.map((name) => svg('line', { class: `link ${name}` }));
+    this.path = svg('path', { class: 'loop-path', 'data-testid': 'loop-path', 'aria-hidden': 'true' });
     this.handles = [0, 1, 2, 3].map(handle);
     this.marks = [0, 1, 2, 3].map(mark);
     this.names = [0, 1, 2, 3].map(numeral);
     this.seen = svg('g', { 'aria-hidden': 'true' }, this.order.map((i) => this.marks[i]));
-    this.nodes = [this.open, ...this.links, this.loop, this.seen, svg('g', { 'aria-hidden': 'true' }, this.names), ...this.handles];
+    this.nodes = [this.open, ...this.links, this.path, this.loop, this.seen, svg('g', { 'aria-hidden': 'true' }, this.names), ...this.handles];
   }
 
   /** Brings a pole's mark to the top. The handles keep their order, which is that of the Tab key. @param {number} index */
@@ -85,7 +87,8 @@ export class Marks {
       setAttr(this.marks[i], 'transform', place);
       setAttr(this.names[i], 'transform', place);
       setAttr(this.handles[i], 'aria-valuenow', poles[i].re);
-      setAttr(this.handles[i], 'aria-valuetext', [poleText(poles, i), missedWords(poles[i], requirements)].filter(Boolean).join(', '));
+      const guide = isAsked(requirements) ? guideWords(poles[i], requirements) : '';
+      setAttr(this.handles[i], 'aria-valuetext', guide ? say`${poleText(poles, i)}, guide: alone ${guide} than asked` : poleText(poles, i));
       // Labels of a pair stand apart even where its poles meet or lie mirrored.
       const below = poles[i].im < 0 || (poles[i].im === 0 && i % 2 === 1);
       setAttr(this.names[i], 'y', below ? 20 : -11);
@@ -94,6 +97,19 @@ export class Marks {
       const [[x1, y1], [x2, y2]] = [at[2 * pair], at[2 * pair + 1]];
       for (const [name, value] of Object.entries({ x1, y1, x2, y2 })) setAttr(link, name, value);
     }
+  }
+
+  /** @type {readonly Complex[]|null} */ #way = null;
+
+  /** The way of a placed pole to where the PI loops take it, and that pole of the whole loop. @param {{index: number, path: Complex[]}|null} way @param {View} view @param {boolean} fresh whether the view changed */
+  drawPath(way, view, fresh) {
+    if (!fresh && this.#way === (way?.path ?? null)) return;
+    this.#way = way?.path ?? null;
+    const at = way ? way.path.map((p) => toPixel(view, p).map((v) => v.toFixed(1)).join(' ')) : [];
+    setAttr(this.path, 'd', at.length ? `M ${at.join(' L ')}` : '');
+    setAttr(this.path, 'class', `loop-path ${way ? NAMES[pairOf(way.index)] : ''}`);
+    const end = way?.path.at(-1);
+    for (const [i, node] of [...this.loop.children].entries()) node.classList.toggle('target', end !== undefined && this.#shown.loop?.[i] === end);
   }
 
   /** @param {SVGGElement} layer @param {string} d @param {Complex[]} poles @param {View} view */

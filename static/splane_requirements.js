@@ -1,9 +1,10 @@
-/** What is asked of the poles: two fields below the s-plane, and the regions where a pole would not do, hatched. */
+/** What is asked of the response: two fields below the s-plane; and, as a guide, the regions where a pole alone would not do, hatched. */
 import { h, setText, svg } from './dom.js';
 import { NumberField } from './fields.js';
 import { forField } from './format.js';
-import { forbidden, isAsked, leastDamping, missedWords, NONE, RANGES } from './requirements.js';
+import { forbidden, isAsked, leastDamping, missing, NONE, RANGES } from './requirements.js';
 import { bounds, toPixel } from './splane_math.js';
+import { say } from './words.js';
 
 /** @typedef {import('./types.js').Requirements} Requirements */
 /** @typedef {import('./splane_math.js').View} View */
@@ -30,7 +31,7 @@ export function drawForbidden(layer, view, r) {
   }
   if (regions.settling && r.settling !== null) {
     const [x, y] = [toPixel(view, regions.settling[0])[0] + 12, view.height - 24];
-    nodes.push(svg('text', { class: 'forbidden-label', x, y, transform: `rotate(-90 ${x} ${y})` }, `settling > ${forField(r.settling)} s`));
+    nodes.push(svg('text', { class: 'forbidden-label', x, y, transform: `rotate(-90 ${x} ${y})` }, say`guide: alone settling > ${forField(r.settling)} s`));
   }
   const zeta = leastDamping(r);
   if (zeta !== undefined && r.overshoot !== null) {
@@ -39,7 +40,7 @@ export function drawForbidden(layer, view, r) {
     // Along the upper side of the wedge, where it is well in view.
     const along = 0.55 * Math.min(zeta > 0.05 ? x0 / zeta : Infinity, y0 / Math.max(0.05, Math.sqrt(1 - zeta * zeta)));
     const [x, y] = [x0 - along * zeta, y0 - along * Math.sqrt(1 - zeta * zeta)];
-    if (along > 60) nodes.push(svg('text', { class: 'forbidden-label', x, y: y - 5, 'text-anchor': 'middle', transform: `rotate(${angle.toFixed(1)} ${x} ${y})` }, `overshoot > ${forField(r.overshoot)} %`));
+    if (along > 60) nodes.push(svg('text', { class: 'forbidden-label', x, y: y - 5, 'text-anchor': 'middle', transform: `rotate(${angle.toFixed(1)} ${x} ${y})` }, say`guide: alone overshoot > ${forField(r.overshoot)} %`));
   }
   layer.replaceChildren(...nodes);
 }
@@ -56,21 +57,21 @@ export class RequirementsBar {
       made.setBlank('off', start);
       return made;
     };
-    this.settling = field('settling', 's', 1, 'No placed pole may take longer to settle to 2 %: 4/σ. Empty: not asked');
-    this.overshoot = field('overshoot', '%', 10, 'No placed pair may overshoot by more, by itself: e^(−πζ/√(1 − ζ²)). Empty: not asked');
+    this.settling = field('settling', 's', 1, 'The steps shall settle to 2 % within this time. Hatched, as a guide: where a pole alone would take longer, 4/σ. Empty: not asked');
+    this.overshoot = field('overshoot', '%', 10, 'The steps shall overshoot by no more. Hatched, as a guide: where a pair alone would overshoot by more, e^(−πζ/√(1 − ζ²)). Empty: not asked');
     this.verdict = h('span', { class: 'asked-verdict', 'data-testid': 'requirements-verdict', role: 'status' });
-    this.node = h('div', { class: 'asked', role: 'group', 'aria-label': 'Requirements on the placed poles' }, this.settling.node, this.overshoot.node, this.verdict);
+    this.node = h('div', { class: 'asked', role: 'group', 'aria-label': 'Requirements on the response' }, this.settling.node, this.overshoot.node, this.verdict);
   }
 
   /** @param {import('./types.js').State} state */
-  render({ design, requirements: r }) {
+  render({ reply, requirements: r }) {
     if (r !== this.#shown) {
       this.#shown = r;
       this.settling.set(r.settling ?? NaN);
       this.overshoot.set(r.overshoot ?? NaN);
     }
-    const missing = design && isAsked(r) ? design.poles.map((p, i) => missedWords(p, r) && i + 1).filter(Boolean) : [];
-    this.verdict.classList.toggle('missed', missing.length > 0);
-    setText(this.verdict, !isAsked(r) ? '' : missing.length ? `✕ ${missing.join(', ')}` : '✓ met');
+    const axes = missing(reply, r);
+    this.verdict.classList.toggle('missed', axes.length > 0);
+    setText(this.verdict, !isAsked(r) || !reply ? '' : axes.length ? `✕ ${axes.join(', ')}` : '✓ met');
   }
 }

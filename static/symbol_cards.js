@@ -146,13 +146,18 @@ export class SymbolCards {
 /** Unit as it is written; 1 is none. @param {string} unit */
 const unitOf = (unit) => (unit === '1' ? 'dimensionless' : unit);
 
+/** A symbol by itself: the bracket that tells a function from a letter is left out. @param {Term} term */
+function signFor(term) {
+  const sign = /** @type {Element} */ (formula(term.mathml));
+  if (term.latex?.endsWith('(')) for (const mo of sign.querySelectorAll('mo')) if (mo.textContent === '(') mo.remove();
+  return sign;
+}
+
 /** @param {Term} term @param {Now} now @returns {Node[]} */
 function cardOf(term, now) {
   const { text, matrix, of } = worthOf(term.name, now);
-  const opening = term.latex?.endsWith('(');
-  const sign = formula(term.mathml);
-  if (opening) /** @type {Element} */ (sign).querySelectorAll('mo').forEach((mo) => { if (mo.textContent === '(') mo.remove(); });
-  const value = matrix ? small(matrix) : h('span', { class: 'worth' }, text ?? 'none here');
+  const sign = signFor(term);
+  const value = matrix ? small(matrix) : h('span', { class: 'worth' }, text ?? 'no value for this rig');
   return [h('p', { class: 'meaning' }, h('span', { class: 'sign' }, sign), h('span', {}, rich(term.meaning))),
     h('dl', {}, h('dt', {}, of ? `now, ${of}` : 'now'), h('dd', { 'data-testid': 'symbol-value' }, value), ...(term.unit ? [h('dt', {}, 'unit'), h('dd', { 'data-testid': 'symbol-unit' }, unitOf(term.unit))] : []))];
 }
@@ -169,7 +174,7 @@ export class SymbolList {
     this.node = h('dl', { class: 'symbol-list', 'data-testid': 'symbol-list' }, terms.map((term) => {
       const cell = h('span', { class: 'worth' });
       this.#values.push({ name: term.name, cell });
-      return h('div', {}, h('dt', {}, formula(term.mathml)), h('dd', {}, rich(term.meaning), term.unit && term.unit !== '1' ? ` (${term.unit})` : '', cell));
+      return h('div', {}, h('dt', {}, signFor(term)), h('dd', {}, rich(term.meaning), term.unit && term.unit !== '1' ? ` (${term.unit})` : '', cell));
     }));
   }
 

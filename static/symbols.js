@@ -78,6 +78,8 @@ export function worthOf(name, { parameters, components, walk }) {
   if (SIGNALS.has(name)) return { text: 'varies in time' };
   if (name === 's') return { text: 'any complex number' };
   if (!walk || walk.refused) return {};
+  const cell = /^(A|B)_(\d)(\d)$/.exec(name);
+  if (cell) return number(walk[cell[1]]?.[Number(cell[2]) - 1]?.[Number(cell[3]) - 1]);
   if (walk.constants[name] !== undefined) return number(walk.constants[name]);
   if (walk.coefficients?.[name] !== undefined) return number(walk.coefficients[name]);
   const entry = /^(k|lambda|sigma)_(\d)(\d)?$/.exec(name);

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import threading
-import time
-from collections.abc import AsyncIterator, Callable, Iterator
+from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from fastapi.responses import HTMLResponse
 from fastapi.staticfiles import StaticFiles
 
 from app.scene import SceneSessions, build_router
+from tests.patience import PATIENCE, until
 
 STATIC = Path(__file__).resolve().parent.parent / "static"
 
@@ -35,21 +35,16 @@ class SceneServer:
         return f"ws://127.0.0.1:{self.port}{self.prefix}/scene/{session}"
 
 
-def until(condition: Callable[[], object], what: str, seconds: float = 20.0) -> None:
-    """Wait until the condition holds; fail with `what` when the time is up."""
-    deadline = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > deadline:
-            raise AssertionError(f"not within {seconds} s: {what}")
-        time.sleep(0.02)
-
-
 @contextmanager
 def serving(
-    capacity: int = 8, idle_seconds: float = 45.0, host_page: str = "", prefix: str = ""
+    capacity: int = 8,
+    idle_seconds: float = 45.0,
+    spare_seconds: float = 5.0,
+    host_page: str = "",
+    prefix: str = "",
 ) -> Iterator[SceneServer]:
     """Run the app in a thread for as long as the context lasts."""
-    sessions = SceneSessions(capacity, idle_seconds)
+    sessions = SceneSessions(capacity, idle_seconds, spare_seconds)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
@@ -73,5 +68,5 @@ def serving(
         yield SceneServer(server.servers[0].sockets[0].getsockname()[1], sessions, prefix)
     finally:
         server.should_exit = True
-        thread.join(20.0)
+        thread.join(PATIENCE)
         assert not thread.is_alive(), "the server does not stop"

@@ -5,13 +5,12 @@ from __future__ import annotations
 import ast
 import re
 import subprocess
-import sys
-from pathlib import Path
 
 import grimp
 import pytest
 
-ROOT = Path(__file__).parents[1]
+from tests.children import ROOT, python
+
 TRACKED = subprocess.run(
     ["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True
 ).stdout.split("\n")
@@ -35,11 +34,44 @@ def test_no_import_cycle():
     assert len(done) > 40
 
 
+LARGEST = {".css": 24_000}
+LARGEST_OTHERS = 18_000
+"""Bytes of a source file, as 400 lines of 45 characters have: who writes longer lines has fewer of them."""
+
+
 def test_files_are_small():
-    lengths = {path: len(path.read_text(encoding="utf-8").splitlines()) for path in SOURCES}
-    modules = [n for path, n in lengths.items() if path.parts[-2] not in ("tests",) and path.suffix == ".py"]
-    assert max(lengths.values()) <= 400, max(lengths, key=lambda path: lengths[path])
-    assert sorted(modules)[len(modules) // 2] <= 160
+    """In bytes, which neither long lines nor dense ones can get round."""
+    sizes = {path: path.stat().st_size for path in SOURCES}
+    large = [path for path, size in sizes.items() if size > LARGEST.get(path.suffix, LARGEST_OTHERS)]
+    assert large == []
+
+
+def imported(tree: ast.AST) -> set[str]:
+    """Top packages that a file imports, wherever in it."""
+    nodes = list(ast.walk(tree))
+    names = [alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names]
+    names += [node.module or "" for node in nodes if isinstance(node, ast.ImportFrom)]
+    return {name.partition(".")[0] for name in names} | {
+        name.partition(".")[2].partition(".")[0] for name in names if name.startswith("tests.")
+    }
+
+
+def test_the_cores_tests_know_no_app():
+    for path in sorted((ROOT / "tests" / "core").glob("*.py")):
+        assert "app" not in imported(ast.parse(path.read_text(encoding="utf-8"))), path
+
+
+def test_no_test_waits_for_time():
+    """Only `until` polls, and what an event loop does in a turn of its own takes no time."""
+    for folder in ("app", "core", "deploy", "e2e", "examples"):
+        for path in sorted((ROOT / "tests" / folder).glob("*.py")):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                called = node.func if isinstance(node, ast.Call) else None
+                name = getattr(called, "attr", getattr(called, "id", ""))
+                if name in ("sleep", "wait_for_timeout"):
+                    argument = node.args[0] if isinstance(node, ast.Call) and node.args else None
+                    no_time = isinstance(argument, ast.Constant) and argument.value == 0
+                    assert no_time, f"{path.relative_to(ROOT)}:{getattr(node, 'lineno', 0)}"
 
 
 @pytest.mark.parametrize(
@@ -60,10 +92,7 @@ def test_files_are_small():
 )
 def test_imports_stay_light(statement: str, forbidden: tuple[str, ...]):
     code = f"import sys; {statement}; print([m for m in {forbidden!r} if m in sys.modules])"
-    result = subprocess.run(
-        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
-    )
-    assert result.stdout.strip() == "[]"
+    assert python("-c", code).strip() == "[]"
 
 
 def test_page_and_locks_name_no_other_host():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import subprocess
 import sys
 import zipfile
@@ -11,13 +10,16 @@ from pathlib import Path
 import httpx2
 import pytest
 from websockets.sync.client import connect
+from websockets.typing import Subprotocol
 
-from tests.scene_server import until
+from tests.children import ROOT, environment, python, served
+from tests.patience import PATIENCE, until
+from tests.scene_client import VISER
 
-ROOT = Path(__file__).parents[1]
+pytestmark = pytest.mark.slow
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("wheel")
     command = [
@@ -31,7 +33,7 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
         str(folder),
         str(ROOT),
     ]
-    subprocess.run(command, check=True, capture_output=True)
+    subprocess.run(command, check=True, capture_output=True, env=environment())
     return next(folder.glob("heli2dof-*.whl"))
 
 
@@ -49,47 +51,41 @@ def test_wheel_holds_what_is_needed_and_nothing_else(wheel: Path):
     assert {f"heli2dof_app/{name}" for name in tracked.stdout.split()} <= set(names)
 
 
-def test_wheel_has_the_command_line(wheel: Path, tmp_path: Path):
-    zipfile.ZipFile(wheel).extractall(tmp_path)
-    code = f"import sys; sys.path.insert(0, {str(tmp_path)!r}); from heli2dof_app.cli import main; main(sys.argv[1:])"
+@pytest.fixture(scope="session")
+def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with what the wheel holds, as an installation has it."""
+    folder = tmp_path_factory.mktemp("installed")
+    zipfile.ZipFile(wheel).extractall(folder)
+    return folder
+
+
+def program(folder: Path, words: str) -> tuple[str, ...]:
+    """Calls the command line of that installation alone."""
+    code = (
+        f"import sys; sys.path.insert(0, {str(folder)!r}); import heli2dof_app.cli as cli; "
+        f"assert cli.__file__.startswith({str(folder)!r}); cli.main({words})"
+    )
+    return sys.executable, "-I", "-c", code
+
+
+def test_wheel_has_the_command_line(installed: Path, tmp_path: Path):
     for words, shown in (
         (["--help"], "robustness"),
         (["gains"], "51.17"),
         (["export", "csv", "-o", "-"], "theta"),
     ):
-        command = [sys.executable, "-I", "-c", code, *words]
-        result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
-        assert shown in result.stdout
+        assert shown in python(*program(installed, "sys.argv[1:]")[1:], *words, cwd=tmp_path)
 
 
-def test_wheel_serves_outside_the_checkout(wheel: Path, tmp_path: Path):
-    zipfile.ZipFile(wheel).extractall(tmp_path)
-    code = (
-        f"import sys; sys.path.insert(0, {str(tmp_path)!r}); import heli2dof_app.cli as cli; "
-        f"assert cli.__file__.startswith({str(tmp_path)!r}); cli.main(['serve', '--port', '0'])"
-    )
-    process = subprocess.Popen(
-        [sys.executable, "-I", "-c", code],
-        cwd=tmp_path,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-    )
-    try:
-        assert process.stdout is not None
-        found = re.search(r"http://127.0.0.1:(\d+)", process.stdout.readline())
-        assert found
-        url = found[0]
-        until(lambda: httpx2.get(f"{url}/healthz").status_code == 200, "the wheel's app is ready", 60)
+def test_wheel_serves_outside_the_checkout(installed: Path, tmp_path: Path):
+    with served(tmp_path, program(installed, "['serve', '--port', '0']")) as server:
+        url = server.http
+        until(lambda: server.answers, "the wheel's app is ready")
         assert "<title>" in httpx2.get(url).text
         assert httpx2.get(f"{url}/static/vendor/uplot/uPlot.esm.js").status_code == 200
-        assert httpx2.post(f"{url}/api/v1/gains", json={}).json()["pole_error"] < 1e-9
-        session = f"{url}/scene/wheel_wheel_wheel_wheel"
-        assert "scene_shim.js" in httpx2.get(f"{session}/").text
-        address = session.replace("http", "ws")
-        with connect(address, subprotocols=["viser-v1.1.1"], compression=None, max_size=None) as scene:
-            assert len(scene.recv(timeout=30)) > 1000
-    finally:
-        process.terminate()
-        process.wait(30)
-        process.stdout.close()
+        assert httpx2.post(f"{url}/api/v1/gains", json={}, timeout=PATIENCE).json()["pole_error"] < 1e-9
+        session = "/scene/wheel_wheel_wheel_wheel"
+        assert "scene_shim.js" in httpx2.get(f"{url}{session}/").text
+        viser = {"subprotocols": [Subprotocol(VISER)], "compression": None, "max_size": None}
+        with connect(f"{server.ws}{session}", **viser) as scene:
+            assert len(scene.recv(timeout=PATIENCE)) > 1000

@@ -13,7 +13,7 @@ import uvicorn
 from app.cli.serving import listener, server_config
 from app.main import create_app
 from app.settings import Settings
-from tests.scene_server import until
+from tests.patience import PATIENCE, until
 
 
 @dataclass(frozen=True)
@@ -36,16 +36,16 @@ def serving(**settings: Any) -> Iterator[WholeServer]:
     """Run the app for as long as the context lasts; it has derived and compiled everything when it begins."""
     chosen = Settings(host="127.0.0.1", port=0, **settings)
     app = create_app(chosen)
-    server = uvicorn.Server(server_config(app))
+    server = uvicorn.Server(server_config(app, chosen))
     bound = listener(chosen)
     port = bound.getsockname()[1]
     thread = threading.Thread(target=server.run, args=([bound],), daemon=True)
     thread.start()
     until(lambda: server.started or not thread.is_alive(), "the server starts")
     try:
-        until(lambda: app.state.compute.settled, "all is derived and compiled", 240)
+        until(lambda: app.state.compute.settled, "all is derived and compiled")
         yield WholeServer(port, app)
     finally:
         server.should_exit = True
-        thread.join(20.0)
+        thread.join(PATIENCE)
         assert not thread.is_alive(), "the server does not stop"

@@ -57,7 +57,7 @@ for _option in reversed(_STRUCTURE):
 @click.option("--json", "as_json", is_flag=True, help="Print the REST API's reply.")
 def paper(as_json: bool) -> None:
     """Print every printed number beside what the formulas give, and every erratum with its proof."""
-    from heli2dof_core.paper.errata import ERRATA
+    from heli2dof_core.paper.errata import CONFIRMED, ERRATA
     from heli2dof_core.paper.reproduce import reproduce
     from heli2dof_core.tables import Table, number
 
@@ -77,14 +77,24 @@ def paper(as_json: bool) -> None:
         )
         for r in rows
     )
-    errata = [(e.name, e.where, e.why, "holds" if e.prove().holds else "FAILS") for e in ERRATA]
+    slips = [
+        (
+            e.name,
+            e.where,
+            "unclear in our copy" if e.evidence is None else "confirmed",
+            e.why,
+            "holds" if e.prove().holds else "FAILS",
+        )
+        for e in ERRATA
+    ]
     tables = (
         Table.of("numbers", ("where", "what", "printed", "recomputed", "corrected", "verdict"), numbers),
-        Table.of("errata", ("name", "where", "what is wrong", "proof"), errata),
+        Table.of("slips", ("name", "where", "standing", "what is wrong", "proof"), slips),
     )
     reproduced = sum(row.verdict == "reproduced" for row in rows)
     show(
         tables,
-        f"{reproduced} of {len(rows)} printed numbers are reproduced to the last digit; {len(errata)} errata.",
+        f"{reproduced} of {len(rows)} printed numbers are reproduced to the last digit. {len(CONFIRMED)} errata are "
+        f"confirmed by the paper's own numbers; {len(ERRATA) - len(CONFIRMED)} places are unclear in our copy.",
     )
     return None

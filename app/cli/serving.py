@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import atexit
 import errno
 import faulthandler
 import logging
@@ -29,9 +30,8 @@ from ..visits import Visits
 
 _log = logging.getLogger(__name__)
 _LARGEST_MESSAGE = 1 << 20
-_FOR_SOCKETS, _FOR_REQUESTS, _IN_ALL = 6.0, 8.0, 9.5
-"""Seconds after the signal (and after `drain`) by which sockets are closed, requests are answered or given
-up, and the process has ended, whatever still computes."""
+_FOR_SOCKETS, _FOR_REQUESTS = 0.63, 0.84
+"""Shares of the settings' `grace` by which sockets are closed, and requests are answered or given up."""
 
 
 class Server(uvicorn.Server):
@@ -39,13 +39,14 @@ class Server(uvicorn.Server):
 
     After SIGTERM or SIGINT it is not ready any more (`/healthz`), but serves on for `drain` seconds, so that
     a proxy sees it. Then it listens no more; sockets get the answer that they wait for and a close with 1001,
-    requests are answered. A second signal ends it at once.
+    requests are answered. After `grace` seconds the process ends, whatever still computes; at a second signal at
+    once.
     """
 
     def __init__(self, config: uvicorn.Config, visits: Visits, settings: Settings) -> None:
         super().__init__(config)
         self._visits = visits
-        self._drain = settings.drain
+        self._drain, self._grace = settings.drain, settings.grace
         self._prefix = settings.root_path
         self._until = math.inf
 
@@ -67,7 +68,9 @@ class Server(uvicorn.Server):
         self._until = monotonic() + self._drain
         threading.Thread(target=self._end, name="end", daemon=True).start()
         # Should something hold Python's lock, that thread never runs; this one needs none.
-        faulthandler.dump_traceback_later(self._drain + _IN_ALL + 0.3, exit=True)
+        faulthandler.dump_traceback_later(self._drain + self._grace + 0.3, exit=True)
+        # Once all threads have ended, what is left is Python's own tidying up, and the end a good one.
+        atexit.register(faulthandler.cancel_dump_traceback_later)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Says goodbye to sockets before uvicorn, which would cut them off, sees to the rest."""
@@ -77,15 +80,15 @@ class Server(uvicorn.Server):
         await asyncio.sleep(max(began - monotonic(), 0.0))
         for server in self.servers:
             server.close()
-        await self._visits.farewell(_FOR_SOCKETS)
-        left = began + _FOR_REQUESTS - monotonic()
+        await self._visits.farewell(_FOR_SOCKETS * self._grace)
+        left = began + _FOR_REQUESTS * self._grace - monotonic()
         self.config.timeout_graceful_shutdown = max(math.ceil(left), 1)
         await super().shutdown(sockets)
         _log.info("ended after %.1f s", monotonic() - began)
 
     def _end(self) -> None:
         """Ends the process when its time is up: Python waits for threads that compute, however long."""
-        threading.Event().wait(self._drain + _IN_ALL)
+        threading.Event().wait(self._drain + self._grace)
         _log.warning("ending while something still computes")
         logging.shutdown()
         os._exit(0)
@@ -102,7 +105,7 @@ def listen(settings: Settings) -> int:
         print(f"heli2dof: cannot listen on {settings.host} port {port}: {why}. {other}", file=sys.stderr)
         return 1
     app = create_app(settings)
-    Server(server_config(app), app.state.visits, settings).run([bound])
+    Server(server_config(app, settings), app.state.visits, settings).run([bound])
     return 0
 
 
@@ -127,7 +130,7 @@ def listener(settings: Settings) -> socket.socket:
     return bound
 
 
-def server_config(app: Any) -> uvicorn.Config:
+def server_config(app: Any, settings: Settings) -> uvicorn.Config:
     """How uvicorn serves the app; the scene's relay relies on the socket settings."""
     return uvicorn.Config(
         app,
@@ -139,8 +142,8 @@ def server_config(app: Any) -> uvicorn.Config:
         ws="websockets-sansio",
         ws_max_size=_LARGEST_MESSAGE,
         ws_per_message_deflate=False,  # five times slower, and the frames are small
-        ws_ping_interval=5.0,  # a client that is gone is dropped after 10 s
-        ws_ping_timeout=5.0,
+        ws_ping_interval=settings.ping,  # a client that is gone is dropped after twice that
+        ws_ping_timeout=settings.ping,
         timeout_graceful_shutdown=5,
     )
 

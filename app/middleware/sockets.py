@@ -30,7 +30,7 @@ class Sockets:
             await self._next(scope, receive, send)
             return
         if self._visits.leaving:
-            gone = problem(503, "The server goes away.", "going_away", hint="Try again in a moment.")
+            gone = problem(503, "The server is shutting down.", "going_away", hint="Try again in a moment.")
             await refuse(scope, receive, send, gone, {"Retry-After": "1"})
             return
         await self._attend(scope, receive, send)

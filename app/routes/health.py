@@ -22,7 +22,7 @@ def build_router(compute: Compute, visits: Visits, metrics: Metrics | None) -> A
     @router.get("/healthz", summary="200 once ready to serve, 503 before and when it goes away")
     async def healthz() -> Response:
         if visits.closing:
-            gone = problem(503, "The server goes away.", "going_away", hint="Ask another one.")
+            gone = problem(503, "The server is shutting down.", "going_away", hint="Ask another one.")
             return problem_response(gone, {"Retry-After": "5"})
         if compute.ready:
             return json_response({"status": "ok"})

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 _log = logging.getLogger(__name__)
 
 DEFAULT_RIG: RigName = "helicopter"
-_SPARE_AFTER = 5.0
-"""Seconds without a client after which a session may make room for another."""
 _PANEL_PACE = 0.15
 """Seconds between two changes of what the panel shows: each element costs the server 0.1 ms."""
 
@@ -89,11 +87,13 @@ class SceneSessions:
     Args:
         capacity: how many sessions may exist at once.
         idle_seconds: how long a session outlives its last client.
+        spare_seconds: after how long without a client a session may make room for another.
     """
 
-    def __init__(self, capacity: int = 100, idle_seconds: float = 45.0) -> None:
+    def __init__(self, capacity: int = 100, idle_seconds: float = 45.0, spare_seconds: float = 5.0) -> None:
         self.capacity = capacity
         self.idle_seconds = idle_seconds
+        self.spare_seconds = spare_seconds
         self._sessions: dict[str, _Session] = {}
 
     def __len__(self) -> int:
@@ -206,7 +206,7 @@ class SceneSessions:
 
     async def _make_room(self) -> None:
         """Stop the session that has gone unwatched for longest, if there is one."""
-        spare = {key: s for key, s in self._sessions.items() if s.spare(_SPARE_AFTER)}
+        spare = {key: s for key, s in self._sessions.items() if s.spare(self.spare_seconds)}
         if spare:
             await self._stop([min(spare, key=lambda key: spare[key].idle_since)])
 

@@ -60,6 +60,7 @@ def render_header(spec: Spec, link: str = "") -> str:
         discretization=_discretization(controller),
         sample_time=repr(controller.sample_time),
         integrals=_INTEGRALS if controller.loop.has_integrators else "",
+        largest=LARGEST_READING,
     )
 
 
@@ -77,6 +78,7 @@ def render_source(spec: Spec, link: str = "") -> str:
             filter=_matrix("FILTER", F),
             gain=_vector("FILTER_GAIN", b),
             rate=f"R({FILTER_FREQUENCY**2!r})",
+            largest=_number(LARGEST_READING),
             integrals="        state->integral[i] = R(0.0);\n" if integrates else "",
         ),
         _step(
@@ -166,11 +168,13 @@ def _step(controller: _Controller, *, proportional: bool, feedforward: bool) -> 
     asked = ["        heli2dof_real u = TRIM[i];"]
     asked += [
         "        for (j = 0; j < 2; j++) {",
-        "            u -= K[i][j] * (angles[j] - OPERATING_POINT[j]);",
+        "            u -= K[i][j] * (state->angles[j] - OPERATING_POINT[j]);",
     ]
-    asked += ["            u -= K[i][2 + j] * rates[j];"]
+    asked += ["            u -= K[i][2 + j] * state->rates[j];"]
     asked += ["            u += PROPORTIONAL[i][j] * error[j];"] * proportional
-    asked += ["            u += FEEDFORWARD[i][j] * (reference[j] - OPERATING_POINT[j]);"] * feedforward
+    asked += [
+        "            u += FEEDFORWARD[i][j] * (state->reference[j] - OPERATING_POINT[j]);"
+    ] * feedforward
     asked += ["            u += INTEGRAL[i][j] * state->integral[j];"] * integrates + ["        }"]
     if controller.limited:
         asked += ["        voltages[i] = u > LIMIT[i] ? LIMIT[i] : u < -LIMIT[i] ? -LIMIT[i] : u;"]
@@ -186,9 +190,12 @@ def _step(controller: _Controller, *, proportional: bool, feedforward: bool) -> 
     lines += ["                   const heli2dof_real reference[2], heli2dof_real voltages[2])", "{"]
     names = ["error[2]"] * errors + ["asked[2]"] * (controller.windup == CLAMPING) + ["cut[2]"] * cut
     lines += [f"    heli2dof_real {', '.join(names)};"] * bool(names) + ["    int i, j;", ""]
-    lines += ["    (void)state; /* nothing integrates */"] * (not integrates)
-    lines += ["    (void)reference;"] * (not errors and not feedforward)
-    lines += ["    for (i = 0; i < 2; i++)", "        error[i] = reference[i] - angles[i];"] * errors
+    lines += ["    hold(state->angles, angles);", "    hold(state->rates, rates);"]
+    lines += ["    hold(state->reference, reference);"]
+    lines += [
+        "    for (i = 0; i < 2; i++)",
+        "        error[i] = state->reference[i] - state->angles[i];",
+    ] * errors
     lines += ["    for (i = 0; i < 2; i++) {", *asked, "    }"]
     if integrates:
         lines += [
@@ -214,6 +221,8 @@ def _windup(kind: int) -> list[str]:
 
 
 _INTEGRALS = "    heli2dof_real integral[2]; /* of the errors of pitch and yaw, rad s */\n"
+LARGEST_READING = 1e6
+"""Angles, rates and references beyond this, rad or rad/s, are no readings, as are NaN and infinity."""
 
 _HEADER = """\
 /*
@@ -224,6 +233,12 @@ _HEADER = """\
  * At every sample: read the angles, call heli2dof_rates (unless the rates are measured), then heli2dof_step,
  * and give the voltages to the motors. Angles in rad, absolute; rates in rad/s; voltages in V, as the motors
  * get them, trim included. Order: pitch, yaw. No allocation, no library, no global state.
+ * Where the voltages reach the motors one sample late, they have the trim until the first ones arrive.
+ *
+ * An angle, rate or reference that is NaN, infinite or beyond +-{largest:g} counts as not read: in its place stands
+ * the last good one, for each axis by itself, so that neither filters nor integrals are spoilt and the controller
+ * goes on with the next good reading. A rig whose readings stay away for long is not controlled: the caller must
+ * stop it. This needs IEEE arithmetic; do not compile with -ffast-math or -ffinite-math-only.
  * Compile with -DHELI2DOF_REAL=float for single precision.
  */
 #ifndef HELI2DOF_CONTROLLER_H
@@ -244,9 +259,10 @@ extern "C" {{
 /* What the controller remembers between samples. */
 typedef struct {{
     heli2dof_real filter[2][2]; /* of the rate filters, per axis */
-{integrals}}} heli2dof_state;
+{integrals}    heli2dof_real angles[2], rates[2], reference[2]; /* the last good ones */
+}} heli2dof_state;
 
-/* Before the first sample: the rig rests at these angles. */
+/* Before the first sample: the rig rests at these angles; one that is not read is taken at the operating point. */
 void heli2dof_start(heli2dof_state *state, const heli2dof_real angles[2]);
 
 /* Rates from the angles of this sample, by the filters; once per sample. */
@@ -268,28 +284,46 @@ _FILTER = """\
 {filter}
 {gain}
 static const heli2dof_real FILTER_RATE = {rate};
+static const heli2dof_real LARGEST_READING = {largest};
+
+/* The last good values: what is not read changes nothing. A comparison with NaN is false. */
+static void hold(heli2dof_real good[2], const heli2dof_real read[2])
+{{
+    int i;
+
+    for (i = 0; i < 2; i++)
+        if (read[i] >= -LARGEST_READING && read[i] <= LARGEST_READING)
+            good[i] = read[i];
+}}
 
 void heli2dof_start(heli2dof_state *state, const heli2dof_real angles[2])
 {{
     int i;
 
     for (i = 0; i < 2; i++) {{
-        state->filter[i][0] = angles[i] / FILTER_RATE;
-        state->filter[i][1] = R(0.0);
+        state->angles[i] = OPERATING_POINT[i];
+        state->rates[i] = R(0.0);
 {integrals}    }}
+    hold(state->angles, angles);
+    for (i = 0; i < 2; i++) {{
+        state->reference[i] = state->angles[i];
+        state->filter[i][0] = state->angles[i] / FILTER_RATE;
+        state->filter[i][1] = R(0.0);
+    }}
 }}
 
 void heli2dof_rates(heli2dof_state *state, const heli2dof_real angles[2], heli2dof_real rates[2])
 {{
     int i;
 
+    hold(state->angles, angles);
     for (i = 0; i < 2; i++) {{
         heli2dof_real *x = state->filter[i];
         const heli2dof_real x0 = x[0], x1 = x[1];
 
         rates[i] = FILTER_RATE * x1;
-        x[0] = FILTER[0][0] * x0 + FILTER[0][1] * x1 + FILTER_GAIN[0] * angles[i];
-        x[1] = FILTER[1][0] * x0 + FILTER[1][1] * x1 + FILTER_GAIN[1] * angles[i];
+        x[0] = FILTER[0][0] * x0 + FILTER[0][1] * x1 + FILTER_GAIN[0] * state->angles[i];
+        x[1] = FILTER[1][0] * x0 + FILTER[1][1] * x1 + FILTER_GAIN[1] * state->angles[i];
     }}
 }}"""
 

@@ -114,6 +114,7 @@ if ~exist('no_plots', 'var') || ~no_plots
     ylabel('voltage from trim, V'); xlabel('t, s'); legend('V_p', 'V_y');
 end
 % With the Control System Toolbox: loop = ss(A_loop, B_loop, [eye(2, n); law], [zeros(2); law_of_reference]);
+% In Octave keep it an ss: bode draws a tf with poles at 0 lower by 360 degrees, isstable of a 2x2 tf cancels poles.
 """
 
 FORMAT = Format("matlab", "Script for MATLAB and Octave", ".m", "text/x-matlab; charset=utf-8", render)

@@ -41,7 +41,7 @@ def origin(spec: Spec, name: str, link: str = "") -> list[str]:
         f"heli2dof {package_version()}",
         f"Rig: {preset.title}, preset {preset.name}" + (f", with {', '.join(changes)}" if changes else ""),
         f"Operating point: pitch {spec.theta_0!r} rad, yaw 0 rad",
-        f"Poles asked for: {poles_in_words(spec.poles.values)} rad/s"
+        f"Requested poles: {poles_in_words(spec.poles.values)} rad/s"
         + ("" if method.places_poles else f" ({method.name} chooses its own)"),
         f"Placement: {structure_in_words(spec)}; outer loop: {outer_in_words(spec)}",
         f"Made again by POST /api/v1/export/{name} with the body",

@@ -100,6 +100,8 @@ B_loop = B @ law_of_reference
 _RESPONSE = """response = ct.forced_response(loop, t, np.tile(reference[:, None], len(t)), x_0)
 theta, psi, V_p, V_y = response.outputs
 theta = theta + theta_0
+# Figures of merit, one entry at a time (entries that end at 0 have no shares of it):
+# ct.step_info(loop["theta", "theta_ref"], T=t)
 
 
 def distance(found, wanted):

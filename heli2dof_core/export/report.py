@@ -11,13 +11,15 @@ import numpy as np
 
 from ..couplings import Structure
 from ..evaluate import Report, Spec, evaluate
-from ..metrics import AxisMetrics
 from ..parameters import PARAMETER_INFO
 from ..placement.registry import METHODS
-from ..signals import AXES, INPUTS, OUTPUTS
+from ..signals import AXES, INPUTS, OUTPUTS, Floats
+from ..simulation.response import Response
+from ..spec import Model
 from .format import Format
 from .markup import figure, formula, indexed, matrix, paragraph, pole, section, table
 from .origin import origin, preset_of
+from .report_figures import merit
 from .report_style import STYLE
 from .svg import Curve, Marks, chart, number, pole_map
 
@@ -27,7 +29,7 @@ if TYPE_CHECKING:  # it would import SymPy before the first page
 
 def render(spec: Spec, link: str = "") -> str:
     """The page; figures and words are those of `evaluate`."""
-    report, preset = evaluate(spec), preset_of(spec)
+    report, preset = evaluate(spec, each_axis=True), preset_of(spec)
     title = f"Pole placement: {preset.title}"
     opened = (
         f'<p class="about">This design, live: <a href="{escape(link)}">{escape(link)}</a></p>' if link else ""
@@ -46,7 +48,7 @@ def render(spec: Spec, link: str = "") -> str:
             section("Design", *_design(spec, report)),
             section("Formulas", *_formulas(spec)),
             section("Responses", *_responses(spec, report)),
-            section("Figures of merit", *_merit(report)),
+            section("Figures of merit", *merit(report)),
             section("Findings", *_findings(report)),
             section("Origin", f"<pre>{escape(chr(10).join(origin(spec, FORMAT.name, link)))}</pre>"),
             "</main></body></html>\n",
@@ -88,7 +90,7 @@ def _design(spec: Spec, report: Report) -> Iterator[str]:
             (name, pole(p), pole(q), number(abs(p - q), 2))
             for name, p, q in zip(names, design.poles.values, found, strict=True)
         ]
-        yield table(("", "asked for, rad/s", "placed, rad/s", "distance, rad/s"), rows)
+        yield table(("", "requested, rad/s", "placed, rad/s", "distance, rad/s"), rows)
     else:
         yield table(("", "chosen by the method, rad/s"), list(zip(names, map(pole, found), strict=True)))
     yield matrix("<mi>K</mi>", design.K)
@@ -177,42 +179,55 @@ def _inner(mathml: str) -> str:
 
 
 def _responses(spec: Spec, report: Report) -> Iterator[str]:
-    rig, linear = report.step["nonlinear"].response, report.step["linear"].response
     yield paragraph(_experiment(spec, report))
-    t, pictures = rig.t, []
+    trim, reference = report.design.plant.trim, report.step["nonlinear"].response.reference
+    bounds, pictures = (spec.limits.V_p, spec.limits.V_y), []
     for i, signal in enumerate(OUTPUTS):
-        curves = [
-            Curve(t, np.full(len(t), degrees(rig.reference[i])), "mark"),
-            Curve(t, np.degrees(linear.angles[i]), "linear"),
-            Curve(t, np.degrees(rig.angles[i]), "rig"),
-        ]
+        curves = [Curve(t, np.degrees(response.angles[i]), kind) for t, response, kind in _traces(report)]
+        curves.append(Curve(curves[0].x, np.full(len(curves[0].x), degrees(reference[i])), "mark"))
         pictures.append(figure(chart(signal.meaning, "t, s", f"{signal.symbol}, °", curves), signal.meaning))
-    bounds = (spec.limits.V_p, spec.limits.V_y)
     for i, signal in enumerate(INPUTS):
         curves = [
-            Curve(t, linear.voltages[i] + report.design.plant.trim[i], "linear"),
-            Curve(t, rig.voltages[i], "rig"),
+            Curve(t, r.voltages[i] + (trim[i] if r.model == "linear" else 0.0), kind)
+            for t, r, kind in _traces(report)
         ]
         if spec.scenario.saturation:
-            near = [bound for bound in (-bounds[i], bounds[i]) if np.max(rig.voltages[i] / bound) > 0.8]
-            curves += [Curve(t, np.full(len(t), bound), "mark") for bound in near]
+            solid = [c.y for c in curves if c.kind in AXES]
+            near = [b for b in (-bounds[i], bounds[i]) if max(float(np.max(y / b)) for y in solid) > 0.8]
+            curves += [Curve(curves[0].x, np.full(len(curves[0].x), bound), "mark") for bound in near]
         pictures.append(figure(chart(signal.meaning, "t, s", f"{signal.symbol}, V", curves), signal.meaning))
     yield f'<div class="plots">{"".join(pictures)}</div>'
     yield paragraph(
-        "Solid: the nonlinear rig within its limits; dashed: the linear model without them, the trim added to its "
-        "voltages, where it fits in the picture; dotted: references and voltage limits.",
+        "Thick: pitch step; thin: yaw step, each alone on the nonlinear rig. Dashed and dotted: the same by the "
+        "linear model, without limits, the trim added to its voltages, where it fits in the picture. Grey: "
+        "references and voltage limits.",
         "about",
     )
+
+
+def _traces(report: Report) -> Iterator[tuple[Floats, Response, str]]:
+    """The page's curves, those of the linear model below; without any step the rig at rest."""
+    steps = report.axis_steps
+    models: tuple[tuple[Model, str], ...] = (("linear", "-linear"), ("nonlinear", ""))
+    for model, suffix in models:
+        for axis, signal in zip(AXES, OUTPUTS, strict=True):
+            if signal.name in steps:
+                response = steps[signal.name][model].response
+                yield response.t, response, axis + suffix
+    if not steps:
+        rest = report.step["nonlinear"].response
+        yield rest.t, rest, "pitch"
 
 
 def _experiment(spec: Spec, report: Report) -> str:
     scenario = spec.scenario
     rig = report.step["nonlinear"].response
     steps = ", ".join(
-        f"{s.symbol} from {number(degrees(a))}° to {number(degrees(b))}°"
-        for s, a, b in zip(OUTPUTS, rig.start, rig.reference, strict=True)
+        f"{axis} step from {number(degrees(a))}° to {number(degrees(b))}°"
+        for axis, signal, a, b in zip(AXES, OUTPUTS, rig.start, rig.reference, strict=True)
+        if signal.name in report.axis_steps
     )
-    parts = [f"Steps at t = 0: {steps}"]
+    parts = [f"Each axis stepped alone at t = 0: {steps}" if steps else "No step: the rig rests"]
     parts.append("voltages limited" if scenario.saturation else "voltages unlimited")
     if scenario.saturation and report.loop.has_integrators:
         parts.append(f"anti-windup: {scenario.anti_windup}")
@@ -226,74 +241,9 @@ def _experiment(spec: Spec, report: Report) -> str:
     return "; ".join(parts) + "."
 
 
-_ROWS = (
-    ("rise time (10–90 %)", "s", "rise_time", 1.0),
-    ("settling time (2 %)", "s", "settling_time", 1.0),
-    ("overshoot", "%", "overshoot", 1.0),
-    ("peak", "°", "peak", degrees(1.0)),
-    ("peak time", "s", "peak_time", 1.0),
-    ("steady-state error", "°", "steady_state_error", degrees(1.0)),
-    ("IAE", "rad·s", "iae", 1.0),
-    ("ITAE", "rad·s²", "itae", 1.0),
-)
-
-
-def _value(axis: AxisMetrics, name: str, factor: float) -> str:
-    value = getattr(axis, name)
-    return "–" if value is None else number(factor * value)
-
-
-def _merit(report: Report) -> Iterator[str]:
-    rig, linear = report.step["nonlinear"].metrics, report.step["linear"].metrics
-    names = [*rig.axes]
-    symbols = {signal.name: signal.symbol for signal in (*OUTPUTS, *INPUTS)}
-    if names:
-        head = ("", *(f"{symbols[name]}, {model}" for name in names for model in ("rig", "linear")), "unit")
-        rows = [
-            (words, *(_value(m.axes[name], key, factor) for name in names for m in (rig, linear)), unit)
-            for words, unit, key, factor in _ROWS
-        ]
-        yield table(head, rows)
-    if rig.coupling_peak is not None and linear.coupling_peak is not None:
-        peaks = (number(degrees(m.coupling_peak or 0.0)) for m in (rig, linear))
-        yield paragraph("The other axis moves by at most {}° (linear: {}°).".format(*peaks))
-    motors = [
-        (symbols[name], number(m.peak), number(100 * m.saturated), number(m.effort))
-        for name, m in rig.motors.items()
-    ]
-    yield table(("motor", "peak, V", "at its limit, % of time", "effort, V²·s"), motors, "Motors of the rig")
-    yield from _margins(report)
-
-
-def _margins(report: Report) -> Iterator[str]:
-    if report.margins is None or report.sensitivity is None:
-        yield paragraph("The whole loop is unstable: it has no margins.")
-        return
-
-    def told(value: float | None, factor: float = 1.0) -> str:
-        return "unlimited" if value is None else number(factor * value)
-
-    rows = [
-        (
-            axis,
-            told(m.gain_margin),
-            told(m.gain_reduction_margin),
-            told(m.phase_margin, degrees(1)),
-            told(m.delay_margin, 1e3),
-        )
-        for axis, m in zip(AXES, report.margins, strict=True)
-    ]
-    head = ("motor", "gain, up to ×", "gain, down to ×", "phase, °", "delay, ms")
-    yield table(head, rows, "Margins at each motor, the other loop closed")
-    s = report.sensitivity
-    yield paragraph(
-        f"Both motors at once: sensitivity peak {number(s.peak)}, disk margin {number(s.disk_margin)}."
-    )
-
-
 def _findings(report: Report) -> Iterator[str]:
     if not report.findings:
-        yield paragraph("None.")
+        yield paragraph("No warnings.")
         return
     items = "".join(f"<li><b>{escape(f.severity)}:</b> {escape(f.message)}</li>" for f in report.findings)
     yield f"<ul>{items}</ul>"

@@ -18,8 +18,11 @@ tbody th { font-weight: 400; }
 .plots { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: .6rem 1rem; }
 figure { margin: 0; break-inside: avoid; }
 svg { width: 100%; height: auto; font: 10px system-ui, sans-serif; }
-svg .rig, svg .pole { fill: none; stroke: #111; stroke-width: 1.5; }
-svg .linear { fill: none; stroke: #0b5ea8; stroke-width: 1.3; stroke-dasharray: 5 3; }
+svg .pole { fill: none; stroke: #111; stroke-width: 1.5; }
+svg .pitch, svg .pitch-linear { fill: none; stroke: #b94a2c; stroke-width: 2.2; }
+svg .yaw, svg .yaw-linear { fill: none; stroke: #24689b; stroke-width: 1.3; }
+svg .pitch-linear { stroke-width: 1.4; stroke-dasharray: 6 3; }
+svg .yaw-linear { stroke-dasharray: 1.5 2.5; }
 svg .mark { fill: none; stroke: #555; stroke-dasharray: 1.5 2.5; }
 svg .grid { stroke: #e4e4e4; }
 svg .axis { fill: none; stroke: #555; }

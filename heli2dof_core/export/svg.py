@@ -18,7 +18,7 @@ MOST_POINTS = 400
 
 @dataclass(frozen=True)
 class Curve:
-    """One line: its values over x, and its class (`rig`, `linear` or `mark`), which the style sheet draws."""
+    """One line: values over x, and the class that the style draws: `pitch`, `yaw` (`…-linear`) or `mark`."""
 
     x: Floats
     y: Floats
@@ -62,10 +62,10 @@ def thinned(x: Floats, y: Floats, most: int = MOST_POINTS) -> tuple[Floats, Floa
 def chart(title: str, x_label: str, y_label: str, curves: Iterable[Curve]) -> str:
     """Curves over x with both axes, the title for screen readers.
 
-    A `linear` curve that goes far beyond the others, as an unstable one does, is cut off.
+    A linear model's curve that goes far beyond the others, as an unstable one does, is cut off.
     """
     curves = list(curves)
-    low, high = _range([curve for curve in curves if curve.kind != "linear"])
+    low, high = _range([curve for curve in curves if not curve.kind.endswith("linear")])
     room = high - low or 1.0
     linear_low, linear_high = _range(curves)
     low, high = max(linear_low, low - room), min(linear_high, high + room)

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..layout import (
     BACK_CALCULATION,
+    BEFORE,
     BETA,
     CLAMPING,
     DELAY,
@@ -25,6 +26,7 @@ from ..layout import (
     STEP,
     TIME,
     TRACKING,
+    TRAVEL,
     WANTED,
     WINDUP,
     F,
@@ -57,18 +59,19 @@ def run_digital(
 
     `c`, `m` as for `integrate`, with the controller's gains; `noise`, (samples, 2), is added to the
     measured angles, rad; the disturbance acts from the first sample at or after `disturbed_from`.
-    Scratch: `w` of zeros, `plant` and `free` like c and m, `grid` (len(t) + 2,), `course` (len(t) + 2, 6).
+    With a delay the motors have the voltages d[BEFORE] until the second sample. Scratch: `w` of zeros, `plant` and
+    `free` like c and m, `grid` (len(t) + 2,), `course` (len(t) + 2, 6).
     Returns the outcome, the grid points filled and the impacts.
     """
     without_controller(c, m, plant, free)
     filters, measured, held, waiting = w[16:18], w[18], w[19], w[20]
-    settle_filters(y, d, filters)
+    stand(y, c, d, filters, held)
     now, done, impacts, k = t[0], 0, 0, 0
     period = d[TIME]
     while done < len(t):
         sense(y, d, filters, noise[min(k, len(noise) - 1)], measured)
         control(y, c, m, d, measured, w[21], waiting)
-        if d[DELAY] == 0.0 or k == 0:
+        if d[DELAY] == 0.0:
             held[0], held[1] = waiting[0], waiting[1]
         following = t[0] + (k + 1) * period
         count = 1
@@ -122,6 +125,22 @@ def without_controller(c, m, plant, free):
     plant[LIMIT], plant[LIMIT + 1] = np.inf, np.inf
     put(m, free)
     free[WINDUP] = 0
+
+
+@kernel
+def stand(y, c, d, filters, held):
+    """The rig before the first sample: within its travel, its filters settled, under the voltages d[BEFORE]."""
+    enter(y, c)
+    held[0], held[1] = d[BEFORE], d[BEFORE + 1]
+    settle_filters(y, d, filters)
+
+
+@kernel
+def enter(y, c):
+    """Who starts beyond a stop of the pitch travel stands at it, as in `rig.meet_stop`."""
+    if abs(y[0]) >= c[TRAVEL]:
+        y[0] = c[TRAVEL] if y[0] > 0.0 else -c[TRAVEL]
+        y[2] = 0.0
 
 
 @kernel

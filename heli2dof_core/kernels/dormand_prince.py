@@ -15,6 +15,8 @@ from .rig import meet_stop, rates, resolve, switch, watch
 
 ENDED, OUT_OF_STEPS, OUT_OF_SWITCHES = 0, 1, 2
 MOST_SWITCHES = 2000
+SHORTEST = 1e-9
+"""Of first steps, s; a step that errs is made shorter anyway."""
 
 
 @kernel
@@ -70,14 +72,17 @@ def integrate(y, t, c, m, rtol, atol, most_steps, w, states):
 
 @kernel
 def first_step(y, k, length, rtol, atol):
-    """A hundredth of the time in which the state would change by itself (Hairer, II.4)."""
+    """A hundredth of the time in which the state would change by itself (Hairer, II.4), from `SHORTEST` on.
+
+    That time is no measure where the state is 0 but for rounding.
+    """
     size = speed = 0.0
     for i in range(6):
         scale = atol + rtol * abs(y[i])
         size += (y[i] / scale) ** 2
         speed += (k[0, i] / scale) ** 2
     size, speed = sqrt(size / 6), sqrt(speed / 6)
-    return min(length, 1e-6 if min(size, speed) < 1e-5 else 0.01 * size / speed)
+    return min(length, 1e-6 if min(size, speed) < 1e-5 else max(SHORTEST, 0.01 * size / speed))
 
 
 @kernel

@@ -28,7 +28,7 @@ from ..layout import (
     TRAVEL,
     WANTED,
 )
-from .digital import control, sense, settle_filters, without_controller
+from .digital import control, enter, sense, stand, without_controller
 from .dormand_prince import integrate
 from .jit import kernel, put
 
@@ -69,6 +69,7 @@ def run_held(start, t, volts, c, longest_step, w, states):
     """
     state, stage, slope, total = w[0], w[1], w[2], w[3]
     put(start, state[0])
+    enter(state[0], c)
     for k in range(len(t)):
         put(state[0], states[k])
         if k + 1 < len(t):
@@ -150,7 +151,7 @@ def run_recorder(
     put(c, own)
     without_controller(c, m, plant, free)
     filters, seen, held, waiting = w[16:18], w[18], w[19], w[20]
-    settle_filters(y, d, filters)
+    stand(y, c, d, filters, held)
     impacts = 0
     for k in range(len(references)):
         for i in range(2):
@@ -158,7 +159,7 @@ def run_recorder(
         put(y, states[k])
         sense(y, d, filters, noise[k], seen)
         control(y, own, m, d, seen, w[21], waiting)
-        if d[DELAY] == 0.0 or k == 0:
+        if d[DELAY] == 0.0:
             held[0], held[1] = waiting[0], waiting[1]
         for i in range(2):
             measured[k, i], voltages[k, i] = seen[i], held[i]

@@ -1,4 +1,7 @@
-"""What is wrong in the paper (in our copy), what is right, and the proof of each."""
+"""What is wrong in our copy of the paper, the corrected form, and the proof of each.
+
+Only what the paper's own printed numbers confirm is an erratum of the paper; the rest is unclear in our copy.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +9,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from . import proofs
+from .evidence import EVIDENCE, Evidence
 from .proofs import Proof
 
 
 @dataclass(frozen=True)
 class Erratum:
-    """One mistake.
+    """One mistake, of the paper or of our copy.
 
     Attributes:
         name: for programs.
@@ -29,6 +33,11 @@ class Erratum:
     why: str
     effect: str
     prove: Callable[[], Proof]
+
+    @property
+    def evidence(self) -> Evidence | None:
+        """Printed numbers of the paper that confirm it; None where our copy alone may be at fault."""
+        return EVIDENCE.get(self.name)
 
 
 ERRATA = (
@@ -105,7 +114,7 @@ ERRATA = (
         r"m = 1.3872,\ l = 0.1855,\ J_y = 0.0431,\ K_{pp} = 0.2041",
         r"m = 1.39,\ l = 0.186,\ J_y = 0.0432,\ K_{pp} = 0.204,\ B_p = B_y = 0.8",
         "The printed results follow, digit for digit, from the second set, and not from the table.",
-        "Who computes with the table gets other gains.",
+        "Anyone who uses the table gets different gains.",
         proofs.table_values,
     ),
     Erratum(
@@ -147,4 +156,6 @@ ERRATA = (
         proofs.interaction_at_rest,
     ),
 )
-"""All errata, in the order of the paper."""
+"""All of them, in the order of the paper."""
+CONFIRMED = tuple(erratum for erratum in ERRATA if erratum.evidence is not None)
+"""The paper's errata: its own numbers confirm them."""

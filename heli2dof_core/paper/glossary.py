@@ -43,7 +43,7 @@ def _gains() -> list[Term]:
     motors, states = ("pitch motor", "yaw motor"), ("θ", "ψ", "θ̇", "ψ̇")
     units = ("V/rad", "V/rad", "V·s/rad", "V·s/rad")
     return [
-        Term(f"k_{i}{j}", f"k_{{{i}{j}}}", f"what the {motor} gets back of {state}", unit)
+        Term(f"k_{i}{j}", f"k_{{{i}{j}}}", f"feedback from {state} to the {motor}", unit)
         for i, motor in enumerate(motors, 1)
         for j, (state, unit) in enumerate(zip(states, units, strict=True), 1)
     ]
@@ -87,7 +87,7 @@ TERMS: tuple[Term, ...] = (
     Term("y", "y", "outputs, the angles θ and ψ", "rad"),
     Term("trim", r"V_{\text{trim}}", "voltages that hold the rig at rest", "V"),
     Term("A", "A", "system matrix", "", _CONTROL),
-    Term("A", "A_{44}", "last entry of the system matrix, the decay of the yaw rate", "1/s", _CONTROL),
+    Term("A_44", "A_{44}", "last entry of the system matrix, the decay of the yaw rate", "1/s", _CONTROL),
     Term("B", "B", "input matrix", "", _CONTROL),
     Term("C", "C", "output matrix, picks the angles out of the state", "", _CONTROL),
     Term("sigma", r"\sigma(", "set of eigenvalues", "rad/s", _CONTROL),

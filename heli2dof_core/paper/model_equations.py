@@ -85,7 +85,7 @@ MECHANICS = (
         title="State",
         chapter="mechanics",
         plain="Two angles say where the rig is and their two rates where it is going; nothing else is needed to "
-        "foretell its motion.",
+        "predict its motion.",
         printed=r"x = [\theta\ \ \psi\ \ \dot\theta\ \ \dot\psi]^T",
         note="Printed as q = [q₁ q₂ q₃ q₄], while Eqs. 4 and 9 to 12 call q the two angles alone.",
     ),

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..eigenvalues import eigenvectors
+from ..controllability import scan
 from ..findings import Finding
-from ..poles import match_poles
 from ..signals import Complexes, Floats
 from ..tables import Shown, Table, number
 from ..tables import poles as pole_words
@@ -18,9 +17,12 @@ from .full_rank import FullRankPlacement
 from .groups import conjugate_units
 from .method import Placement, Task, Weights, require_system
 from .registry import method as method_named
+from .verdict import Verdict, eigenvector_condition, judge
 
 NEARLY_DEPENDENT = 1e-5
 """Weakest column of the scan below which a system is said to be nearly uncontrollable."""
+NOTICED = 1e-6
+"""Share of the largest pole from which on an error of the poles is remarked on."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -29,8 +31,10 @@ class Assessment(Shown):
 
     Attributes:
         placement: K, and with full-rank placement T, Q, indices and groups.
-        closed_loop_poles: eigenvalues of A − BK as computed, in the order of the poles asked for.
+        closed_loop_poles: eigenvalues of A − BK, in the order of the poles asked for.
         pole_error: largest distance between the two; None where the method chose its own.
+        pole_error_bound: how far rounding may have moved the poles told, and so their error; where floats do not
+            tell them, A − BK is computed exactly (`placement.verdict`).
         norm, spectral_norm: Frobenius norm and largest singular value of K.
         eigenvector_condition: see `eigenvector_condition`.
         findings: remarks.
@@ -39,6 +43,7 @@ class Assessment(Shown):
     placement: Placement
     closed_loop_poles: Complexes
     pole_error: float | None
+    pole_error_bound: float
     norm: float
     spectral_norm: float
     eigenvector_condition: float | None
@@ -86,6 +91,8 @@ def place_poles(
     chosen = method_named(method)
     states, inputs, wanted = require_system(A, B, poles)
     conjugate_units(wanted)
+    if chosen.places_poles:
+        scan(states, inputs)
     n, p = inputs.shape
     outputs = np.zeros((0, n)) if C is None else np.asarray(C, dtype=float)
     weights = weights or Weights((1.0,) * n, (1.0,) * p, (1.0,) * len(outputs))
@@ -98,33 +105,20 @@ def assess(
 ) -> Assessment:
     """What a placement does to (A, B); `aimed` says whether it was to place `wanted`."""
     K = placement.K
-    closed = A - B @ K
-    found = np.linalg.eigvals(closed).astype(complex)
-    found = found[match_poles(wanted, found)]
-    error = float(np.max(np.abs(found - wanted))) if aimed else None
+    verdict = judge(A, B, K, wanted, condition=True)
     return Assessment(
         placement,
-        found,
-        error,
+        verdict.poles,
+        verdict.error if aimed else None,
+        verdict.bound,
         norm=float(np.linalg.norm(K)),
         spectral_norm=float(np.linalg.norm(K, 2)),
-        eigenvector_condition=eigenvector_condition(closed),
-        findings=tuple(_remarks(placement, wanted, error)),
+        eigenvector_condition=verdict.condition if verdict.exact else eigenvector_condition(A - B @ K),
+        findings=tuple(_remarks(placement, wanted, verdict, aimed=aimed)),
     )
 
 
-def eigenvector_condition(A_closed: Floats) -> float | None:
-    """κ₂ of the eigenvectors of length 1; None where there are too few of them, as at double poles.
-
-    It bounds the factor by which a perturbation of A − BK is amplified in its poles (Bauer and Fike,
-    Numer. Math. 2 (1960) 137).
-    """
-    sizes = np.linalg.svd(eigenvectors(A_closed), compute_uv=False)
-    condition = float(sizes[0] / sizes[-1]) if sizes[-1] > 0 else np.inf
-    return condition if condition < 1 / np.finfo(float).eps else None
-
-
-def _remarks(placement: Placement, wanted: Complexes, error: float | None) -> Iterator[Finding]:
+def _remarks(placement: Placement, wanted: Complexes, verdict: Verdict, *, aimed: bool) -> Iterator[Finding]:
     if isinstance(placement, FullRankPlacement) and placement.weakest < NEARLY_DEPENDENT:
         yield Finding(
             "nearly_uncontrollable",
@@ -132,10 +126,22 @@ def _remarks(placement: Placement, wanted: Complexes, error: float | None) -> It
             f"The system is nearly uncontrollable: a column of the scan adds only {placement.weakest:.1e} to those "
             "before it, and the gains grow as the inverse of that.",
         )
-    if error is not None and error > 1e-6 * max(float(np.max(np.abs(wanted))), 1.0):
+    size = float(np.max(np.abs(wanted if aimed else verdict.poles), initial=0.0)) or 1.0
+    if aimed and verdict.error > NOTICED * size:
         yield Finding(
             "pole_error",
             "warning",
-            f"The computed poles miss the wanted ones by up to {error:.2g}: poles that coincide, or lie far "
-            "out, are sensitive to rounding.",
+            f"K places the poles with an error of up to {verdict.error:.2g}: poles that coincide, or lie far out, "
+            "are sensitive to rounding K.",
         )
+    if verdict.exact and verdict.rounding > NOTICED * size:
+        yield Finding(
+            "rounded_closed_loop",
+            "info",
+            "The poles told are those of A − BK computed without rounding. Rounded to floating point, A − BK can "
+            f"have others, {_apart(verdict.rounding, size)} away: so sensitive are they to the model.",
+        )
+
+
+def _apart(distance: float, size: float) -> str:
+    return f"up to {distance:.1g}" if distance < size else "as far as they are large and more"

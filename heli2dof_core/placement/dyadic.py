@@ -10,12 +10,16 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..controllability import RANK_TOLERANCE
-from ..errors import MethodUnavailableError
+from ..controllability import RANK_TOLERANCE, in_own_units, scan
+from ..errors import MethodUnavailableError, UncontrollableError
 from ..signals import Complexes, Floats
 
 DIRECTIONS = 360
 """Directions of f that are tried before the best is refined."""
+TRIED = 5
+"""Of these, so many decide whether one input can control the plant at all."""
+SCATTER = 1e-4
+"""Eigenvalues closer than this, in units of A's size, count as one that rounding has scattered."""
 
 SingleInput = Callable[[Floats, Floats, Floats], Floats]
 """k, shape (n,), of one input: f(A, b, characteristic polynomial wanted)."""
@@ -35,14 +39,17 @@ def place_dyadic(
 
     Raises:
         MethodUnavailableError: no f makes the pair controllable, with the reason.
+        UncontrollableError: nor does the only input that there is.
     """
     K_0 = np.zeros(B.T.shape) if first_feedback is None else np.asarray(first_feedback, dtype=float)
     plant = A - B @ K_0
-    require_cyclic(plant)
-    wanted = np.asarray(np.poly(poles).real, dtype=np.float64)
+    directions = _directions(B.shape[1])
+    require_single_input(plant, B, directions)
+    scaled, inputs, units, speed = in_own_units(plant, B)
+    wanted = np.asarray(np.poly(poles / speed).real, dtype=np.float64)
 
     def gain(f: Floats) -> Floats:
-        return np.outer(f, formula(plant, B @ f, wanted))
+        return np.outer(f, formula(scaled, inputs @ f, wanted) / units)
 
     def size(direction: Floats) -> float:
         length = np.linalg.norm(direction)
@@ -52,8 +59,14 @@ def place_dyadic(
             return np.inf
         return norm if np.isfinite(norm) else np.inf
 
-    directions = _directions(B.shape[1])
-    best = directions[int(np.argmin([size(f) for f in directions]))]
+    sizes = [size(f) for f in directions]
+    best = directions[int(np.argmin(sizes))]
+    if not np.isfinite(min(sizes)):
+        raise MethodUnavailableError(
+            "no gain could be computed: the controllability matrix of one input is singular in floating point",
+            field="method",
+            hint="Choose full-rank placement, which computes with fractions.",
+        )
     if len(directions) > 1:
         from scipy.optimize import minimize
 
@@ -61,26 +74,51 @@ def place_dyadic(
     return K_0 + gain(best / np.linalg.norm(best))
 
 
-def require_cyclic(A: Floats) -> None:
-    """Raises MethodUnavailableError if an eigenvalue of A has several independent eigenvectors.
+def require_single_input(A: Floats, B: Floats, directions: Floats) -> None:
+    """Raises MethodUnavailableError if no single input Bf can control A, whatever the direction f.
 
-    Wonham (IEEE TAC 12:660–665, 1967): a single input can control A only if A is cyclic.
+    Wonham (IEEE TAC 12:660–665, 1967): of a controllable pair almost every f is controllable if A is cyclic, that is,
+    if no eigenvalue has several independent eigenvectors, and none else. So a few directions decide; the scan judges
+    them, which units do not mislead, nor eigenvalues that rounding has scattered.
+
+    Raises:
+        UncontrollableError: there is one input, and it does not reach all states.
     """
-    size = max(float(np.linalg.norm(A)), np.finfo(float).tiny)
-    for value in np.linalg.eigvals(A):
-        singular = np.linalg.svd(A - value * np.eye(len(A)), compute_uv=False)
-        independent = int(np.sum(singular <= RANK_TOLERANCE * size))
-        if independent > 1:
-            real = abs(value.imag) <= RANK_TOLERANCE * size
-            eigenvalue = f"{value.real + 0.0:.4g}" if real else f"{value:.4g}"
-            raise MethodUnavailableError(
-                f"no single input can control this plant: A has the eigenvalue {eigenvalue} with {independent} "
-                f"independent eigenvectors, and one input Bf, whatever the direction f, reaches but one of "
-                "them, so (A, Bf) is uncontrollable for every f. Only after a first feedback K₀ that "
-                "separates them does such a design exist",
-                field="method",
-                hint="Take a method for several inputs, or give a first feedback.",
-            )
+    if len(directions) == 1:
+        scan(A, B)
+        return
+    for f in directions[:: max(1, len(directions) // TRIED)]:
+        try:
+            scan(A, (B @ f)[:, None])
+        except UncontrollableError:
+            continue
+        return
+    value, independent = _repeated(A, B)
+    raise MethodUnavailableError(
+        "this formula needs one input that reaches every state. Here no mix of the inputs does: A has the eigenvalue "
+        f"{value} with {independent} independent eigenvectors, and one input reaches only one of them",
+        field="method",
+        hint="Choose a method for several inputs.",
+    )
+
+
+def _repeated(A: Floats, B: Floats) -> tuple[str, int]:
+    """The eigenvalue of A that has most independent eigenvectors, in words, and how many."""
+    scaled, _, _, speed = in_own_units(A, B)
+    values = np.linalg.eigvals(scaled)
+    counts = []
+    for value in values:
+        near = values[np.abs(values - value) <= SCATTER * max(1.0, abs(value))]
+        centre = np.mean(near)  # rounding scatters a multiple eigenvalue evenly around itself
+        small = np.linalg.svd(scaled - centre * np.eye(len(A)), compute_uv=False) <= np.sqrt(RANK_TOLERANCE)
+        counts.append((int(np.sum(small)), centre))
+    independent, centre = max(counts, key=lambda pair: pair[0])
+    value = complex(centre) * speed
+    tiny = RANK_TOLERANCE * speed
+    real = 0.0 if abs(value.real) <= tiny else value.real
+    return f"{real:.4g}" if abs(value.imag) <= tiny else f"{complex(real, value.imag):.4g}", max(
+        2, independent
+    )
 
 
 def krylov(A: Floats, b: Floats) -> Floats:

@@ -8,17 +8,17 @@ most of them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..controllability import scan
 from ..errors import InvalidInputError
-from ..signals import Complexes, Floats
+from ..signals import Floats
+from .exact import exact_coefficients, exact_matrix, float_matrix
 from .groups import Group, assign, require_groups
 from .method import Placement, Task, require_system
 
@@ -93,8 +93,6 @@ def full_rank(
         UnpairedPolesError: the poles, or a group of them, are not closed under conjugation.
         UncontrollableError: (A, B) is not controllable.
     """
-    from sympy import QQ
-
     from ..symbolic.luenberger import Triangle, canonical_form, desired_rows, feedback, leading_rows
 
     A, B, wanted = require_system(A, B, poles)
@@ -104,20 +102,26 @@ def full_rank(
     order = _require_order(input_order, p)
     scanned = scan(A, B[:, order])
     indices = scanned.indices
+    if 0 in indices:
+        raise InvalidInputError(
+            f"input {order[indices.index(0)] + 1} moves the states hardly otherwise than the inputs before it",
+            field="B",
+            hint="Leave that column of B out.",
+        )
     chosen = assign(wanted, indices) if groups is None else _reordered(groups, order)
     chosen = require_groups(chosen, wanted, indices)
-    matrix, inputs = _exact(A), _exact(B[:, order])
+    matrix, inputs = exact_matrix(A), exact_matrix(B[:, order])
     rows = leading_rows(matrix, inputs, indices)
     if shift is not None:
         rows = _shifted(rows, _require_shift(shift, indices))
     form = canonical_form(matrix, inputs, indices, rows)
-    polynomials = [(g.inputs, _coefficients(wanted[list(g.poles)], QQ)) for g in chosen]
-    gain = _floats(feedback(form, desired_rows(form, polynomials, triangle)))
+    polynomials = [(g.inputs, exact_coefficients(wanted[list(g.poles)])) for g in chosen]
+    gain = float_matrix(feedback(form, desired_rows(form, polynomials, triangle)))
     back = np.argsort(order)
     return FullRankPlacement(
         K=gain[back],
-        T=_floats(form.T),
-        Q=_floats(form.Q)[:, back],
+        T=float_matrix(form.T),
+        Q=float_matrix(form.Q)[:, back],
         controllability_indices=tuple(indices[i] for i in back),
         weakest=scanned.weakest,
         groups=tuple(Group(tuple(order[i] for i in g.inputs), g.poles) for g in chosen),
@@ -158,35 +162,6 @@ def _require_shift(shift: ArrayLike, indices: tuple[int, ...]) -> Floats:
 
 
 def _shifted(rows: list[DomainMatrix], S: Floats) -> list[DomainMatrix]:
-    stacked = _exact(S).matmul(rows[0].vstack(*rows[1:]))
+    stacked = exact_matrix(S).matmul(rows[0].vstack(*rows[1:]))
     n = stacked.shape[1]
     return [stacked.extract([i], list(range(n))) for i in range(len(rows))]
-
-
-def _coefficients(poles: Complexes, field: Any) -> list[Any]:
-    """d₀ … of Π (s − p), exactly, the leading 1 left out; complex poles count once per pair."""
-    polynomial = [field.one]
-    for p in poles:
-        if p.imag < 0:
-            continue
-        re, im = (field(*Fraction(part).as_integer_ratio()) for part in (p.real, p.imag))
-        factor = [re * re + im * im, -2 * re, field.one] if p.imag else [-re, field.one]
-        product = [field.zero] * (len(polynomial) + len(factor) - 1)
-        for i, a in enumerate(polynomial):
-            for j, b in enumerate(factor):
-                product[i + j] += a * b
-        polynomial = product
-    return polynomial[:-1]
-
-
-def _exact(matrix: Floats) -> DomainMatrix:
-    from sympy import QQ
-    from sympy.polys.matrices import DomainMatrix
-
-    entries = [[QQ(*float(x).as_integer_ratio()) for x in row] for row in matrix]
-    return DomainMatrix(entries, matrix.shape, QQ)
-
-
-def _floats(matrix: DomainMatrix) -> Floats:
-    rows: Iterable[Iterable[Any]] = matrix.to_list()
-    return np.array([[float(Fraction(int(x.numerator), int(x.denominator))) for x in row] for row in rows])

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..errors import MethodUnavailableError
+from ..errors import InvalidInputError, MethodUnavailableError
 from ..signals import Floats
 from .method import Placement, Task, Weights
+from .riccati import Regulator, refusal, require_stabilizing
 
 
 class LQR:
@@ -28,30 +29,48 @@ class LQR:
         return Placement(regulate(task.A, task.B, np.diag(weights.states), np.diag(weights.inputs)))
 
 
-def require_weights(task: Task) -> Weights:
-    """The task's weights, or MethodUnavailableError."""
-    if task.weights is None:
+def require_weights(task: Task, outputs: int = 0) -> Weights:
+    """The task's weights, or MethodUnavailableError; `outputs` is how many are integrated.
+
+    Raises:
+        InvalidInputError: there are more or fewer than states, inputs or outputs.
+    """
+    weights = task.weights
+    if weights is None:
         raise MethodUnavailableError(
             "a quadratic method needs weights", field="weights", hint="Give weights."
         )
-    return task.weights
+    n, p = task.B.shape
+    for name, size in (("states", n), ("inputs", p), *((("integrals", outputs),) if outputs else ())):
+        values = getattr(weights, name)
+        low = 0.0 if name == "states" else np.finfo(float).tiny
+        if len(values) != size or not all(low <= value < np.inf for value in values):
+            raise InvalidInputError(
+                f"the weights of the {name} are {values}",
+                field=f"weights.{name}",
+                hint=f"Give {size}, each {'0 or more' if name == 'states' else 'above 0'}.",
+            )
+    return weights
 
 
 def regulate(A: Floats, B: Floats, Q: Floats, R: Floats, integrate: Floats | None = None) -> Floats:
-    """K of u = −Kx by `control.lqr`; with `integrate` = C, of u = −K [x, ∫y].
+    """K of u = −Kx by `control.lqr`; with `integrate` = C, of u = −K [x, ∫y]; Q and R are diagonal.
 
     Raises:
-        MethodUnavailableError: the Riccati equation has no stabilizing solution.
+        MethodUnavailableError: the Riccati equation has no stabilizing solution, with the reason.
     """
     import control
 
-    more = {} if integrate is None else {"integral_action": integrate}
+    whole, inputs, integrators = A, B, 0
+    if integrate is not None:
+        integrators = len(integrate)
+        whole = np.block([[A, np.zeros((len(A), integrators))], [integrate, np.zeros((integrators,) * 2)]])
+        inputs = np.vstack([B, np.zeros((integrators, B.shape[1]))])
+    task, units, volts = Regulator(whole, inputs, np.diag(Q), np.diag(R), integrators).in_own_units()
+    weights = np.diag(task.states), np.diag(task.inputs)
     try:
-        K, _, _ = control.lqr(A, B, Q, R, method="scipy", **more)
-        if not np.all(np.isfinite(K)):
-            raise ValueError("its solution is not finite")
+        K, X, _ = control.lqr(task.A, task.B, *weights, method="scipy")
     except (ValueError, control.ControlArgument) as error:  # a LinAlgError is a ValueError
-        raise MethodUnavailableError(
-            f"the Riccati equation has no stabilizing solution: {error}", field="weights"
-        ) from error
-    return np.asarray(K, dtype=float)
+        raise refusal(task) from error
+    require_stabilizing(task, np.asarray(K, dtype=float), np.asarray(X, dtype=float))
+    return volts[:, None] * np.asarray(K, dtype=float) / units

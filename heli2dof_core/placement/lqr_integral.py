@@ -40,7 +40,7 @@ class LQRIntegral:
         Raises:
             MethodUnavailableError: weights or outputs are missing, or no stabilizing solution exists.
         """
-        weights = require_weights(task)
+        weights = require_weights(task, len(task.C))
         if not task.C.size:
             raise MethodUnavailableError(
                 "integral action needs the outputs that it shall regulate", field="C", hint="Give y = Cx."

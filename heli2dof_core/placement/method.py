@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InvalidInputError
+from ..rank import numeric_rank
 from ..signals import Complexes, Floats
 
 MOST_STATES = 12
@@ -114,7 +115,9 @@ def require_system(A: ArrayLike, B: ArrayLike, poles: ArrayLike) -> tuple[Floats
         raise InvalidInputError(
             f"B has the shape {B.shape}",
             field="B",
-            hint=f"Give {n} rows and 1 to {n} columns, one per input.",
+            hint=f"Give {n} rows, one per state, and at most {n} columns, one per input."
+            if n > 1
+            else "Give one row and one column: there is one state.",
         )
     for name, values in (("A", A), ("B", B), ("poles", wanted)):
         if not np.all(np.isfinite(values)):
@@ -126,14 +129,25 @@ def require_system(A: ArrayLike, B: ArrayLike, poles: ArrayLike) -> tuple[Floats
             value=wanted.size,
             hint=f"Give {n} poles, complex ones with their conjugates.",
         )
-    rank = int(np.linalg.matrix_rank(B / np.maximum(np.linalg.norm(B, axis=0), 1e-300), tol=1e-10))
-    if rank < B.shape[1]:
+    _require_inputs(B)
+    return A, B, wanted
+
+
+def _require_inputs(B: Floats) -> None:
+    """Raises InvalidInputError if an input does nothing, or what others do."""
+    for i, column in enumerate(B.T, 1):
+        if not np.any(column):
+            raise InvalidInputError(
+                f"column {i} of B is zero: that input does nothing", field="B", hint="Leave that column out."
+            )
+    p, rank = B.shape[1], int(numeric_rank(B))
+    if rank < p:
         raise InvalidInputError(
-            f"B's {B.shape[1]} columns span {rank} dimensions only: some inputs act alike",
+            f"the {p} columns of B are dependent: only {rank} of the inputs act{'s' * (rank == 1)} by "
+            f"{'itself' if rank == 1 else 'themselves'}",
             field="B",
             hint="Leave out inputs that others can replace.",
         )
-    return A, B, wanted
 
 
 def _array(values: ArrayLike, field: str, kind: type) -> NDArray[Any]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..engine import engine
 from ..findings import Finding
-from ..layout import WORKSPACE
+from ..layout import FED, WORKSPACE
 from ..loop import Loop
 from ..signals import Floats
 from ..spec import Digital, Limits, Scenario
@@ -28,8 +28,9 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
     """As `simulate_nonlinear`, the controller running every `digital.sample_time` on what it can measure.
 
     Angles are rounded to encoder steps, rates come from second-order filters on them, the voltages are
-    held between samples and, with `digital.delay`, reach the motors one sample late. The integrals
-    are sums (Euler), and an anti-windup acts at the samples.
+    held between samples and, with `digital.delay`, reach the motors one sample late, the first ones too: until
+    then the motors have the trim that is fed forward, and 0 V without it. The integrals are sums (Euler), and an
+    anti-windup acts at the samples.
     """
     system = NonlinearLoop.of(loop, limits, scenario)
     t = scenario.times
@@ -43,7 +44,7 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
         t,
         system.constants,
         system.modes.copy(),
-        settings_of(digital),
+        settings_of(digital, standing_voltages(loop, system)),
         noise,
         system.disturbed_from,
         scenario.rtol,
@@ -63,13 +64,19 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
     return Response(**{**vars(response), "findings": (*response.findings, *remarks)})
 
 
-def settings_of(digital: Digital) -> Floats:
-    """`kernels.digital`'s array d."""
+def standing_voltages(loop: Loop, system: NonlinearLoop) -> Floats:
+    """What the motors have until the controller's first voltages arrive: the trim fed forward, within the limits."""
+    trim = loop.design.plant.trim * system.experiment[FED]
+    return np.clip(trim, -system.limits, system.limits)
+
+
+def settings_of(digital: Digital, before: Floats) -> Floats:
+    """`kernels.digital`'s array d; `before`, (2,), V, is what the motors have until the first voltages arrive."""
     steps = [2 * np.pi / counts if counts else 0.0 for counts in digital.encoders]
     filtered = float(digital.rates == "filtered")
     F, b = rate_filter(digital.sample_time)
-    rate = FILTER_FREQUENCY**2
-    return np.array([digital.sample_time, *steps, filtered, *F.ravel(), *b, rate, float(digital.delay)])
+    rate, delay = FILTER_FREQUENCY**2, float(digital.delay)
+    return np.array([digital.sample_time, *steps, filtered, *F.ravel(), *b, rate, delay, *before])
 
 
 def rate_filter(sample_time: float) -> tuple[Floats, Floats]:
@@ -89,7 +96,8 @@ def _remarks(loop: Loop, scenario: Scenario, digital: Digital) -> Iterator[Findi
             "slow_sampling",
             "warning",
             f"A sample time of {1e3 * digital.sample_time:g} ms is slow for a pole {fastest:.3g} rad/s out: the "
-            f"digital loop is not like the continuous one. Below {1e3 * SLOW_SAMPLING / fastest:.2g} ms it would be.",
+            f"digital loop differs from the continuous one. Sample every "
+            f"{1e3 * SLOW_SAMPLING / fastest:.2g} ms or faster.",
         )
     if scenario.anti_windup == "back-calculation" and loop.has_integrators and scenario.saturation:
         tracking = scenario.tracking_time or float(np.min(loop.integral_times))
@@ -98,5 +106,6 @@ def _remarks(loop: Loop, scenario: Scenario, digital: Digital) -> Iterator[Findi
                 "fast_tracking",
                 "warning",
                 f"A tracking time of {1e3 * tracking:.3g} ms is shorter than the sample time of "
-                f"{1e3 * digital.sample_time:g} ms: at a limit the integral overshoots with every sample.",
+                f"{1e3 * digital.sample_time:g} ms: at a limit the integral overshoots in every "
+                "sample. Choose a longer one.",
             )

@@ -35,7 +35,10 @@ from .response import Response, divergence
 ABSOLUTE_TOLERANCE = 0.1
 """Absolute tolerance of the integration as a share of the relative one (states are of order 1)."""
 
-_OUTCOMES = {1: "more steps would be needed than are worth it", 2: "its modes switch without end"}
+_OUTCOMES = {
+    1: "it takes too many steps; shorten the duration or loosen the tolerance",
+    2: "it switches between limits without end",
+}
 
 
 @dataclass(frozen=True)
@@ -165,7 +168,7 @@ def limited_response(
     theta, psi, theta_start, psi_start = x[: START + 2].tolist()
     findings = [*divergence(t, int(held))]
     if outcome:
-        words = f"The simulation was given up: {_OUTCOMES[int(outcome)]}."
+        words = f"The simulation stopped early: {_OUTCOMES[int(outcome)]}."
         findings.append(Finding("integration_stopped", "warning", words))
     findings += _remarks(x, (pitch, yaw), impacts)
     start = (theta_start, psi_start)
@@ -193,12 +196,16 @@ def _remarks(x: Floats, saturated: tuple[float, float], impacts: float) -> Itera
     travel = float(x[STOP])
     stop = f"±{degrees(travel):.1f}°"
     if abs(x[START]) > travel:
-        yield Finding("starts_on_stop", "warning", "The start lies beyond a stop of the pitch travel.")
+        yield Finding(
+            "starts_on_stop",
+            "warning",
+            "The start angle lies beyond the pitch travel. The rig starts on its stop.",
+        )
     if impacts:
         yield Finding("travel_stop", "warning", f"Pitch hits a stop of its travel at {stop}.")
     if abs(x[REFERENCE]) > travel:
         yield Finding(
             "reference_beyond_stop",
             "warning",
-            f"The pitch reference lies beyond the rig's travel of {stop}: it cannot be reached.",
+            f"The pitch reference lies beyond the travel of {stop} and cannot be reached. Choose a smaller step.",
         )

@@ -17,7 +17,7 @@ from ..parameters import Parameters
 from ..plant import rig_constants
 from ..signals import Floats
 from ..spec import Digital, Limits, Scenario
-from .digital import settings_of
+from .digital import settings_of, standing_voltages
 from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
 
 SHARE_OF_TIME_CONSTANT = 0.05
@@ -153,7 +153,8 @@ def run_recorder(
         references: θ_ref, ψ_ref at each sample, rad.
         rig: the rig that it controls, the design's own by default.
         start: θ, ψ, θ̇, ψ̇, at rest at the operating point by default.
-        voltages: V_p, V_y of the first sample; the integrals start so that the controller asks for them.
+        voltages: V_p, V_y of the first sample; the integrals start so that the controller asks for them, and with
+            a delay the motors have them until its first ones arrive.
     """
     theta_0, n = loop.design.plant.theta_0, len(references)
     theta, psi, theta_dot, psi_dot = (theta_0, 0.0, 0.0, 0.0) if start is None else start.tolist()
@@ -163,8 +164,11 @@ def run_recorder(
     at_zero = NonlinearLoop.of(loop, limits, Scenario(theta=0.0, psi=0.0, initial=first, samples=2)).offset
     references = np.ascontiguousarray(references, dtype=float)
     offsets = np.ascontiguousarray(at_zero + references @ loop.voltage_from_reference.T)
-    if voltages is not None and loop.integral is not None:
-        y[4:] = _integrals(system, offsets[0], y, np.asarray(voltages, dtype=float))
+    before = standing_voltages(loop, system)
+    if voltages is not None:
+        before = np.clip(np.asarray(voltages, dtype=float), -system.limits, system.limits)
+        if loop.integral is not None:
+            y[4:] = _integrals(system, offsets[0], y, before)
     c[:GAIN] = rig_constants(rig or loop.design.plant.parameters)
     noise = digital.noise * np.random.default_rng(digital.seed).standard_normal((n, 2))
     measured, states, held = np.full((n, 2), np.nan), np.full((n, 6), np.nan), np.full((n, 2), np.nan)
@@ -172,8 +176,8 @@ def run_recorder(
     numbers = (RTOL, ABSOLUTE_TOLERANCE * RTOL, kernels.most_steps)
     scratch = (np.zeros(WORKSPACE), c.copy(), c.copy(), system.modes.copy(), np.empty(2), np.empty((2, 6)))
     _, done, _ = kernels.run_recorder(
-        y, c, system.modes.copy(), settings_of(digital), noise, references, offsets, *numbers, *scratch,
-        measured, states, held,
+        y, c, system.modes.copy(), settings_of(digital, before), noise, references, offsets, *numbers,
+        *scratch, measured, states, held,
     )  # fmt: skip
     return Recorded(
         np.arange(n, dtype=np.float64) * digital.sample_time, measured, states, held, references, done
@@ -181,8 +185,8 @@ def run_recorder(
 
 
 def _integrals(system: NonlinearLoop, offset: Floats, y: Floats, voltages: Floats) -> Floats:
-    """z_p, z_y with which the controller asks for these voltages, within the limits; 0 where it cannot."""
-    missing = np.clip(voltages, -system.limits, system.limits) - offset - system.gain[:, :4] @ y[:4]
+    """z_p, z_y with which the controller asks for these voltages; 0 where it cannot."""
+    missing = voltages - offset - system.gain[:, :4] @ y[:4]
     return np.asarray(np.linalg.lstsq(system.gain[:, 4:], missing, rcond=None)[0], dtype=np.float64)
 
 

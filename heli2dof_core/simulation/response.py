@@ -75,5 +75,5 @@ def divergence(t: Floats, held: int) -> tuple[Finding, ...]:
     """The remark on a response that is held from sample `held` on; none where that is behind its end."""
     if held >= len(t):
         return ()
-    message = f"The response grows without bound; it is shown until t = {t[held - 1]:.3g} s and held there."
+    message = f"The response grows without bound. It is shown until t = {t[held - 1]:.3g} s."
     return (Finding("diverges", "error", message),)

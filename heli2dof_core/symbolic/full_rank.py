@@ -6,8 +6,10 @@ basis the rows that carry the inputs can be replaced at will. K = Q⁻¹ K̄ T, 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
+from typing import Any
 
 import sympy as sp
 from sympy.polys.matrices import DomainMatrix
@@ -35,7 +37,7 @@ FIELD = sp.QQ.frac_field(*_GENERATORS)
 
 @dataclass(frozen=True)
 class FullRank:
-    """Symbolic full-rank placement of the rig in one structure, over `FIELD`.
+    """Full-rank placement of the rig in one structure, over `FIELD` or the rational numbers.
 
     Attributes:
         form: the canonical form used, with T and Q.
@@ -90,11 +92,25 @@ def full_rank(structure: Structure, *, shifted: bool = False) -> FullRank:
     """
     if shifted and structure.coupling == "axis-decoupled":
         raise InvalidInputError("the axis-decoupled structure has no shift", field="shifted")
-    A, B = plant()
-    form = canonical_form(A, B, indices(), _rows(structure, shifted=shifted))
-    blocks = [((i,), [FIELD.from_sympy(d) for d in pair]) for i, pair in enumerate(_POLYNOMIALS)]
-    D = desired_rows(form, blocks, _kept_triangle(structure))
-    return FullRank(form, feedback(form, D))
+    polynomials = [[FIELD.from_sympy(d) for d in pair] for pair in _POLYNOMIALS]
+    return member(*plant(), structure, polynomials, FIELD.from_sympy(c) if shifted else None)
+
+
+def member(
+    A: DomainMatrix, B: DomainMatrix, structure: Structure, polynomials: Sequence[Sequence[Any]], shift: Any
+) -> FullRank:
+    """The member of the family with this structure, over any field: that of the symbols, or the rational numbers.
+
+    Args:
+        A: the rig's, 4×4.
+        B: the rig's, 4×2.
+        structure: which member; its own `shift` is not looked at.
+        polynomials: (d₁₀, d₁₁), (d₂₀, d₂₁).
+        shift: of the basis, an element of the field; None takes the one that gives the structure its name.
+    """
+    form = canonical_form(A, B, INDICES, _rows(A, B, structure, shift))
+    blocks = [((i,), pair) for i, pair in enumerate(polynomials)]
+    return FullRank(form, feedback(form, desired_rows(form, blocks, _kept_triangle(structure))))
 
 
 def to_field(matrix: sp.Matrix) -> DomainMatrix:
@@ -102,6 +118,8 @@ def to_field(matrix: sp.Matrix) -> DomainMatrix:
     return DomainMatrix.from_Matrix(matrix).convert_to(FIELD).to_dense()
 
 
+INDICES = (2, 2)
+"""Controllability indices of every rig whose motors' torques are not parallel; `indices` derives them."""
 _POLYNOMIALS = ((d_10, d_11), (d_20, d_21))
 
 
@@ -112,17 +130,18 @@ def _kept_triangle(structure: Structure) -> Triangle:
     return "lower" if structure.lead == "pitch" else "upper"
 
 
-def _rows(structure: Structure, *, shifted: bool) -> list[DomainMatrix]:
+def _rows(A: DomainMatrix, B: DomainMatrix, structure: Structure, shift: Any) -> list[DomainMatrix]:
     """The leading rows q₁, q₂ that give the structure its name."""
     if structure.coupling == "axis-decoupled":
-        outputs = to_field(sp.eye(2, 4))
+        outputs = DomainMatrix.eye(4, A.domain).to_dense()
         return [outputs.extract([i], list(range(4))) for i in range(2)]
-    q_1, q_2 = leading_rows(*plant(), indices())
-    if structure.coupling == "input-diagonal" and not shifted:
+    q_1, q_2 = leading_rows(A, B, INDICES)
+    if structure.coupling == "input-diagonal" and shift is None:
         return [q_1, q_2]
     yaw_leads = structure.coupling == "triangular" and structure.lead == "yaw"
-    own = P["K_yp"] / P["K_yy"] if yaw_leads else P["K_py"] / P["K_pp"]
-    shift = FIELD.from_sympy(c if shifted else own)
+    if shift is None:  # K_yp/K_yy or K_py/K_pp
+        pitch, yaw = B.to_list()[2:]
+        shift = yaw[0] / yaw[1] if yaw_leads else pitch[1] / pitch[0]
     if yaw_leads:
         return [q_1, q_2 + q_1 * shift]
     return [q_1 + q_2 * shift, q_2]  # with c = K_py/K_pp this leaves θ alone in the first block

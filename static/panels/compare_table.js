@@ -108,7 +108,7 @@ export class CompareTable {
       const same = above?.unavailable?.detail === detail;
       const why = same ? `For the same reason as ${nameOf(above)}.` : [detail[0].toUpperCase() + detail.slice(1), hint].join(' ');
       const line = h('tr', { class: 'unavailable', 'data-testid': `compare-row-${key}` }, h('th', { scope: 'row', class: 'method-name', title }, h('span', { class: 'no-toggle' }, name)),
-        h('td', { colspan: COLUMNS.length + 1, title: detail }, h('div', { class: 'why' }, h('b', {}, 'None here. '), why)));
+        h('td', { colspan: COLUMNS.length + 1, title: detail }, h('div', { class: 'why' }, h('b', {}, 'Not available for this rig. '), why)));
       this.#rows.set(key, { row: line, use: null });
       return [line];
     }

@@ -2,7 +2,7 @@
 import { h, setText, symbol } from '../dom.js';
 import { DIGITAL, STANDARD, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../experiment.js';
 import { Choice, NumberField } from '../fields.js';
-import { DEGREE, forField } from '../format.js';
+import { DEGREE, inField } from '../format.js';
 
 /**
  * @typedef {import('../types.js').Scenario} Scenario
@@ -64,7 +64,7 @@ export class StartPart {
       const angle = scenario.initial?.[AXES[i]];
       const rest = tidy((i ? 0 : theta0) * DEGREE);
       field.set(angle === undefined ? NaN : tidy(angle * DEGREE));
-      field.setBlank(forField(rest), rest);
+      field.setBlank(inField(rest), rest);
     });
   }
 }
@@ -100,7 +100,7 @@ export class LimitsPart {
     this.tracking.disable(idle);
     this.tracking.set(scenario.tracking_time === undefined ? NaN : tidy(1000 * scenario.tracking_time));
     const [first, second] = [tidy(1000 * loops.pitch.ti), tidy(1000 * loops.yaw.ti)];
-    this.tracking.setBlank(first === second && !own ? forField(first) : 'Tᵢ', first);
+    this.tracking.setBlank(first === second && !own ? inField(first) : 'Tᵢ', first);
   }
 }
 
@@ -171,7 +171,7 @@ export class AccuracyPart {
     this.tolerance = h('select', { 'data-testid': 'experiment-tolerance', 'data-field': 'scenario.rtol', onchange: () => fields.edit((s) => withOption(s, { rtol: Number(this.tolerance.value) })) },
       TOLERANCES.map(([value, text]) => h('option', { value }, text)));
     this.node = h('div', { class: 'row foot' }, h('label', { class: 'select', title: 'relative tolerance of the adaptive integration; where a finer one changes the picture, the picture was wrong' }, 'tolerance', this.tolerance),
-      h('span', { class: 'aside' }, 'Linear responses know the start alone.'));
+      h('span', { class: 'aside' }, 'Linear responses use only the start angles; limits, stops, sampling and disturbances are left out.'));
   }
 
   /** @param {Design} design */

@@ -3,34 +3,29 @@ import { h, setText } from '../dom.js';
 import { fixed } from '../format.js';
 import { placeOf } from '../finding_places.js';
 import { leadTo } from '../lead.js';
-import { limitsCost } from '../limits_cost.js';
-import { placesPoles } from '../methods.js';
-import { isAsked, pairVerdict } from '../requirements.js';
+import { AXES, verdictOf } from '../requirements.js';
 import { say, t } from '../words.js';
 
 const ICON = { error: '✕', warning: '▲', info: 'i' };
 const WORD = { error: 'Error', warning: 'Warning', info: 'Note' };
 const RANK = { error: 0, warning: 1, info: 2 };
 const SHOWN = 2;
-/** What is chosen in the experiment and explains others of its severity. */
-const CAUSES = ['slow_sampling', 'fast_tracking'];
+/** What explains others of its severity, or says what they cost. */
+const CAUSES = ['slow_sampling', 'fast_tracking', 'unlike_linear'];
 
-/** The requirements that the placed poles miss, in words; empty where they are met or none is asked. @param {import('../types.js').State} state */
-function missedWords(state) {
-  const { design, requirements } = state;
-  if (!design || !requirements || !isAsked(requirements) || !placesPoles(state)) return '';
-  const [pitch, yaw] = /** @type {const} */ ([0, 1]).map((pair) => pairVerdict(design.poles, pair, requirements));
-  if (pitch.met && yaw.met) return '';
-  return pitch.met ? say`The placed poles miss the requirements: yaw ${yaw.text}.` : yaw.met ? say`The placed poles miss the requirements: pitch ${pitch.text}.` : say`The placed poles miss the requirements: pitch ${pitch.text}, yaw ${yaw.text}.`;
+/** The requirements that the steps miss, in words; empty where they are met or none is asked. @param {import('../types.js').State} state */
+function missedWords({ reply, requirements }) {
+  const [pitch, yaw] = AXES.map((axis) => verdictOf(reply, axis, requirements)).map((v) => (v?.met === false ? v.text : ''));
+  if (pitch && yaw) return say`Requirements missed: the pitch step ${pitch}; the yaw step ${yaw}.`;
+  return pitch ? say`Requirement missed: the pitch step ${pitch}.` : yaw ? say`Requirement missed: the yaw step ${yaw}.` : '';
 }
 
 /** @param {import('../types.js').State} state @returns {import('../types.js').Finding[]} */
 export function findingsOf(state) {
-  const { reply, problem, design } = state;
+  const { reply, problem } = state;
   if (problem) return [{ code: problem.code ?? 'refused', severity: 'error', message: [problem.detail ?? problem.title ?? 'The server refused this design.', problem.hint].filter(Boolean).join(' ') }];
-  const cost = limitsCost(reply, design?.scenario);
   const missed = missedWords(state);
-  const own = /** @type {import('../types.js').Finding[]} */ ([cost && { code: 'limits_cost', severity: 'warning', message: cost }, missed && { code: 'requirement_missed', severity: 'warning', message: missed }].filter(Boolean));
+  const own = /** @type {import('../types.js').Finding[]} */ (missed ? [{ code: 'requirement_missed', severity: 'warning', message: missed }] : []);
   const rank = (/** @type {import('../types.js').Finding} */ f) => (RANK[f.severity] ?? 3) - (CAUSES.includes(f.code) ? 0.5 : 0);
   return [...own, ...(reply?.findings ?? [])].sort((a, b) => rank(a) - rank(b));
 }
@@ -77,15 +72,16 @@ export class FindingsPanel {
   /** @param {import('../types.js').State} state */
   render(state) {
     const { reply, problem } = state;
+    const findings = findingsOf(state);
     const kind = problem ? 'refused' : !reply ? 'waiting' : reply.stable ? 'stable' : 'unstable';
     const worst = reply ? Math.max(...reply.loop_poles.map((p) => p.re)) : NaN;
-    this.verdict.className = `verdict ${kind}`;
-    setText(this.icon, { refused: '!', waiting: '…', stable: '✓', unstable: '✕' }[kind]);
+    const uneasy = kind === 'stable' && findings.some((f) => f.severity !== 'info');
+    this.verdict.className = `verdict ${kind}${uneasy ? ' uneasy' : ''}`;
+    setText(this.icon, uneasy ? ICON.warning : { refused: '!', waiting: '…', stable: '✓', unstable: '✕' }[kind]);
     setText(this.word, { refused: 'Not computed', waiting: 'Waiting', stable: 'Stable', unstable: 'Unstable' }[kind]);
-    setText(this.detail, !reply || problem ? '' : reply.stable ? say`slowest of ${reply.loop_poles.length} poles at Re ${fixed(worst)}` : say`worst of ${reply.loop_poles.length} poles at Re ${fixed(worst)}`);
+    setText(this.detail, problem && reply ? 'figures: last computed design' : !reply || problem ? '' : reply.stable ? say`slowest of ${reply.loop_poles.length} poles at Re ${fixed(worst)}` : say`worst of ${reply.loop_poles.length} poles at Re ${fixed(worst)}`);
 
-    const findings = findingsOf(state);
-    const calm = state.design?.scenario.saturation === false ? 'Nothing to object; but here the motors know no limits.' : 'Nothing to object: the motors stay within their limits.';
+    const calm = state.design?.scenario.saturation === false ? 'No warnings. Voltage limits are off in this experiment.' : 'No warnings. Motor voltages stay within their limits.';
     const key = JSON.stringify([kind, findings, calm]);
     if (key === this.#key) return;
     this.#key = key;

@@ -1,7 +1,7 @@
 /** A plot of two lines over frequency, its values under the pointer or by the arrow keys, to be saved as picture and numbers. */
 import uPlot from '../vendor/uplot/uPlot.esm.js';
 import { h, setText } from '../dom.js';
-import { forField, significant } from '../format.js';
+import { forField, inField, significant } from '../format.js';
 import { followsPage, pictureScale } from '../picture_scale.js';
 import { pictureMenu } from '../plot_menu.js';
 import { drawLabel, drawRule } from '../plot_rules.js';
@@ -13,7 +13,7 @@ const COLORS = ['series-0', 'series-1', 'pitch', 'yaw', 'panel', 'muted', 'grid'
 /** Only full powers of ten get a line and a number. */
 const decades = (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => (v && Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? v : null));
 const power = (/** @type {any} */ u, /** @type {number[]} */ splits) => decades(u, splits).map((v) => (v === null ? '' : forField(v)));
-const plain = (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => forField(v).replace('-', '\u2212'));
+const plain = (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => inField(v));
 
 /**
  * @typedef {'series-0'|'series-1'|'pitch'|'yaw'} Kind

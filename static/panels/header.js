@@ -7,7 +7,7 @@ import { say } from '../words.js';
 import { RigPanel } from './rig.js';
 import { ShareButtons } from './share.js';
 
-const STATUS = { connecting: 'connecting…', open: 'live', lost: 'connection lost, your changes are kept' };
+const STATUS = { connecting: 'connecting…', open: 'live', lost: 'connection lost' };
 
 export class HeaderPanel {
   /** @param {HTMLElement} root @param {import('../store.js').Store} store @param {import('../address.js').Address} address @param {{tour: (from: HTMLElement) => void, projector: import('../projector.js').Projector}} aids */
@@ -28,7 +28,7 @@ export class HeaderPanel {
     setAttr(this.projector, 'aria-label', 'Projector mode');
     this.share = new ShareButtons(store, address);
     this.locked = h('span', { class: 'locked', hidden: true, 'data-testid': 'locked' });
-    this.status = h('span', { class: 'connection', role: 'status', 'data-testid': 'connection' }, h('span', { class: 'dot', 'aria-hidden': 'true' }), h('span', {}));
+    this.status = h('span', { class: 'connection', role: 'status', 'data-testid': 'connection' }, h('span', { class: 'dot', 'aria-hidden': 'true' }), (this.word = h('span')), (this.kept = h('span', { class: 'kept', hidden: true }, 'your changes are kept')));
     root.append(h('div', { class: 'rig' }, this.select, this.rig.node, this.locked, this.source), h('div', { class: 'buttons' }, this.undo, this.redo, this.reset, this.pin, this.share.node, exportMenu(store, address), h('a', { class: 'button', href: '#compare', title: 'Methods side by side' }, 'Compare'), h('a', { class: 'button', href: '#formulas' }, 'Formulas'), h('a', { class: 'button', href: '#paper', title: 'The paper, step by step' }, 'Paper'), this.tour, this.projector), this.status);
     document.addEventListener('keydown', (e) => this.#key(e));
   }
@@ -65,10 +65,11 @@ export class HeaderPanel {
     this.source.title = source;
     this.locked.hidden = !locks.length;
     setText(this.locked, locks.length ? say`locked: ${lockNames(locks)}` : '');
-    setAttr(this.locked, 'title', 'Locked by the link with which this page was opened');
+    setAttr(this.locked, 'title', 'Locked by the link that opened this page');
     this.undo.disabled = !canUndo;
     this.redo.disabled = !canRedo;
     this.status.className = `connection ${connection}`;
-    setText(/** @type {Element} */ (this.status.lastChild), STATUS[connection]);
+    setText(this.word, STATUS[connection]);
+    this.kept.hidden = connection !== 'lost';
   }
 }

@@ -25,9 +25,9 @@ const CHARTS = [
 
 /** @param {any} reply */
 function words(reply) {
-  if (!reply.rga_magnitude) return { figures: false, text: reply.findings?.[0]?.message ?? 'There is no steady state, so no relative gains.' };
+  if (!reply.rga_magnitude) return { figures: false, text: reply.findings?.[0]?.message ?? 'There is no steady state, so no RGA.' };
   const { dominant, text } = reply.dominance ? dominanceWords(reply.frequencies, reply.dominance)
-    : { dominant: false, text: 'A diagonal entry of Ĝ(jω) is 0: there is nothing that could dominate.' };
+    : { dominant: false, text: 'A diagonal entry of Ĝ(jω) is 0, so there is no diagonal dominance.' };
   return { text, warning: !dominant };
 }
 

@@ -1,15 +1,14 @@
 /** How well it does, in figures: one column for the step of each axis, from the nonlinear rig; the linear model's in parentheses where they differ. */
 import { h, setAttr, setText, symbol } from '../dom.js';
-import { brief, decibel, DEGREE, degrees, fixed, percent, seconds, significant } from '../format.js';
-import { differs } from '../limits_cost.js';
+import { brief, decibel, DEGREE, degrees, differs, fixed, percent, seconds, significant } from '../format.js';
 import { recall, remember } from '../memory.js';
+import { AXES, verdictOf } from '../requirements.js';
 import { say } from '../words.js';
 
 /** @typedef {import('../types.js').Reply} Reply */
 /** @typedef {'theta'|'psi'} Axis */
 /** @typedef {'V_p'|'V_y'} Motor */
 
-const AXES = /** @type {Axis[]} */ (['theta', 'psi']);
 const OPEN = 'figures';
 
 /** @param {number|undefined} v */
@@ -79,9 +78,9 @@ const ROBUSTNESS = [
   { id: 'margin', group: 'robustness', name: () => ['Gain · phase margin'], title: 'Smallest factor on this axis’ own motor, and smallest phase change there, that make the loop unstable, everything else closed (Ogata, Modern Control Engineering, 2010, section 7.7)',
     margin: (g) => (g?.gain_margin === undefined && g?.phase_margin === undefined ? '–' : `${g.gain_margin === undefined ? '∞' : decibel(g.gain_margin)} · ${degrees(g.phase_margin, 0)}`) },
   { id: 'delay', group: 'robustness', name: () => ['Delay margin'], title: 'Smallest dead time at this axis’ own motor that makes the loop unstable: phase margin over crossover frequency', margin: (g) => seconds(g?.delay_margin) },
-  { id: 'disk', group: 'robustness', more: true, name: () => ['Disk margin'], title: 'Size α of the disks of gain and phase changes, at both motors at once and independent of each other, that the loop bears (Seiler, Packard and Gahinet, IEEE Control Systems 40 (2020) 78)',
+  { id: 'disk', group: 'robustness', more: true, name: () => ['Disk margin'], title: 'Size α of the disks of gain and phase changes, at both motors at once and independent of each other, that the loop tolerates (Seiler, Packard and Gahinet, IEEE Control Systems 40 (2020) 78)',
     both: (s) => `${fixed(s.disk_margin)}: × ${fixed(s.gain_low)} to ${s.gain_high === undefined ? '∞' : fixed(s.gain_high)}, ± ${degrees(s.phase, 0)}` },
-  { id: 'sensitivity', group: 'robustness', more: true, name: () => ['Sensitivity peak'], title: 'Largest singular value of S(jω) over all frequencies, at the motors: its inverse is the distance to instability by an additive change of the loop (Skogestad and Postlethwaite, Multivariable Feedback Control, 2005, section 2.4.3)',
+  { id: 'sensitivity', group: 'robustness', more: true, name: () => ['Sensitivity peak'], title: 'Largest singular value of S(jω) over all frequencies, at the motors: its inverse is the distance to instability under an additive change of the loop (Skogestad and Postlethwaite, Multivariable Feedback Control, 2005, section 2.4.3)',
     both: (s) => (s.peak < 1.005 ? fixed(s.peak) : `${fixed(s.peak)} at ${significant(s.peak_frequency, 3)} rad/s`) },
 ];
 
@@ -97,7 +96,7 @@ export class MetricsPanel {
     this.root = root;
     this.figures = FIGURES.map((row) => AXES.map((axis) => {
       const own = h('span', { 'data-testid': `metric-${row.id}-${axis}` });
-      const linear = h('span', { class: 'linear', title: 'the linear model, which knows no limits', 'data-testid': `metric-${row.id}-${axis}-linear` });
+      const linear = h('span', { class: 'linear', title: 'the linear model, without limits', 'data-testid': `metric-${row.id}-${axis}-linear` });
       return { own, linear, cell: h('td', {}, linear, own) };
     }));
     this.robustness = ROBUSTNESS.map((row) => (row.both ? [h('td', { colspan: 2, 'data-testid': `metric-${row.id}` })] : AXES.map((axis) => h('td', { 'data-testid': `metric-${row.id}-${axis}` }))));
@@ -125,13 +124,13 @@ export class MetricsPanel {
     AXES.forEach((axis, j) => {
       const pair = reply.axis_steps?.[axis];
       const metrics = pair?.nonlinear.metrics;
+      const verdict = verdictOf(reply, axis, requirements);
       FIGURES.forEach((row, i) => {
         const { own, linear, cell } = this.figures[i][j];
         const value = row.value(metrics, axis);
         const ideal = row.linear ? row.linear(pair?.linear, axis) : row.value(pair?.linear.metrics, axis);
         const most = row.most?.(metrics);
-        const asked = row.id === 'settling' || row.id === 'overshoot' ? requirements[row.id] : null;
-        const missed = asked !== null && !((value ?? Infinity) <= asked);
+        const missed = (row.id === 'settling' || row.id === 'overshoot') && verdict?.[row.id] === true;
         setText(own, most ?? (missed ? `✕ ${row.text(value)}` : row.text(value)));
         setAttr(own, 'title', missed ? 'misses the requirement' : '');
         const beside = showLinear && ideal !== undefined && (most !== undefined || differs(value, ideal, row.least));

@@ -29,16 +29,17 @@ export class Notice {
     this.root = root;
     this.link = new Line('notice', () => store.set({ notice: null }));
     this.fault = new Line('fault', () => store.set({ fault: null }));
-    this.stale = h('div', { class: 'notice', role: 'status', hidden: true, 'data-testid': 'stale' }, 'No connection: responses and figures are those of the last answer. Your changes are kept and sent when it returns.');
+    this.stale = h('div', { class: 'notice', role: 'status', hidden: true, 'data-testid': 'stale' }, 'No connection: responses and figures show the last answer. Your changes are kept and sent when it returns.');
     root.className = 'notices';
     root.append(this.stale, this.fault.node, this.link.node);
   }
 
   /** @param {import('../types.js').State} state */
-  render({ notice, fault, design, answered, connection }) {
-    const stale = connection === 'lost' && design !== null && answered !== design;
-    this.stale.hidden = !stale;
-    document.documentElement.classList.toggle('stale', stale);
+  render({ notice, fault, design, answered, connection, problem }) {
+    const unheard = connection === 'lost' && design !== null && answered !== design;
+    this.stale.hidden = !unheard;
+    document.documentElement.classList.toggle('unheard', unheard);
+    document.documentElement.classList.toggle('stale', unheard || problem !== null); // a refused design has no figures: those shown are older
     this.fault.say(fault);
     if (notice !== this.#told) {
       this.#told = notice;

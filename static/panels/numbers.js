@@ -19,7 +19,7 @@ export function advisedPairing(reply) {
 export function pairingWords(reply, pairing) {
   const { rga } = reply;
   const advised = advisedPairing(reply);
-  if (!rga?.rga) return { level: 'info', text: 'No steady state, so no relative gains: a pole lies at 0.' };
+  if (!rga?.rga) return { level: 'info', text: 'A pole lies at 0: there is no steady state, so no RGA.' };
   const n = pairing === 'cross' ? rga.niederlinski_cross : rga.niederlinski;
   const told = pairing === 'diagonal' && /Niederlinski/.test(rga.reason ?? '');
   const index = n === undefined || told ? '' : ` Niederlinski ${fixed(n)}${n > 0 ? '' : ': unstable with integral action'}.`;

@@ -37,10 +37,10 @@ export function consequence({ consequence: rows, numbers }) {
   const says = pair ? `The yaw pair was meant to be real and fast, at ${polesText(wanted.slice(2), 2)}. On the rig of the manual it is ${polesText([pair])}: slower, and it rings, with a damping ratio of ${fixed(dampingRatio(pair))}.` : '';
   return h('section', { class: 'chapter', id: 'paper-consequence', 'aria-labelledby': 'paper-consequence-title' },
     h('h3', { id: 'paper-consequence-title' }, 'What the unequal digits mean'),
-    h('p', { class: 'prose' }, rich(`A slip in a formula matters if the poles notice. Here the $K$ that the paper prints, as printed, is put on ${rows.length} plants, each one step nearer to the real rig. Asked for were ${polesText(wanted, 2)}. ${says}`)),
+    h('p', { class: 'prose' }, rich(`A slip in a formula matters if the poles notice. Here the $K$ that the paper prints, as printed, is put on ${rows.length} plants, each one step nearer to the real rig. The requested poles were ${polesText(wanted, 2)}. ${says}`)),
     h('div', { class: 'consequence' },
       h('div', { class: 'sideways', tabindex: 0, role: 'group', 'aria-label': 'Where the printed K puts the poles' }, h('table', { class: 'paper-table', 'data-testid': 'paper-consequence' },
         h('thead', {}, h('tr', {}, ['the printed K on this plant …', '… puts the poles at, rad/s', 'and its formula, unrounded, at'].map((text) => h('th', { scope: 'col' }, text)))),
         h('tbody', {}, rows.map((r) => h('tr', {}, h('th', { scope: 'row' }, rich(r.plant)), h('td', { class: 'poles-cell' }, polesText(r.poles)), h('td', { class: 'poles-cell aside' }, polesText(r.unrounded))))))),
-      h('figure', {}, plane(wanted, landed), h('figcaption', {}, h('span', { class: 'key wanted-key' }, 'asked for'), h('span', { class: 'key landed-key' }, 'with the printed K on the rig of the manual')))));
+      h('figure', {}, plane(wanted, landed), h('figcaption', {}, h('span', { class: 'key wanted-key' }, 'requested'), h('span', { class: 'key landed-key' }, 'with the printed K on the rig of the manual')))));
 }

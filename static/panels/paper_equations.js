@@ -11,7 +11,7 @@ import { CHAPTERS, MARKS } from './paper_words.js';
 /** @typedef {{live: (number: string) => Element|null, curves: (number: string) => Element|null, structure: (e: Equation) => Element|null}} Parts  what else a step shows */
 /** @type {Record<string, Record<string, string>>} what stands above a form */
 const CAPTIONS = {
-  both: { printed: 'printed', derived: 'derived' }, corrected: { printed: 'printed', derived: 'right' }, printed: { printed: 'as printed' }, derived: { derived: 'derived' },
+  both: { printed: 'printed', derived: 'derived' }, corrected: { printed: 'printed', derived: 'corrected' }, printed: { printed: 'as printed' }, derived: { derived: 'derived' },
 };
 
 /** @param {string} status */
@@ -36,7 +36,7 @@ function card(e, errata, told, { live, curves, structure }) {
     h('div', { class: 'margin' }, h('a', { class: `eq-number ${named ? '' : 'aside'}`, href: `#${anchor}`, 'aria-label': named ? undefined : `unnumbered: ${e.title}` }, named ? e.number : 'unnumbered'), mark(e.status)),
     h('div', { class: 'eq-main' }, h('h4', { id: `${anchor}-title` }, rich(e.title, anchor)), h('p', { class: 'plainly' }, rich(e.plain, anchor)),
       h('div', { class: 'eq-body' }, e.number === 'Fig. 1' ? freeBody() : null, forms(e), structure(e), live(e.number), curves(e.number)),
-      e.note || again.length ? h('p', { class: 'note' }, rich(e.note, anchor), again.map((name) => h('a', { class: 'see', href: `#erratum-${name}` }, `erratum, ${errata.get(name)?.where ?? name}`))) : null,
+      e.note || again.length ? h('p', { class: 'note' }, rich(e.note, anchor), again.map((name) => h('a', { class: 'see', href: `#erratum-${name}` }, `${errata.get(name)?.standing === 'unclear' ? 'unclear in our copy' : 'erratum'}, ${errata.get(name)?.where ?? name}`))) : null,
       fresh.flatMap((name) => { const own = errata.get(name); return own ? [erratum(own)] : []; })));
 }
 

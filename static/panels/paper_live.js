@@ -50,7 +50,7 @@ const CONSTANTS = {
 /** @type {Record<string, (answer: any) => string>} step → what is said in words */
 const LINES = {
   controllability: ({ controllability_indices: [p, y] }) => `Indices: ${p} for the pitch motor, ${y} for the yaw motor.`,
-  'Eq. 18': ({ asked }) => `Asked for: ${polesText(asked.poles, 4)} rad/s.`,
+  'Eq. 18': ({ asked }) => `Requested: ${polesText(asked.poles, 4)} rad/s.`,
   'closed loop': ({ closed_loop_poles: poles, pole_error: error }) => `Eigenvalues of A − BK: ${polesText(poles, 4)} rad/s${error === undefined ? '' : `; largest distance from those asked for ${figure(error, 2)}`}.`,
 };
 const OWN = new Set(['T', 'Q', 'A_bar', 'B_bar', 'K_bar', 'closed_loop_bar', 'coefficients']);

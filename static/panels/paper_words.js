@@ -6,8 +6,8 @@ export const MARKS = { reproduced: '✓', corrected: '≠', explained: 'i' };
 /** @type {Record<string, string>} */
 export const MEANINGS = {
   reproduced: 'the paper’s formula, derived again, is the same',
-  corrected: 'printed and derived differ; both are shown, with the proof',
-  explained: 'the paper does not say it, or our copy has lost it',
+  corrected: 'printed and derived differ; both are shown, with a proof',
+  explained: 'not in the paper, or lost in our copy',
 };
 
 /** @type {{name: string, title: string, text: string, look: string}[]} */
@@ -25,7 +25,7 @@ export const CHAPTERS = [
   {
     name: 'linear', title: 'Linear model',
     text: 'Near rest at $θ$₀ the equations of motion are replaced by their tangent, $ẋ = Ax + Bu$. Rest has its price: the motors hold the beam against gravity all the time, and $x$ and $u$ count from that trim.',
-    look: 'Pitch and yaw do not meet in $A$; they meet in $B$ only, through the crosstalk. The paper’s slips sit here: whose damping stands in the last row of $A$, and whose inertia divides which row of $B$.',
+    look: 'Pitch and yaw do not meet in $A$; they meet in $B$ only, through the crosstalk. The slips sit here: whose damping stands in the last row of $A$, and whose inertia divides which row of $B$.',
   },
   {
     name: 'feedback', title: 'State feedback',
@@ -44,5 +44,5 @@ export const CHAPTERS = [
   },
 ];
 
-export const CURVES = 'Our copy has no curves: what is drawn is computed from the model, and may differ from what the authors saw.';
-export const COPY = 'Our copy of the paper is the text without its pictures, and its formulas are damaged in places: what reads like a slip of the paper may be one of the copy.';
+export const CURVES = 'Our copy has no curves. These are computed from the model and may differ from the printed ones.';
+export const COPY = 'Our copy is the text without its pictures, with damaged formulas: such a slip may be the copy’s.';

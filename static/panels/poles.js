@@ -2,9 +2,10 @@
 import { h, setAttr, setText } from '../dom.js';
 import { Choice, NumberField } from '../fields.js';
 import { isComplex, LIMIT, setComplex, setMode, setReal } from '../poles.js';
-import { isAsked, pairVerdict } from '../requirements.js';
+import { AXES, verdictOf } from '../requirements.js';
 import { placesPoles } from '../methods.js';
 import { niceStep } from '../splane_math.js';
+import { say } from '../words.js';
 
 const NAMES = ['pitch', 'yaw'];
 
@@ -28,6 +29,7 @@ class PairEditor {
     return new NumberField({
       label: `${NAMES[this.pair]} pole ${index + 1}`, testid: `pole-field-${index}`, field: `poles.${index}`, min: -LIMIT, max: LIMIT, slider: { min: -20, max: 4 },
       onInput: (v, stamp) => store.edit((d) => ({ ...d, poles: this.#changed(d.poles, k, v) }), { gesture: `pole-field-${index}`, stamp }),
+      onComplex: (p, stamp) => store.edit((d) => ({ ...d, poles: setComplex(d.poles, index, p) }), { gesture: `pole-field-${index}`, stamp }),
       onCommit: () => store.commit(),
     });
   }
@@ -41,8 +43,8 @@ class PairEditor {
     return setComplex(poles, index, k === 0 ? { re: v, im } : { re, im: sign * Math.max(Math.abs(v), 1e-3) });
   }
 
-  /** @param {import('../types.js').Poles} poles @param {number} reach @param {import('../types.js').Requirements} asked */
-  render(poles, reach, asked) {
+  /** @param {import('../types.js').Poles} poles @param {number} reach @param {import('../requirements.js').Verdict|null} verdict on its axis' step */
+  render(poles, reach, verdict) {
     const complex = isComplex(poles, this.pair);
     const [a, b] = [poles[2 * this.pair], poles[2 * this.pair + 1]];
     this.mode.set(complex ? 'complex' : 'real');
@@ -55,11 +57,10 @@ class PairEditor {
     this.fields[1].setRange(complex ? { min: 0, max: reach } : { min: -reach, max: 0.2 * reach });
     this.fields[0].set(a.re);
     this.fields[1].set(complex ? Math.abs(a.im) : b.re);
-    this.verdict.hidden = !isAsked(asked);
-    if (this.verdict.hidden) return;
-    const { met, text } = pairVerdict(poles, this.pair, asked);
-    this.verdict.classList.toggle('missed', !met);
-    setText(this.verdict, `${met ? '✓' : '✕'} ${text}`);
+    this.verdict.hidden = !verdict;
+    if (!verdict) return;
+    this.verdict.classList.toggle('missed', !verdict.met);
+    setText(this.verdict, verdict.met ? `✓ ${verdict.text}` : say`✕ step ${verdict.text}`);
   }
 }
 
@@ -75,7 +76,7 @@ export class PolesPanel {
 
   /** @param {import('../types.js').State} state */
   render(state) {
-    const { design, dragging, requirements } = state;
+    const { design, dragging, requirements, reply } = state;
     if (!design) return;
     this.root.classList.toggle('unused', !placesPoles(state));
     const far = Math.max(1, ...design.poles.map((p) => Math.max(Math.abs(p.re), Math.abs(p.im))));
@@ -83,6 +84,6 @@ export class PolesPanel {
       const step = niceStep(2 * far, 4);
       this.#reach = Math.ceil((1.5 * far) / step) * step;
     }
-    for (const pair of this.pairs) pair.render(design.poles, this.#reach, requirements);
+    for (const pair of this.pairs) pair.render(design.poles, this.#reach, verdictOf(reply, AXES[pair.pair], requirements));
   }
 }

@@ -1,7 +1,7 @@
 /** The rig's parameters and limits as fields, each beside what the preset says. Folded away; the header's line says how many differ. */
 import { h, setAttr, setText, symbol } from '../dom.js';
 import { NumberField } from '../fields.js';
-import { forField } from '../format.js';
+import { inField } from '../format.js';
 import { asProposed, changedWords, isChanged, proposedShown, quantities, valueOf, without, withValue } from '../rig.js';
 import { presetOf } from '../store.js';
 import { say } from '../words.js';
@@ -12,7 +12,7 @@ const CONCERNED = /^(parameters|limits)(\.|$)/;
 const symbolOf = (name) => (name === 'theta' ? symbol('θ', 'max') : symbol(name.split('_')[0], name.split('_')[1]));
 
 /** @param {number} v */
-const words = (v) => (Number.isNaN(v) ? 'free' : forField(v).replace('-', '\u2212'));
+const words = (v) => (Number.isNaN(v) ? 'free' : inField(v));
 
 class Row {
   /** @param {import('../rig.js').Quantity} q @param {RigPanel} panel */

@@ -13,7 +13,7 @@ export class ScenarioPanel {
     this.psi = this.#step('psi', 'yaw step', 'ψ');
     this.duration = new NumberField({ label: 'duration in seconds', mark: 'over', unit: 's', testid: 'duration', field: 'scenario.duration', min: 0.1, max: 60, positive: true,
       onInput: (v, stamp) => store.edit((d) => ({ ...d, scenario: { ...d.scenario, duration: v } }), { gesture: 'duration', stamp }), onCommit: () => store.commit() });
-    this.theta0 = new NumberField({ label: 'operating point in degrees', mark: h('span', { title: 'operating point: the pitch angle at which the rig rests, and at which it is linearized' }, 'from ', symbol('θ', '0')), unit: '°', testid: 'theta0',
+    this.theta0 = new NumberField({ label: 'operating point in degrees', mark: h('span', { title: 'operating point: the pitch angle at which the rig rests and is linearized' }, 'from ', symbol('θ', '0')), unit: '°', testid: 'theta0',
       field: 'operating_point.theta', min: -80, max: 80, onInput: (v, stamp) => store.edit((d) => ({ ...d, theta0: v / DEGREE }), { gesture: 'theta0', stamp }), onCommit: () => store.commit() });
     this.linear = h('input', { type: 'checkbox', 'data-testid': 'show-linear', onchange: () => store.set({ showLinear: this.linear.checked }) });
     this.marks = h('input', { type: 'checkbox', 'data-testid': 'show-marks', onchange: () => store.set({ showMarks: this.marks.checked }) });
@@ -22,10 +22,10 @@ export class ScenarioPanel {
       h('div', { class: 'row steps' }, h('span', { class: 'caption' }, 'Step'), this.theta0.node, h('span', { class: 'caption' }, 'to'), this.theta.node, this.psi.node, this.duration.node),
       h('div', { class: 'row legend', 'data-testid': 'legend' },
         key('pitch solid', 'pitch step', 'nonlinear rig, pitch reference stepped alone'), key('yaw solid', 'yaw step', 'nonlinear rig, yaw reference stepped alone'),
-        key('halo', 'played', 'the motion that the scene plays'),
-        h('label', { class: 'key', title: 'The linear model knows no limits. Its voltages are deviations; the trim is added here, so that both models share one absolute scale.' },
+        key('halo', 'shown in 3D', 'the motion that the 3D view shows'),
+        h('label', { class: 'key', title: 'The linear model has no voltage limits. Its voltages are deviations from the trim; the trim is added here, so that both models share one scale.' },
           this.linear, h('span', { class: 'line pitch dashed', 'aria-hidden': 'true' }), h('span', { class: 'line yaw dotted', 'aria-hidden': 'true' }), 'linear'),
-        h('label', { class: 'key', title: 'Rise, peak and settling on each step’s own curve, and how far it moves the other axis: values under the pointer or by Tab, pressed they take the time there' },
+        h('label', { class: 'key', title: 'Rise, peak and settling on each curve, and the largest motion of the other axis. Point at a mark to read it; click it to move the time there.' },
           this.marks, h('span', { class: 'mark-sample', 'aria-hidden': 'true' }), 'marks')),
     );
   }

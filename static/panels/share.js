@@ -23,7 +23,7 @@ export class ShareButtons {
   async #copy(hash) {
     const done = await copyText(`${location.origin}${location.pathname}${location.search}${hash}`);
     setText(this.copy, done ? 'Copied' : 'Not copied');
-    setText(this.told, done ? 'The link is in the clipboard.' : 'The browser did not let the link into the clipboard; it stands in the address bar.');
+    setText(this.told, done ? 'The link is in the clipboard.' : 'The browser blocked copying. The link is in the address bar.');
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => setText(this.copy, 'Copy link'), SHOWN_MS);
     return done;
@@ -38,11 +38,11 @@ export class ShareButtons {
     const link = () => this.address.linkWith(boxes.filter((b) => b.box.checked).map((b) => b.name));
     const show = () => {
       address.value = `${location.origin}${location.pathname}${location.search}${link()}`;
-      const missing = pins.length && !link().includes('&pin=') ? ` The pins are left out: with them it would exceed ${MOST}.` : '';
+      const missing = pins.length && !link().includes('&pin=') ? ` The pins are left out: with them the link would exceed ${MOST}.` : '';
       setText(words, `${address.value.length} characters.${missing}`);
     };
     show();
-    return [h('h3', {}, 'Link for a class'), h('p', { class: 'caption' }, 'Who opens it cannot change what is ticked:'),
+    return [h('h3', {}, 'Link for a class'), h('p', { class: 'caption' }, 'Anyone who opens it cannot change what is ticked:'),
       h('div', { class: 'lock-list' }, boxes.map(({ words: text, box }) => h('label', { class: 'check' }, box, text))), address, h('div', { class: 'row spread' }, words, copy)];
   }
 }

@@ -7,11 +7,11 @@ export const MEMORY = 'tour';
 
 /** @type {{title: string, text: string, targets: string[]}[]} */
 export const STEPS = [
-  { title: 'Drag a pole', targets: ['#splane'], text: 'Round marks are pitch’s poles, square ones yaw’s. Drag one; or focus it and use the arrow keys. Diamonds are the poles of the whole loop, PI included.' },
-  { title: 'See the response', targets: ['#plots'], text: 'Solid lines are the nonlinear rig’s, dashed ones the linear model’s. Point at a plot to read its values; click, and the rig goes to that moment.' },
-  { title: 'Mind the limits', targets: ['[data-testid=plot-V_p]', '[data-testid=plot-V_y]', '#strip'], text: 'Red lines are what the motors can give. The line at the top says what is unstable, saturated or badly paired; each remark leads to its place.' },
-  { title: 'Who moves what', targets: ['#numbers'], text: 'K is the gain that places these poles. The relative gain array (RGA) says which motor should answer for which angle; where crosswise is better, one button pairs them so.' },
-  { title: 'Share it', targets: ['.share', '[data-testid=pin]'], text: 'Copy link copies an address that opens this very design. Pin keeps a design beside those that follow.' },
+  { title: 'Drag a pole', targets: ['#splane'], text: 'Round marks are pitch’s poles, square ones yaw’s. Drag one, or use the arrow keys. Diamonds are the poles of the whole loop; a dotted line shows where the PI loops take the pole that you touch.' },
+  { title: 'See the response', targets: ['#plots'], text: 'Solid lines are the nonlinear rig’s, dashed ones the linear model’s. Point at a plot to read its values. Click to move the rig to that moment.' },
+  { title: 'Mind the limits', targets: ['[data-testid=plot-V_p]', '[data-testid=plot-V_y]', '#strip'], text: 'Red lines are the motors’ limits. The line at the top says what is unstable, saturated or badly paired. Click a remark to go to its place.' },
+  { title: 'Who moves what', targets: ['#numbers'], text: 'K is the gain that places these poles. The relative gain array (RGA) says which motor should control which angle. Where crosswise is better, one button changes the pairing.' },
+  { title: 'Share it', targets: ['.share', '[data-testid=pin]'], text: 'Copy link copies an address that opens this design. Pin keeps a design beside those that follow.' },
 ];
 
 export class Tour {

@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
-from tests.scene_server import until
+from tests.patience import PATIENCE, until
 from tests.whole_server import WholeServer, serving
 
 SESSION = "hostile-" + "x" * 20
@@ -29,7 +29,7 @@ CONVERSATIONS = ("/api/v1/robustness", "/api/v1/recordings/identify")
 JSON_SOCKETS = ("/api/v1/live", *CONVERSATIONS)
 SOCKETS = (*JSON_SOCKETS, f"/scene/{SESSION}", f"/scene/{SESSION}/hub")
 ALIVE = {"/api/v1/live": {"seq": 7}, CONVERSATIONS[0]: {"samples": 3}, CONVERSATIONS[1]: {"cancel": True}}
-PATIENCE = 2.0
+PROMPT = 5.0
 """Seconds in which a good client is answered while others misbehave; a millisecond or two in peace."""
 
 # The pings of servers' and clients' threads draw on `random`, which hypothesis takes for the strategies' doing.
@@ -70,9 +70,9 @@ def server() -> Iterator[WholeServer]:
     # The scene lasts as long as somebody watches, so that its own thread and descriptors are there all the time.
     with serving() as server, opened(server, f"/scene/{SESSION}/hub"), opened(server, "/api/v1/live") as live:
         live.send('{"seq": 1}')
-        live.recv(30)
+        live.recv(PATIENCE)
         sessions = server.app.state.sessions
-        until(lambda: sessions.server(SESSION) is not None, "the scene is there", 60)
+        until(lambda: sessions.server(SESSION) is not None, "the scene is there")
         yield server
 
 
@@ -81,7 +81,7 @@ def at_rest(server):
     """Afterwards nothing is left: no task, no thread, no file descriptor."""
     before = resources(server)
     yield
-    until(lambda: resources(server) <= before, f"as before {before}: {resources(server)}", 30)
+    until(lambda: resources(server) <= before, f"as before {before}: {resources(server)}")
 
 
 class Resources(tuple):
@@ -110,18 +110,26 @@ def good(server: WholeServer) -> float:
     begin = perf_counter()
     with opened(server, "/api/v1/live") as peer:
         peer.send('{"seq": 1}')
-        reply = json.loads(peer.recv(PATIENCE * 10))
+        reply = json.loads(peer.recv(PATIENCE))
     assert reply["seq"] == 1 and reply["stable"] is True
     return perf_counter() - begin
 
 
 def opened(server: WholeServer, path: str) -> ClientConnection:
-    return connect(server.socket(path), compression=None, max_size=None, proxy=None, open_timeout=20)
+    # It always reads on: a queue that is full would keep it from seeing the close.
+    return connect(
+        server.socket(path),
+        compression=None,
+        max_size=None,
+        max_queue=None,
+        proxy=None,
+        open_timeout=PATIENCE,
+    )
 
 
 def raw(server: WholeServer, path: str) -> socket.socket:
     """A socket after its handshake, on which anything may be sent."""
-    peer = socket.create_connection(("127.0.0.1", server.port), timeout=20)
+    peer = socket.create_connection(("127.0.0.1", server.port), timeout=PATIENCE)
     key = b64encode(bytes(16)).decode()
     head = f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
     peer.sendall(f"{head}Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n".encode())
@@ -141,21 +149,15 @@ def frame(payload: bytes, opcode: int = 1) -> bytes:
 
 
 def closing_code(peer: socket.socket) -> int:
-    """The code of the close frame that comes, whatever comes before it."""
-    data = b""
-    with contextlib.suppress(ConnectionResetError):
-        while part := peer.recv(65536):
-            data += part
-    at = 0
-    while at < len(data):
-        opcode, size = data[at] & 15, data[at + 1] & 127
-        at += 2
-        if size > 125:
-            width = 2 if size == 126 else 8
-            size, at = int.from_bytes(data[at : at + width]), at + width
-        if opcode == 8:
-            return int.from_bytes(data[at : at + 2])
-        at += size
+    """The code of the close frame that comes, whatever comes before it; 0 where the connection ends without one."""
+    with contextlib.suppress(ConnectionResetError), peer.makefile("rb") as coming:
+        while head := coming.read(2):
+            opcode, size = head[0] & 15, head[1] & 127
+            if size > 125:
+                size = int.from_bytes(coming.read(2 if size == 126 else 8))
+            payload = coming.read(size)
+            if opcode == 8:
+                return int.from_bytes(payload[:2])
     return 0
 
 
@@ -166,7 +168,7 @@ def test_whatever_is_sent_is_answered_by_a_problem_or_an_answer(server, path, va
     text = value if isinstance(value, (str, bytes)) else json.dumps(value)
     with opened(server, path) as peer:
         peer.send(text)
-        first = peer.recv(30)
+        first = peer.recv(PATIENCE)
         reply = orjson.loads(first)
         if "code" in reply:
             assert reply["status"] == 422, reply
@@ -174,7 +176,7 @@ def test_whatever_is_sent_is_answered_by_a_problem_or_an_answer(server, path, va
         # The socket lives on.
         peer.send(json.dumps(ALIVE[path]))
         while not {"seq", "done", "cancelled"} & set(reply) or (path == "/api/v1/live" and reply["seq"] != 7):
-            reply = orjson.loads(peer.recv(30))
+            reply = orjson.loads(peer.recv(PATIENCE))
 
 
 @pytest.mark.parametrize("path", SOCKETS[3:])
@@ -187,7 +189,7 @@ def test_scene_sockets_pass_nothing_malformed(server, path, value, more):
                 peer.send(message)
         except ConnectionClosed:
             pass
-    assert good(server) < PATIENCE
+    assert good(server) < PROMPT
 
 
 @pytest.mark.parametrize("path", SOCKETS)
@@ -218,7 +220,7 @@ def test_broken_frames_close_the_socket_with_their_code(server, at_rest, path, s
 def test_deep_nesting_is_a_problem(server, path, text):
     with opened(server, path) as peer:
         peer.send(text)
-        assert json.loads(peer.recv(20))["status"] == 422
+        assert json.loads(peer.recv(PATIENCE))["status"] == 422
 
 
 @pytest.mark.parametrize("path", SOCKETS)
@@ -244,28 +246,40 @@ def test_floods_hold_up_nobody(server, at_rest, path):
         ended.set()
         for attacker in attackers:
             attacker.join()
-    assert sorted(times)[5] < PATIENCE  # the flood's own work in this very process included
-    assert max(times) < 5 * PATIENCE
+    assert sorted(times)[5] < PROMPT  # the flood's own work in this very process included
+    assert max(times) < 4 * PROMPT
+
+
+LONG = {
+    "/api/v1/live": {"seq": 1, "each_axis": True, "scenario": {"samples": 1001}},
+    CONVERSATIONS[0]: {"samples": 500, "scenario": {"model": "linear"}},
+    CONVERSATIONS[1]: {"recording": "none", "columns": {}},
+}
+ASKED = {"/api/v1/live": 250, **dict.fromkeys(CONVERSATIONS, 50)}
+BUFFERED = 40 * 2**20
+"""Bytes that may stay in this very process: its own buffers, and what the allocators keep."""
 
 
 @pytest.mark.parametrize("path", JSON_SOCKETS)
 def test_slow_readers_are_not_buffered_for(server, at_rest, path):
     """Who asks without end and never reads is not computed for, beyond what the kernel's buffers hold."""
-    process_before = memory()
+    body = json.dumps(LONG[path])
+    with opened(server, path) as reader:
+        reader.send(body)
+        size = len(reader.recv(PATIENCE))
+    if path == "/api/v1/live":
+        assert ASKED[path] * size > 3 * BUFFERED  # were all answers kept, it would be seen
+    before = memory()
     with raw(server, path) as peer:
         peer.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-        peer.settimeout(0.2)
-        body = {"seq": 1, "samples": 2000, "recording": "none", "columns": {}, "scenario": {"samples": 1001}}
-        if path == "/api/v1/live":
-            body = {"seq": 1, "each_axis": True, "scenario": {"samples": 1001}}
-        end = perf_counter() + 3
-        while perf_counter() < end:
+        peer.settimeout(0.2)  # the server may stop reading, too
+        for _ in range(ASKED[path]):
             try:
-                peer.sendall(frame(json.dumps(body).encode()))
+                peer.sendall(frame(body.encode()))
             except OSError:
                 break
-        assert good(server) < PATIENCE
-    assert memory() - process_before < 60 * 2**20
+            assert good(server) < PROMPT  # and the server has had a turn
+    assert memory() - before < BUFFERED
 
 
 def memory() -> int:
@@ -284,7 +298,7 @@ def test_clients_that_vanish_leave_nothing(server, at_rest, path):
         peer = raw(server, path)
         peer.sendall(whole)
         peer.close()
-    assert good(server) < PATIENCE
+    assert good(server) < PROMPT
 
 
 def test_half_open_connections_hold_up_nobody(server, at_rest):
@@ -294,7 +308,7 @@ def test_half_open_connections_hold_up_nobody(server, at_rest):
         half.sendall(b"GET /api/v1/presets HTTP/1.1\r\nHost: x\r\n")
     silent = [raw(server, "/api/v1/live") for _ in range(50)]
     try:
-        assert max(good(server) for _ in range(5)) < PATIENCE
+        assert max(good(server) for _ in range(5)) < PROMPT
     finally:
         for peer in halves + silent:
             peer.close()
@@ -307,10 +321,14 @@ def test_a_flooding_socket_is_closed(server, at_rest):
         assert closing_code(peer) in (0, 1008)  # 0: what the kernel had of it was lost with the connection
 
 
-def test_a_silent_peer_is_dropped_after_its_pings(server, at_rest):
+def test_a_silent_peer_is_dropped_after_its_pings():
     """One that never answers a ping, as when its network is gone."""
-    with raw(server, "/api/v1/live") as peer:
-        peer.settimeout(20)
-        begin = perf_counter()
+    with (
+        serving(ping=0.1) as server,
+        raw(server, "/api/v1/live") as peer,
+        opened(server, "/api/v1/live") as other,
+    ):
+        peer.settimeout(PATIENCE)
         assert closing_code(peer) in (0, 1011)
-        assert perf_counter() - begin < 15
+        other.send('{"seq": 1}')  # who answers its pings stays
+        assert json.loads(other.recv(PATIENCE))["seq"] == 1

@@ -12,7 +12,7 @@ import pytest
 from app import models
 from app.encoding import ARRAY_KEY, BINARY_SUBPROTOCOL, binary_frame
 from app.live import Newest
-from tests.scene_server import until
+from tests.patience import until
 
 
 def test_answers_carry_the_sequence_number_and_the_evaluation(client):
@@ -130,7 +130,7 @@ def test_quick_requests_are_answered_without_a_thread_and_others_with_one(client
         ({"method": "tits-yang"}, 1),
         ({"poles": [1, 2, 3]}, 0),  # a problem is quick
     ]
-    until(lambda: compute.settled, "all is derived and compiled", 120)
+    until(lambda: compute.settled, "all is derived and compiled")
     for body, threads in requests:
         threaded.clear()
         with client.websocket_connect("/api/v1/live") as socket:

@@ -19,9 +19,9 @@ from app import logs
 from app.cli.group import heli2dof
 from app.main import create_app
 from app.settings import Settings, complaint, variable
-from tests.app.process import ROOT, served
+from tests.children import ROOT, served
+from tests.patience import until
 from tests.scene_client import session_id
-from tests.scene_server import until
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 

@@ -18,7 +18,8 @@ from websockets.sync.connection import Connection
 from app.scene.hub import LARGEST_SHOWN, MOST_WINDOWS, Room, Transport, Window, read_shown
 from app.scene.panel import gain_table
 from tests.app.test_scene_relay import CAMERA, encode, messages, replay, session_id, watch
-from tests.scene_server import SceneServer, serving, until
+from tests.patience import until
+from tests.scene_server import SceneServer, serving
 
 K = [[51.2, -3.46, 5.46, -0.619], [-10.5, 103.7, -1.89, 18.6]]
 RUN = {"type": "transport", "playing": True, "time": 0.5, "speed": 1.0, "loop": False, "at": 12.25}
@@ -287,7 +288,11 @@ def test_of_what_waits_only_the_newest_stays():
             room.edit({"pitch.first": -float(k), f"name{k % 3}": k})
         for member in (window, page):
             sending = asyncio.create_task(member.send_to(Socket()))  # pyright: ignore
-            await asyncio.sleep(0.01)
+            before = -1
+            while before < len(sent):  # a turn in which nothing is sent is the last
+                before = len(sent)
+                for _ in range(5):
+                    await asyncio.sleep(0)
             sending.cancel()
 
     asyncio.run(scenario())

@@ -14,6 +14,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from app.scene.relay import BURST, LARGEST_MESSAGE, RATE, admissible
+from tests.patience import until
 from tests.scene_client import (
     CAMERA,
     VISER,
@@ -26,7 +27,7 @@ from tests.scene_client import (
     session_id,
     watch,
 )
-from tests.scene_server import SceneServer, serving, until
+from tests.scene_server import SceneServer, serving
 
 
 @pytest.fixture(scope="module")
@@ -255,8 +256,8 @@ def test_floods_are_slowed_and_others_are_not(server: SceneServer):
         for _ in range(sent):
             flood.send(encode(CAMERA))
         calm.send(encode(CAMERA))
-        until(lambda: other, "the calm one is heard at once")
-        assert monotonic() - began < 0.9
+        until(lambda: other, "the calm one is heard")
+        assert len(heard) < sent  # long before the flood is
         until(lambda: len(heard) == sent, "all arrive in the end")
         assert heard[-1][1] - began >= 120 / RATE * 0.9
 

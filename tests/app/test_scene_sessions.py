@@ -4,7 +4,6 @@ import asyncio
 import gc
 import socket
 import threading
-import time
 import weakref
 from collections.abc import Coroutine, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -18,8 +17,11 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
-from app.scene import SceneSessions, sessions
+from app.scene import SceneSessions
+from app.scene.panel import Panel
 from app.scene.relay import relay
+from app.scene.rig import RigServer
+from tests.patience import PATIENCE, until
 from tests.scene_client import (
     VISER,
     closed,
@@ -28,7 +30,7 @@ from tests.scene_client import (
     session_id,
     watch,
 )
-from tests.scene_server import SceneServer, serving, until
+from tests.scene_server import SceneServer, serving
 
 
 @pytest.fixture(scope="module")
@@ -37,14 +39,13 @@ def server() -> Iterator[SceneServer]:
         yield running
 
 
-def test_full_server_says_so_and_makes_room_when_someone_leaves(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(sessions, "_SPARE_AFTER", 0.0)
-    with serving(capacity=1) as small:
+def test_full_server_says_so_and_makes_room_when_someone_leaves():
+    with serving(capacity=1, spare_seconds=0.0) as small:
         with watch(small, "first") as first:
             replay(first)
             with watch(small, "second") as second:
                 with pytest.raises(ConnectionClosed):
-                    second.recv(timeout=20)
+                    second.recv(timeout=PATIENCE)
                 assert second.close_code == 1013
                 assert "1 scenes of this server are in use" in (second.close_reason or "")
             status, headers = put_rig(small, "second", '{"rig": "aero"}')
@@ -71,7 +72,7 @@ def test_stopping_the_app_stops_every_rig_and_tells_the_watchers():
         assert viser is not None
         port = viser.get_port()
     with pytest.raises(ConnectionClosed):
-        socket.recv(timeout=20)
+        socket.recv(timeout=PATIENCE)
     assert len(server.sessions) == 0
     with pytest.raises(ConnectionRefusedError):
         connect(f"ws://127.0.0.1:{port}", proxy=None)
@@ -93,71 +94,58 @@ def run_apart(work: Coroutine[Any, Any, None]) -> None:
         pool.submit(asyncio.run, work).result()
 
 
-def test_making_a_rig_leaves_the_event_loop_free(monkeypatch: pytest.MonkeyPatch):
-    release = threading.Event()
-
-    class Stub:
-        def stop(self) -> None:
-            pass
-
-    def slow(_: str) -> Stub:
-        assert release.wait(20)
-        return Stub()
-
-    monkeypatch.setattr(sessions, "_make_server", slow)
-
+def test_making_a_rig_leaves_the_event_loop_free():
     async def scenario() -> None:
         async with SceneSessions().running() as scenes:
-            making = asyncio.create_task(scenes.set_rig("x" * 22, "aero"))
-            for _ in range(50):
+            making, turns = asyncio.create_task(scenes.set_rig("x" * 22, "aero")), 0
+            while not making.done():
                 await asyncio.sleep(0)
-            assert not making.done()
-            release.set()  # only reached if the loop still turns
-            await asyncio.wait_for(making, 20)
+                turns += 1
+            await making
+            assert scenes.server("x" * 22) is not None
+        assert turns > 20  # some milliseconds' work in the loop itself would take two or three
 
     run_apart(scenario())
 
 
 def test_slow_visitor_slows_the_source_instead_of_filling_memory():
-    frame, sent = bytes(256 * 1024), 0
-    held = asyncio.Event()
+    """Of 64 MiB that a source has, it is never ahead of a slow visitor by more than the buffers on the way."""
+    frame, frames, most = bytes(256 * 1024), 256, 32 * 1024 * 1024
+    sent, taken, lead = 0, 0, 0
 
     async def flood(connection: ServerConnection) -> None:
-        nonlocal sent
-        while True:
+        nonlocal sent, lead
+        for _ in range(frames):
             await connection.send(frame)
             sent += 1
+            lead = max(lead, sent - taken)
 
     async def scenario() -> None:
         async with serve(flood, "127.0.0.1", 0, compression=None) as source:
             port = source.sockets[0].getsockname()[1]
 
             async def receive() -> Message:
-                await held.wait()
-                return {"type": "websocket.disconnect", "code": 1000}
+                return await asyncio.get_running_loop().create_future()  # a visitor who says nothing
 
-            async def send(_: Message) -> None:
-                await held.wait()  # a visitor whose buffers are full
+            async def send(message: Message) -> None:
+                nonlocal taken
+                for _ in range(50):  # turns in which the source sends what it can
+                    await asyncio.sleep(0)
+                taken += message["type"] == "websocket.send"
 
             scope = {"type": "websocket", "app": FastAPI(), "subprotocols": [], "headers": []}
             visitor = WebSocket(scope, receive, send)
             visitor.client_state = visitor.application_state = visitor.client_state.CONNECTED
-            relaying = asyncio.create_task(relay(visitor, port))
-            deadline, quiet, last = time.monotonic() + 20, 0, -1
-            while quiet < 20:
-                assert time.monotonic() < deadline, "the source is never slowed"
-                await asyncio.sleep(0.02)
-                quiet, last = (quiet + 1, last) if sent == last and sent else (0, sent)
-            held.set()
-            await asyncio.wait_for(relaying, 20)
-        assert sent * len(frame) < 32 * 1024 * 1024
+            await asyncio.wait_for(relay(visitor, port), PATIENCE)
+        assert taken == frames
+        assert lead * len(frame) < most
 
     run_apart(scenario())
 
 
 def test_stopped_rig_lets_go_of_its_scene_at_once():
-    rig = sessions._make_server("aero")
-    sessions._make_panel(rig, lambda _: None)
+    rig = RigServer("aero")
+    Panel(rig, lambda _: None)
     body = weakref.ref(rig.scene.get_handle_by_name("/rig/yoke/body"))
     with connect(
         f"ws://127.0.0.1:{rig.get_port()}", subprotocols=[Subprotocol(VISER)], compression=None
@@ -181,7 +169,7 @@ def test_stopped_rig_lets_go_of_its_scene_at_once():
 def test_client_that_is_killed_in_mid_frame_leaves_nothing():
     with serving(idle_seconds=0.3) as server:
         rude = watch(server, "killed")
-        rude.recv(timeout=20)
+        rude.recv(timeout=PATIENCE)
         raw = rude.socket
         raw.sendall(b"\x82\xfe\x10\x00")  # a frame's head that promises 4096 bytes, of which none come
         raw.shutdown(socket.SHUT_RDWR)

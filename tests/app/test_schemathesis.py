@@ -2,15 +2,20 @@
 
 One check is narrowed rather than switched off: valid input may be refused where JSON Schema cannot express
 the rule. `RULES` lists, for each call, which refusals those are; any other refusal fails.
+
+Bodies share most of their fields. Each field is covered in the first call of the document that takes it (every bound,
+every type, every omission), and whole bodies, valid and invalid, are generated for every call.
 """
 
 from __future__ import annotations
 
+import copy
+import json
 import math
 import re
-import zlib
 from collections import Counter
 from collections.abc import Iterator
+from typing import Any
 
 import orjson
 import pytest
@@ -21,13 +26,15 @@ import schemathesis
 import schemathesis.specs.openapi.object_authorization
 from hypothesis import HealthCheck, Phase, settings
 from schemathesis.checks import load_all_checks
+from schemathesis.config import SchemathesisConfig
 from schemathesis.specs.openapi.checks import positive_data_acceptance
 
 from app.main import create_app
+from tests.patience import PATIENCE
 from tests.whole_server import serving
 
 load_all_checks()
-pytestmark = pytest.mark.filterwarnings("ignore")
+pytestmark = [pytest.mark.filterwarnings("ignore"), pytest.mark.slow]
 
 DESIGN = {
     "unpaired_poles": "a pair is two real poles or two conjugates; a split may separate conjugates",
@@ -80,20 +87,47 @@ RULES: dict[str, dict[str, str]] = {
     | {"unusable_recording (recording|columns.*)": "the key of a recording that is there, and its columns"},
     "GET /api/v1/symbolic": {"invalid_input shifted": "the axis-decoupled structure has no shift"},
 }
-SLOW = (
-    "compare",
-    "recording",
-    "recordings/sample",
-    "robustness",
-    "export/{format}",
-    "recordings/{key}/overlay",
-)
-THINNED = {f"POST /api/v1/{name}": 5 for name in SLOW}
-"""Of the slow calls whose bodies are a step's with little more: one of so many cases is sent, always the same."""
-sent: Counter[str] = Counter()
-schema = schemathesis.openapi.from_dict(create_app().openapi())
+GENERATED = 8
+"""Whole bodies for each call, of which each may be valid or not."""
+BY = "#/components/schemas/"
+
+
+def bodies(document: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """The JSON bodies' media types, by call."""
+    return {
+        f"{method.upper()} {path}": operation["requestBody"]["content"]["application/json"]
+        for path, methods in document["paths"].items()
+        for method, operation in methods.items()
+        if "application/json" in operation.get("requestBody", {}).get("content", {})
+    }
+
+
+def first_fields(document: dict[str, Any]) -> dict[str, Any]:
+    """The document with each body reduced to what no call before it takes: the same name and the same schema."""
+    reduced, seen = copy.deepcopy(document), set()
+    for media in bodies(reduced).values():
+        body = copy.deepcopy(document["components"]["schemas"][media["schema"]["$ref"].removeprefix(BY)])
+        fields = {(name, json.dumps(field, sort_keys=True)) for name, field in body["properties"].items()}
+        new = {name for name, _ in fields - seen} | set(body.get("required", ()))
+        body["properties"] = {name: field for name, field in body["properties"].items() if name in new}
+        seen |= fields
+        media["schema"] = body
+        media.pop("examples", None)  # they are whole bodies
+    return reduced
+
+
+def schema_of(document: dict[str, Any], **phases: bool):
+    enabled = {name: {"enabled": on} for name, on in phases.items()}
+    settings = {"phases": enabled, "generation": {"max-examples": GENERATED}}
+    return schemathesis.openapi.from_dict(document, config=SchemathesisConfig.from_dict(settings))
+
+
+DOCUMENT = create_app().openapi()
+BODIES = {call: media["schema"]["$ref"].removeprefix(BY) for call, media in bodies(DOCUMENT).items()}
+whole = schema_of(DOCUMENT, examples=True, coverage=False, fuzzing=True)
+fields = schema_of(first_fields(DOCUMENT), examples=False, coverage=True, fuzzing=False)
+sent: Counter[tuple[str, str, str]] = Counter()
 bounded = settings(
-    max_examples=8,
     derandomize=True,
     database=None,
     deadline=None,
@@ -106,7 +140,12 @@ bounded = settings(
 def base() -> Iterator[str]:
     with serving(request_rate=10_000, request_burst=100_000) as server:
         yield server.http
-    print(f"{sent.total()} cases: {dict(sent)}")
+    print(f"\n{sent.total()} cases")
+    for body in dict.fromkeys(body for body, *_ in sent):
+        rows = {key[1:]: count for key, count in sent.items() if key[0] == body}
+        print(f"{body}: {sum(rows.values())}")
+        for (call, kind), count in rows.items():
+            print(f"    {call}, {kind}: {count}")
 
 
 def refusal(case, response) -> bool:
@@ -127,24 +166,54 @@ def finite(value) -> bool:
     return not isinstance(value, float) or math.isfinite(value)
 
 
-@schema.parametrize()
-@bounded
-def test_what_is_described_is_what_is_answered(case, base):
-    if zlib.crc32(repr((case.query, case.body)).encode()) % THINNED.get(case.operation.label, 1):
-        return
-    sent[case.operation.label] += 1
-    response = case.call(base_url=base, timeout=60)
+def check(case, base: str, kind: str) -> None:
+    """Sends a case and holds the answer to what is described."""
+    label = case.operation.label
+    sent[BODIES.get(label, "no JSON body"), label, kind] += 1
+    response = case.call(base_url=base, timeout=PATIENCE)
     excepted = [positive_data_acceptance] if refusal(case, response) else []
     case.validate_response(response, excluded_checks=excepted, transport_kwargs={"base_url": base})
-    (kind,) = response.headers.get("content-type", [""])
+    (media,) = response.headers.get("content-type", [""])
     if response.status_code >= 400:
-        assert kind == "application/problem+json"
+        assert media == "application/problem+json"
         problem = response.json()
         assert problem["status"] == response.status_code and problem["code"] and problem["detail"]
-    elif kind == "application/json":
+    elif media == "application/json":
         assert finite(orjson.loads(response.content))  # which knows no NaN
 
 
+@whole.parametrize()
+@bounded
+def test_what_is_described_is_what_is_answered(case, base):
+    check(case, base, "whole")
+
+
+@fields.parametrize()
+@bounded
+def test_every_field_is_what_is_described(case, base):
+    check(case, base, "fields")
+
+
+def test_every_field_is_covered_once():
+    """No field of any body is left to its siblings without one that covers it, and none is covered twice."""
+    reduced = bodies(first_fields(DOCUMENT))
+    covered = Counter(
+        (name, json.dumps(field, sort_keys=True))
+        for media in reduced.values()
+        for name, field in media["schema"]["properties"].items()
+        if name not in media["schema"].get("required", ())
+    )
+    schemas = [DOCUMENT["components"]["schemas"][name] for name in set(BODIES.values())]
+    everything = {
+        (name, json.dumps(field, sort_keys=True))
+        for body in schemas
+        for name, field in body["properties"].items()
+        if name not in body.get("required", ())
+    }
+    assert set(covered) == everything
+    assert set(covered.values()) == {1}
+
+
 def test_every_exception_belongs_to_a_call():
-    labels = {result.ok().label for result in schema.get_all_operations()}
+    labels = {result.ok().label for result in whole.get_all_operations()}
     assert set(RULES) <= labels

@@ -189,7 +189,10 @@ def unknown(server: WholeServer) -> str:
 def main() -> None:
     """Prints the table, or puts it into the file named."""
     rows = ["| where | sent | answer | others |", "|---|---|---|---|"]
-    with serving(**SMALL) as server, httpx2.Client(base_url=server.http, timeout=60, trust_env=False) as http:
+    with (
+        serving(**SMALL | {"slow_seconds": 4.0}) as server,
+        httpx2.Client(base_url=server.http, timeout=60, trust_env=False) as http,
+    ):
         for where, sent, act in cases(server, http):
             got = act()
             while http.get("/api/v1/presets").status_code != 200:

@@ -20,7 +20,7 @@ from starlette.routing import Mount
 from app.cli.serving import listener, server_config
 from app.main import create_app
 from app.settings import Settings
-from tests.scene_server import until
+from tests.patience import until
 
 CONNECTIONS = 6
 """Of one tab, as browsers limit them."""
@@ -30,9 +30,10 @@ ROUNDS = 3
 
 def serve(bound: socket.socket) -> None:
     """The whole app, and its files a second time."""
-    app = create_app()
-    app.router.routes.insert(1, Mount(PEER, StaticFiles(directory=Settings().static)))  # as early as ours
-    uvicorn.Server(server_config(app)).run([bound])
+    settings = Settings()
+    app = create_app(settings)
+    app.router.routes.insert(1, Mount(PEER, StaticFiles(directory=settings.static)))  # as early as ours
+    uvicorn.Server(server_config(app, settings)).run([bound])
 
 
 def files() -> list[str]:

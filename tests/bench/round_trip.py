@@ -23,7 +23,7 @@ from app.live import _evaluate
 from app.requests import LiveRequest
 from heli2dof_core import evaluate, preset
 from tests.e2e.conftest import running_app
-from tests.scene_server import until
+from tests.patience import until
 
 EXCHANGES, WARM = 300, 20
 ECHO = """

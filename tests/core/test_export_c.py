@@ -49,7 +49,7 @@ class Controller:
         subprocess.run([compiler, *flags, str(source), "-o", str(library)], check=True)
         self.library = ctypes.CDLL(str(library))
         self.real = ctypes.c_double if real == "double" else ctypes.c_float
-        self.state = (self.real * 6)(*[9.0] * 6)
+        self.state = (self.real * 12)(*[9.0] * 12)
 
     def pair(self, values=(0.0, 0.0)):
         return (self.real * 2)(*values)
@@ -91,10 +91,11 @@ def in_the_loop(spec: Spec, controller: Controller) -> tuple[np.ndarray, np.ndar
     *reference, theta, psi, theta_dot, psi_dot = scenario.resolved(spec.theta_0)
     x = np.array([theta, psi, theta_dot, psi_dot])
     controller.start(x[:2])
-    angles, voltages = [], []
+    angles, voltages, waiting = [], [], place(spec).plant.trim
     for _ in range(scenario.samples):
         rates = x[2:] if scenario.digital.rates == "true" else None
-        held = controller.step(x[:2], rates, reference)
+        computed = controller.step(x[:2], rates, reference)
+        held, waiting = (waiting if scenario.digital.delay else computed), computed
         angles.append(x[:2].copy())
         voltages.append(held)
         rate = independent_rates(spec.parameters, lambda _x, v=held: (*v, ()))
@@ -111,8 +112,9 @@ def in_the_loop(spec: Spec, controller: Controller) -> tuple[np.ndarray, np.ndar
         replace(SPEC, theta_0=0.2, scenario=experiment(saturation=False, initial=(0.1, -0.1, 0.0, 0.0))),
         replace(SPEC, outer=OuterLoop("none"), scenario=experiment(trim_feedforward=False)),
         replace(SPEC, method="lqr-integral", limits=TIGHTER, scenario=experiment("clamping")),
+        replace(SPEC, limits=TIGHT, scenario=experiment("clamping", replace(PLAIN, delay=True))),
     ],
-    ids=["clamping", "back-calculation", "windup", "unlimited", "static", "own-integral"],
+    ids=["clamping", "back-calculation", "windup", "unlimited", "static", "own-integral", "late"],
 )
 def test_c_in_the_loop_is_the_digital_rig(spec: Spec, tmp_path: Path):
     own = simulate_digital(
@@ -148,6 +150,58 @@ def test_c_answers_the_encoders_as_the_digital_rig_does(outer: OuterLoop, anti_w
         np.testing.assert_allclose(controller.integrals, integrals, atol=1e-9)
 
 
+BAD = [np.nan, np.inf, -np.inf, 1e300, -2e6]
+
+
+@pytest.mark.parametrize("outer", [SPEC.outer, OuterLoop("none")], ids=lambda outer: outer.outer)
+@pytest.mark.parametrize("real", ["double", "float"])
+def test_c_holds_the_last_good_reading(outer: OuterLoop, real: str, tmp_path: Path):
+    """Each axis by itself, angles, rates and references: as if the last good value had been read again."""
+    spec = replace(SPEC, outer=outer, limits=TIGHT, scenario=experiment())
+    rng = np.random.default_rng(5)
+    spoilt, whole = Controller(spec, tmp_path, real), Controller(spec, tmp_path, real)
+    for controller in (spoilt, whole):
+        controller.start([0.1, -0.2])
+    good = np.array([0.1, -0.2, 0.0, 0.0, 0.1, -0.2])
+    used, held = 0, 6 if outer.outer == "none" else 8  # where the last good rates stand
+    for k in range(400):
+        read = rng.normal(0, 0.1, 6)
+        bad = rng.random(6) < (0.3 if k % 100 < 50 else 0.0)
+        good = np.where(bad, good, read)
+        used += int(np.sum(bad))
+        read[bad] = rng.choice(BAD, int(np.sum(bad)))
+        for controller, values in ((spoilt, read), (whole, good)):
+            rates = None if k < 200 else values[2:4]  # None: those of the filters
+            controller.last = controller.step(values[:2], rates, values[4:])
+        if k < 200:
+            good[2:4] = spoilt.state[held : held + 2]
+        assert np.all(np.isfinite(spoilt.last)) and np.all(np.isfinite(np.array(spoilt.state)))
+        np.testing.assert_array_equal(spoilt.last, whole.last)
+    assert used > 200
+
+
+def test_one_bad_angle_is_forgotten(tmp_path: Path):
+    """The loop with a lost sample comes back to the one without."""
+    spec = replace(SPEC, scenario=experiment())
+    one, other = Controller(spec, tmp_path), Controller(spec, tmp_path)
+    for controller in (one, other):
+        controller.start([0.05, 0.0])
+    for k in range(300):
+        angles = np.array([0.05 * np.cos(0.02 * k), 0.01])
+        expected = one.step(angles, None, [0.05, 0.01])
+        seen = other.step([np.nan, angles[1]] if k == 100 else angles, None, [0.05, 0.01])
+        assert np.all(np.isfinite(seen))
+    np.testing.assert_allclose(seen, expected, atol=1e-3)
+
+
+def test_c_started_without_a_reading_stands_at_the_operating_point(tmp_path: Path):
+    spec = replace(SPEC, theta_0=0.2, scenario=experiment())
+    controller = Controller(spec, tmp_path)
+    controller.start([np.nan, np.inf])
+    voltages = controller.step([np.nan, np.nan], None, [np.nan, np.nan])
+    np.testing.assert_allclose(voltages, place(spec).plant.trim, atol=1e-9)
+
+
 def test_floats_do_nearly_the_same(tmp_path: Path):
     spec = replace(SPEC, limits=TIGHT, scenario=experiment())
     double, _ = in_the_loop(spec, Controller(spec, tmp_path))
@@ -167,6 +221,7 @@ def test_the_header_is_cpp_too_and_everything_is_said(tmp_path: Path):
             "heli2dof ",
         ):
             assert said in text
+    assert "last good one" in texts[0] and "NaN, infinite or beyond +-1e+06" in texts[0]
     assert "sample time 2 ms" in texts[0] and "forward Euler" in texts[0] and "clamping" in texts[0]
     header = tmp_path / "heli2dof_controller.h"
     header.write_text(texts[0])

@@ -11,6 +11,7 @@ import pytest
 
 from heli2dof_core import PRESETS, OuterLoop, PoleSet, Scenario, Spec, Structure, evaluate, preset
 from heli2dof_core.export import FORMATS
+from heli2dof_core.export.report_figures import decibel, fixed, seconds, significant
 from heli2dof_core.export.svg import HEIGHT, LEFT, WIDTH, Curve, chart, number, thinned, ticks
 
 BASE = Spec.from_preset(preset())
@@ -35,7 +36,7 @@ def tree(text: str) -> ET.Element:
 @pytest.mark.parametrize("name", SPECS)
 def test_the_report_is_well_formed_and_holds_the_design(name: str):
     spec = SPECS[name]
-    text, report = FORMATS["report"].render(spec), evaluate(spec)
+    text, report = FORMATS["report"].render(spec), evaluate(spec, each_axis=True)
     page = tree(text)
     words = " ".join(page.itertext())
     for value in (*report.design.K.ravel(), report.design.norm):
@@ -60,7 +61,7 @@ def test_a_link_is_shown_and_escaped():
 
 def test_a_curve_is_where_its_numbers_are():
     x, y = np.linspace(0, 2, 5), np.array([0.0, 1.0, 4.0, 9.0, 10.0])
-    svg = ET.fromstring(chart("a & b", "x", "y", [Curve(x, y, "rig")]))
+    svg = ET.fromstring(chart("a & b", "x", "y", [Curve(x, y, "pitch")]))
     assert svg[0].text == "a & b"
     points = np.array([p.split(",") for p in next(svg.iter("polyline")).get("points").split()], dtype=float)
     labels = {e.text: e for e in svg.iter("text") if e.get("text-anchor") == "middle"}
@@ -93,3 +94,61 @@ def test_thinning_keeps_every_peak():
     short_x, short_y = thinned(x, y)
     assert len(short_x) <= 402 and np.all(np.diff(short_x) > 0)
     assert short_y.max() == 7.0 and short_y.min() == -9.0 and (short_x[0], short_x[-1]) == (0, 1)
+
+
+def rows_of(spec: Spec, head: str) -> dict[str, list[str]]:
+    """The cells of the table whose header names `head`, by the row's name."""
+    page = tree(FORMATS["report"].render(spec))
+    for table in page.iter("table"):
+        if head in [cell.text for cell in table.iter("th")]:
+            return {row[0].text or "": [c.text or "" for c in row[1:]] for row in table.iter("tr")}
+    raise AssertionError(head)
+
+
+@pytest.mark.parametrize("name", ["default", "unstable", "aero", "lqr"])
+def test_each_axis_is_stepped_alone_and_told_in_degrees(name: str):
+    spec = SPECS[name]
+    rows = rows_of(spec, "pitch step")
+    for axis, (own, ideal) in {"theta": (0, 1), "psi": (2, 3)}.items():
+        alone = replace(
+            spec, scenario=replace(spec.scenario, **{"psi" if axis == "theta" else "theta": None})
+        )
+        for column, model in ((own, "nonlinear"), (ideal, "linear")):
+            metrics = evaluate(alone).step[model].metrics
+            m = metrics.axes.get(axis)
+            if m is None:
+                assert rows["Overshoot"][column] == "–"
+                continue
+            assert rows["Overshoot"][column] == f"{m.overshoot:.1f} %"
+            settling = rows["Settling time"][column]
+            assert settling == ("–" if m.settling_time is None else f"{m.settling_time:.2f} s")
+            iae = float(rows["IAE, °s"][column].replace("−", "-"))
+            assert iae == pytest.approx(np.degrees(m.iae), rel=0.01, abs=5e-4)
+            assert metrics.coupling_peak is not None
+            moved = float(rows["Other axis moves"][column].rstrip("°"))
+            assert moved == pytest.approx(np.degrees(metrics.coupling_peak), abs=0.0051)
+
+
+def test_the_curves_are_both_steps_by_both_models():
+    page = tree(FORMATS["report"].render(BASE))
+    kinds = [line.get("class") for line in page.iter("polyline")]
+    assert all(kinds.count(kind) == 4 for kind in ("pitch", "yaw", "pitch-linear", "yaw-linear"))
+
+
+@pytest.mark.parametrize(
+    ("told", "expected"),
+    [
+        (fixed(-0.001), "0.00"),
+        (fixed(-1.2345, 1), "−1.2"),
+        (fixed(None), "–"),
+        (significant(123456789.0, 3), "1.2e8"),
+        (significant(0.00001234, 3), "1.2e−5"),
+        (significant(12.345, 3), "12.3"),
+        (seconds(0.0123), "12 ms"),
+        (seconds(0.0017), "1.7 ms"),
+        (seconds(1.5), "1.50 s"),
+        (decibel(2.0), "6.0 dB"),
+    ],
+)
+def test_numbers_are_written_as_on_the_page(told: str, expected: str):
+    assert told == expected

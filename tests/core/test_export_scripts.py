@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import io
-import os
 import shutil
 import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,6 +14,7 @@ from scipy.io import loadmat
 
 from heli2dof_core import PRESETS, OuterLoop, Report, Scenario, Spec, evaluate, pole_error, preset
 from heli2dof_core.export import FORMATS
+from tests.children import python
 
 BASE = Spec.from_preset(preset())
 MOVED = Scenario(0.3, -0.5, 2.0, 401, initial=(0.1, 0.2, -0.3, 0.4))
@@ -73,13 +72,24 @@ def test_the_python_script_runs_and_says_the_same(case):
     assert {type(names["plant"]).__name__, type(names["loop"]).__name__} == {"StateSpace"}
 
 
+def test_the_call_for_figures_of_merit_that_the_script_names_gives_them():
+    text = FORMATS["python"].render(BASE)
+    names: dict = {"__name__": "exported"}
+    exec(compile(text, "heli2dof_design.py", "exec"), names)
+    (call,) = (line[2:] for line in text.splitlines() if line.startswith("# ct."))
+    info = eval(call, names)
+    alone = replace(BASE, scenario=replace(BASE.scenario, theta=0.1, psi=None))
+    own = evaluate(alone).step["linear"].metrics.axes["theta"]
+    sample = names["t"][1]
+    assert info["SettlingTime"] == pytest.approx(own.settling_time, abs=2 * sample)
+    assert info["Overshoot"] == pytest.approx(own.overshoot, abs=0.01)
+
+
 def test_the_python_script_is_a_program(tmp_path: Path):
     script = tmp_path / FORMATS["python"].filename
     script.write_bytes(FORMATS["python"].content(BASE, "http://127.0.0.1:8000/#x"))
-    environment = {**os.environ, "MPLBACKEND": "Agg"}
-    command = [sys.executable, "-W", "ignore", str(script)]
-    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True)
-    assert "poles of the whole loop" in done.stdout and "51.17005" in done.stdout
+    shown = python("-W", "ignore", str(script), cwd=tmp_path, MPLBACKEND="Agg")
+    assert "poles of the whole loop" in shown and "51.17005" in shown
 
 
 def octave(text: str, folder: Path) -> dict:

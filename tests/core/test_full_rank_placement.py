@@ -39,6 +39,7 @@ from tests.systems import brunovsky, random_poles, random_system, rounding
 SYSTEMS = 1200
 
 
+@pytest.mark.slow
 def test_poles_land_on_random_systems_as_exactly_as_their_condition_allows():
     """Pole error, one to one, in units of what rounding K to doubles explains."""
     rng = np.random.default_rng(20_261_122)
@@ -97,6 +98,7 @@ def product(a, b):
     return result
 
 
+@pytest.mark.slow
 @given(rigs(), operating_points, pole_sets(), st.floats(-3, 3))
 def test_the_rigs_closed_forms_are_members_of_the_general_family(rig, theta_0, poles, c):
     """The formulas that the derivation gives, against the general construction on the rig's numbers."""

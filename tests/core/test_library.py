@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import doctest
 import importlib
-import subprocess
-import sys
 from dataclasses import replace
 
 import control
@@ -14,6 +12,7 @@ import pytest
 import sympy as sp
 
 import heli2dof_core as heli
+from tests.children import python
 
 WITH_EXAMPLES = (
     *("heli2dof_core", "heli2dof_core.design", "heli2dof_core.evaluate", "heli2dof_core.formulas"),
@@ -108,6 +107,7 @@ def test_formulas_are_sympys_and_their_numbers_the_designs():
     assert sp.latex(f.symbols["J_p"]) in sp.latex(f.mechanics.mass_matrix)
 
 
+@pytest.mark.slow
 def test_the_shift_can_stay_a_symbol():
     f = heli.formulas(shifted=True)
     spec = heli.Spec.from_preset()
@@ -123,5 +123,5 @@ def test_the_import_is_light_and_the_rest_comes_when_asked_for():
         "import heli2dof_core.symbolic.rga; heli.symbolic.rga, heli.paper; "
         "print('sympy' in sys.modules, hasattr(heli, 'nonsense'))"
     )
-    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    shown = python("-c", code)
     assert shown.split("\n") == ["[]", "True False", ""]

@@ -204,6 +204,7 @@ def _pair(rng):
     return complex(re), complex(-rng.uniform(1, 15))
 
 
+@pytest.mark.slow
 def test_responses_are_those_of_scipy_from_event_to_event():
     """Against DOP853 at 1e-12 with events, in 200 random loops with limits, stops and clamping."""
     errors, saturating, stopped = [], 0, 0

@@ -10,11 +10,15 @@ import pytest
 from heli2dof_core.couplings import Structure
 from heli2dof_core.paper.consequence import consequence
 from heli2dof_core.paper.equations import EQUATIONS
-from heli2dof_core.paper.errata import ERRATA
+from heli2dof_core.paper.errata import CONFIRMED, ERRATA
+from heli2dof_core.paper.evidence import EVIDENCE
 from heli2dof_core.paper.figures import figures
 from heli2dof_core.paper.glossary import TERMS
+from heli2dof_core.paper.proofs import christoffel
 from heli2dof_core.paper.reproduce import digits_that_agree, reproduce, significant_digits
 from heli2dof_core.parameters import PARAMETER_INFO
+from heli2dof_core.symbolic.names import PARAMETERS as P
+from heli2dof_core.symbolic.names import psi_dot, theta, theta_dot
 from heli2dof_core.symbolic.render import symbolic_report
 from tests.authorities.test_paper import PRINTED_K, PRINTED_OPEN_LOOP_POLES, PRINTED_POLES
 
@@ -25,6 +29,18 @@ def test_every_erratum_is_proved(erratum):
     assert proof.holds
     assert proof.correct != proof.printed
     assert erratum.why and erratum.effect
+
+
+@pytest.mark.parametrize("erratum", CONFIRMED, ids=lambda e: e.name)
+def test_what_is_called_an_erratum_shows_in_the_papers_own_numbers(erratum):
+    assert erratum.evidence.shows()
+    assert "our copy" not in erratum.why.lower()
+
+
+def test_what_no_printed_number_shows_is_unclear_in_our_copy():
+    assert set(EVIDENCE) <= {erratum.name for erratum in ERRATA}
+    unclear = [erratum.name for erratum in ERRATA if erratum not in CONFIRMED]
+    assert unclear == ["kinetic-energy", "christoffel", "row-denominators", "units"]
 
 
 def test_nothing_numbered_is_left_out():
@@ -145,3 +161,14 @@ def test_figures_are_the_steps_that_python_control_gives():
     np.testing.assert_allclose(own["corrected"], expected, atol=2e-3)
     assert figure.output == "theta" and figures()[1].output == "psi"
     assert np.max(own["limited"]) == pytest.approx(np.radians(40.5), abs=1e-9)
+
+
+def test_the_proof_of_christoffels_symbols_shows_the_symmetric_part_of_both_readings():
+    """N + Nᵀ, N = Ḋ − 2C, with D of Eq. 10 differentiated by hand and C of Eq. 11 as printed."""
+    mass, arm, th, thd, psd = 1.4, 0.19, 0.3, 0.7, -1.1
+    h = mass * arm**2 * np.sin(th) * np.cos(th)
+    N = np.diag([0, -2 * h * thd]) - 2 * np.array([[0, h * psd], [-2 * h * psd, 0]])
+    values = {P["m"]: mass, P["l"]: arm, theta: th, theta_dot: thd, psi_dot: psd}
+    proof = christoffel()
+    np.testing.assert_allclose(np.array(proof.printed.subs(values).tolist(), dtype=float), N + N.T)
+    assert proof.correct.is_zero_matrix

@@ -325,3 +325,16 @@ def test_columns_are_guessed(names, unit):
     guess = guess_columns(Table(names, values))
     assert guess.names == dict(zip(ROLES, names, strict=True))
     assert guess.unit == unit
+
+
+def test_angles_and_voltages_are_needed_and_references_are_not():
+    """Each of the four left out is named; without the references the recording is the same, and has none."""
+    table = read_table(csv_of().encode(), "run.csv")
+    needed = {name: ROLES[name] for name in ("time", "theta", "psi", "V_p", "V_y")}
+    bare = recording_of(table, Columns(names=needed))
+    assert bare.references is None
+    np.testing.assert_array_equal(bare.angles, recording_of(table, Columns(names=ROLES)).angles)
+    for name in ("theta", "psi", "V_p", "V_y"):
+        with pytest.raises(RecordingError) as caught:
+            recording_of(table, Columns(names={**ROLES, name: ""}))
+        assert caught.value.field == f"columns.{name}"

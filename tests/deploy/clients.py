@@ -1,9 +1,7 @@
-"""Clients of the live socket that come back as the page does, and remember when they were answered."""
+"""Clients of the live socket that come back when they lose it, and remember when they were answered."""
 
 from __future__ import annotations
 
-import asyncio
-import random
 from dataclasses import dataclass, field
 from time import perf_counter
 
@@ -15,8 +13,6 @@ BODY = {
     "preset": "quanser-2dof-manual",
     "scenario": {"reference": {"theta": 0.2, "psi": 0.5}, "duration": 3, "samples": 301},
 }
-FIRST, LONGEST = 0.25, 8.0
-"""Seconds before a lost connection is tried again, as in static/api.js."""
 
 
 @dataclass
@@ -25,47 +21,39 @@ class Client:
 
     url: str
     poles: list[float]
-    pace: float = 0.1
     answered: list[float] = field(default_factory=list)
     """When, by perf_counter."""
     gains: list[list[list[float]]] = field(default_factory=list)
-    lost: list[tuple[float, int]] = field(default_factory=list)
-    """When a connection was lost, and the close code (1006: without one)."""
-    stopped: bool = False
+    lost: list[int] = field(default_factory=list)
+    """Close codes of the connections that were lost (1006: without one)."""
+    refused: int = 0
+    """How often a new connection was not to be had."""
+    peer: ClientConnection | None = None
 
-    async def run(self) -> None:
-        seq, attempt = 0, 0
-        while not self.stopped:
+    async def ask(self) -> None:
+        """One answer, over as many connections as it takes."""
+        seq, count = len(self.answered) + 1, len(self.answered)
+        while len(self.answered) == count:
             try:
-                async with connect(
-                    self.url, compression=None, max_size=None, proxy=None, open_timeout=5
-                ) as peer:
-                    attempt = 0
-                    while not self.stopped:
-                        seq += 1
-                        await self._ask(peer, seq)
-                        await asyncio.sleep(self.pace)
+                if self.peer is None:
+                    self.peer = await connect(self.url, compression=None, max_size=None, proxy=None)
+                await self.peer.send(orjson.dumps({"seq": seq, "poles": self.poles, **BODY}).decode())
+                reply = orjson.loads(await self.peer.recv())
             except ConnectionClosed as closed:
-                self.lost.append((perf_counter(), closed.rcvd.code if closed.rcvd else 1006))
+                self.lost.append(closed.rcvd.code if closed.rcvd else 1006)
+                self.peer = None
             except (OSError, InvalidHandshake, TimeoutError):
-                pass
-            await asyncio.sleep(min(LONGEST, FIRST * 2**attempt) * random.uniform(0.75, 1.25))
-            attempt += 1
+                self.refused += 1
+                self.peer = None
+            else:
+                assert reply["seq"] == seq, reply
+                self.gains.append(reply["gains"]["K"])
+                self.answered.append(perf_counter())
 
-    async def _ask(self, peer: ClientConnection, seq: int) -> None:
-        await peer.send(orjson.dumps({"seq": seq, "poles": self.poles, **BODY}).decode())
-        async with asyncio.timeout(10):
-            reply = orjson.loads(await peer.recv())
-        assert reply["seq"] == seq, reply
-        self.gains.append(reply["gains"]["K"])
-        self.answered.append(perf_counter())
+    async def close(self) -> None:
+        if self.peer is not None:
+            await self.peer.close()
 
     def gap(self, moment: float) -> float:
         """Seconds from a moment to the next answer."""
-        return next((t for t in self.answered if t > moment), float("inf")) - moment
-
-    def longest_gap(self, moment: float) -> float:
-        """The longest silence that includes or follows a moment, s."""
-        times = [t for t in self.answered if t > moment]
-        before = [t for t in self.answered if t <= moment][-1:]
-        return max(b - a for a, b in zip((before + times)[:-1], (before + times)[1:], strict=True))
+        return next(t for t in self.answered if t > moment) - moment

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 
 from tests.deploy.farm import Farm, farm
-from tests.scene_server import until
+from tests.patience import until
 
 
 @pytest.fixture(scope="session")
@@ -17,10 +17,11 @@ def running_farm(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Farm]:
 
 
 @pytest.fixture(name="farm")
-def whole_farm(running_farm: Farm) -> Iterator[Farm]:
-    yield running_farm
+def whole_farm(running_farm: Farm) -> Farm:
+    """The farm, whatever the tests before have ended in it."""
     for replica in running_farm.replicas:
         if replica.process.poll() is not None:
             replica.start()
-    until(lambda: all(replica.ready() for replica in running_farm.replicas), "the replicas are back", 60)
-    until(running_farm.whole, "nginx asks every replica again", 60)
+    until(lambda: all(replica.ready() for replica in running_farm.replicas), "the replicas are back")
+    until(running_farm.whole, "nginx asks every replica again")
+    return running_farm

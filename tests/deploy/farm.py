@@ -7,7 +7,6 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
@@ -18,11 +17,13 @@ from typing import IO
 import httpx2
 import pytest
 
-from tests.scene_server import until
+from tests.children import ROOT, SERVE, environment
+from tests.patience import PATIENCE, until
 
-ROOT = Path(__file__).parents[2]
 DEPLOY = ROOT / "deploy"
-_UPSTREAM = re.compile(r" /healthz .* from ([\d.:, ]+): ")
+_UPSTREAM = re.compile(r"^\S+ (\w+) \S+ /healthz .* from (?:[\d.:]+, )*([\d.:]+): ", re.M)
+_LEFT_OUT = "fail_timeout=1s"
+"""Of a replica that was away; shorter than what is shipped, since tests wait for its end."""
 
 
 def free_port() -> int:
@@ -47,13 +48,15 @@ class Replica:
         return f"127.0.0.1:{self.port}"
 
     def start(self) -> None:
-        command = [sys.executable, "-m", "app", "serve", "--port", str(self.port)]
-        self.process = subprocess.Popen(command, cwd=ROOT, stdout=self.log, stderr=self.log)
+        command = [*SERVE, "--port", str(self.port)]
+        self.process = subprocess.Popen(
+            command, cwd=ROOT, env=environment(), stdout=self.log, stderr=self.log
+        )
 
     def ready(self) -> bool:
         assert self.process.poll() is None, f"the replica has ended: see {self.log.name}"
         try:
-            return httpx2.get(f"http://{self.address}/healthz", timeout=5).status_code == 200
+            return httpx2.get(f"http://{self.address}/healthz", timeout=PATIENCE).status_code == 200
         except httpx2.TransportError:
             return False
 
@@ -69,10 +72,10 @@ class Replica:
         if self.process.poll() is None:
             self.process.terminate()
             try:
-                self.process.wait(20)
+                self.process.wait(PATIENCE)
             except subprocess.TimeoutExpired:
                 self.process.kill()
-        self.process.wait(20)
+        self.process.wait(PATIENCE)
 
 
 @dataclass(frozen=True)
@@ -89,29 +92,32 @@ class Farm:
 
     def home(self, session: str) -> Replica:
         """The replica that a session belongs to, as nginx logs it."""
-        before = len(self._asked())
-        assert httpx2.get(f"{self.url}healthz?session={session}", timeout=30).status_code == 200
-        until(lambda: len(self._asked()) > before, "nginx logs what it was asked")
-        last = self._asked()[-1].split(", ")[-1]
-        return next(replica for replica in self.replicas if replica.address == last)
+        return self.homes([session])[0]
+
+    def homes(self, sessions: list[str]) -> list[Replica]:
+        """As `home`, for many: nginx numbers each request and says where it went."""
+        with httpx2.Client(base_url=self.url, timeout=PATIENCE, trust_env=False) as client:
+            replies = [client.get("healthz", params={"session": session}) for session in sessions]
+        assert {reply.status_code for reply in replies} == {200}
+        numbers = [reply.headers["x-request-id"] for reply in replies]
+        until(lambda: self._asked().keys() >= set(numbers), "nginx logs what it was asked")
+        by_address, asked = {replica.address: replica for replica in self.replicas}, self._asked()
+        return [by_address[asked[number]] for number in numbers]
 
     def sessions(self, replica: Replica, count: int) -> list[str]:
         """So many names of sessions that belong to a replica."""
-        names = (f"session-{k}".ljust(24, "_") for k in range(64 * count))
-        found = []
-        for name in names:
-            if self.home(name) is replica:
-                found.append(name)
-            if len(found) == count:
-                return found
-        raise AssertionError("nginx sends hardly any session there")
+        names = [f"session-{k}".ljust(24, "_") for k in range(16 * count)]
+        found = [name for name, home in zip(names, self.homes(names), strict=True) if home is replica]
+        assert len(found) >= count, "nginx sends hardly any session there"
+        return found[:count]
 
     def whole(self) -> bool:
         """Whether nginx asks every replica again: one that was away is left out for a while, also when it is back."""
-        return {self.home(f"session-{k}".ljust(24, "_")) for k in range(32)} == set(self.replicas)
+        return set(self.homes([f"session-{k}".ljust(24, "_") for k in range(32)])) == set(self.replicas)
 
-    def _asked(self) -> list[str]:
-        return _UPSTREAM.findall(self.log.read_text())
+    def _asked(self) -> dict[str, str]:
+        """By the number of a request, the address of the replica that answered it."""
+        return dict(_UPSTREAM.findall(self.log.read_text()))
 
 
 def configuration(folder: Path, listen: str, replicas: list[str]) -> Path:
@@ -122,7 +128,9 @@ def configuration(folder: Path, listen: str, replicas: list[str]) -> Path:
     (conf / "listen.conf").write_text(listen)
     settings = re.search(r":\d+( .*;)$", (DEPLOY / "replicas.conf").read_text(), re.M)
     assert settings is not None
-    (conf / "replicas.conf").write_text("".join(f"server {address}{settings[1]}\n" for address in replicas))
+    shorter = re.sub(r"fail_timeout=\d+s", _LEFT_OUT, settings[1])
+    assert shorter != settings[1]
+    (conf / "replicas.conf").write_text("".join(f"server {address}{shorter}\n" for address in replicas))
     return conf / "nginx.conf"
 
 
@@ -149,7 +157,7 @@ def nginx(folder: Path, conf: Path, port: int) -> Iterator[Path]:
             yield log
         finally:
             process.terminate()
-            process.wait(20)
+            process.wait(PATIENCE)
 
 
 def listens(port: int) -> bool:
@@ -168,7 +176,7 @@ def farm(folder: Path, count: int) -> Iterator[Farm]:
             replica = Replica(free_port(), log)
             stack.callback(replica.stop)
             replicas.append(replica)
-        until(lambda: all(replica.ready() for replica in replicas), "the replicas are ready", 90)
+        until(lambda: all(replica.ready() for replica in replicas), "the replicas are ready")
         port = free_port()
         conf = configuration(folder, f"listen 127.0.0.1:{port};\n", [r.address for r in replicas])
         access = stack.enter_context(nginx(folder, conf, port))

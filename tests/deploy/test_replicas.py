@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import signal
 from collections import Counter
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -14,14 +15,10 @@ import pytest
 
 from tests.deploy.clients import Client
 from tests.deploy.farm import Farm, Replica
-from tests.scene_server import until
+from tests.patience import PATIENCE, until
 
-CLIENTS, BEFORE, AFTER = 8, 1.5, 4.0
-"""Clients of each replica, and seconds of load before and after the end of one."""
-WITHIN = 10.0
-"""Seconds within which every client must be answered again; the machine may be busy."""
-PATIENCE = 60
-"""Seconds for what is no part of the measurement."""
+CLIENTS, BEFORE, AFTER = 8, 3, 5
+"""Clients of each replica, and answers that each has before and after the end of one."""
 
 
 def test_a_session_stays_on_one_replica_by_path_and_by_query(farm: Farm):
@@ -76,9 +73,9 @@ def test_clients_come_back_on_another_replica(
         ended, statuses = running.result()
     moved = [client for client, home in zip(clients, homes, strict=True) if home is victim]
     stayed = [client for client, home in zip(clients, homes, strict=True) if home is not victim]
-    gaps = sorted(1e3 * client.longest_gap(ended) for client in moved)
-    calm = max(1e3 * client.longest_gap(ended) for client in stayed)
-    codes = Counter(code for client in moved for _, code in client.lost)
+    gaps = sorted(1e3 * client.gap(ended) for client in moved)
+    calm = max(1e3 * client.gap(ended) for client in stayed)
+    codes = Counter(code for client in moved for code in client.lost)
     print(
         f"\n{len(moved)} clients answered again after {gaps[0]:.0f}…{np.median(gaps):.0f}…{gaps[-1]:.0f} ms, "
         f"close codes {dict(codes)}; the other {len(stayed)} waited {calm:.0f} ms at most; REST {dict(statuses)}"
@@ -86,12 +83,13 @@ def test_clients_come_back_on_another_replica(
     record_property("gaps_ms", [round(gap) for gap in gaps])
     assert [len(client.lost) for client in moved] == [1] * CLIENTS
     assert all(not client.lost for client in stayed)
-    assert gaps[-1] < 1e3 * WITHIN
+    assert sum(client.refused for client in clients) == 0  # nginx finds another replica at once
     for client in clients:
+        assert len(client.gains) == BEFORE + AFTER
         assert all(gains == client.gains[0] for gains in client.gains)
     assert set(statuses) == {200}
     assert statuses[200] > 40
-    victim.process.wait(20)
+    assert victim.process.wait(PATIENCE) == (-signal.SIGKILL if end is Replica.kill else 0)
     assert all(farm.home(name) is not victim for name in names[:CLIENTS])
     assert [farm.home(name) for name in names[CLIENTS:]] == homes[CLIENTS:]  # nobody else was moved
 
@@ -101,33 +99,27 @@ async def under_load(
 ) -> tuple[float, Counter[int]]:
     """Runs the clients and REST calls beside them; returns when the end came, and what REST answered."""
     statuses: Counter[int] = Counter()
-
     over = False
 
     async def post(session: str) -> None:
-        async with httpx2.AsyncClient(base_url=farm.url, timeout=20) as rest:
+        async with httpx2.AsyncClient(base_url=farm.url, timeout=PATIENCE) as rest:
             while not over:
                 answer = await rest.post(
                     "api/v1/gains", json={"poles": [-5, -6, -7, -8]}, params={"session": session}
                 )
                 statuses[answer.status_code] += 1
-                await asyncio.sleep(0.1)
 
-    running = [asyncio.create_task(client.run()) for client in clients]
-    running += [asyncio.create_task(post(name)) for name in names[:: CLIENTS // 2]]
-    deadline = perf_counter() + 20
-    while any(len(client.answered) < 5 for client in clients):
-        assert perf_counter() < deadline, "every client is answered at first"
-        await asyncio.sleep(0.1)
-    await asyncio.sleep(BEFORE)
-    ended = perf_counter()
-    end()
-    await asyncio.sleep(AFTER)
-    deadline = ended + WITHIN
-    while perf_counter() < deadline and any(client.gap(ended) == float("inf") for client in clients):
-        await asyncio.sleep(0.1)
-    over = True
-    for client in clients:
-        client.stopped = True
-    await asyncio.gather(*running)
+    async def rounds(count: int) -> None:
+        for _ in range(count):
+            await asyncio.gather(*(client.ask() for client in clients))
+
+    async with asyncio.timeout(PATIENCE):
+        posting = [asyncio.create_task(post(name)) for name in names[:: CLIENTS // 2]]
+        await rounds(BEFORE)
+        ended = perf_counter()
+        end()
+        await rounds(AFTER)
+        over = True
+        await asyncio.gather(*posting)
+        await asyncio.gather(*(client.close() for client in clients))
     return ended, statuses

@@ -6,15 +6,14 @@ import json
 import re
 import subprocess
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from time import perf_counter
 
 import pytest
 from playwright.sync_api import Browser, Frame, Page, Route, expect
 
+from tests.browser import SEEN, UNDRAWN, goto, opened, settled, state, visited
 from tests.deploy.farm import DEPLOY, Farm, free_port, nginx
-from tests.e2e.conftest import PATIENCE, UNDRAWN, opened, settled, state
 from tests.e2e.test_scene import MESHES, PARTS
 
 DOCS = DEPLOY.parent / "docs" / "operations.md"
@@ -24,22 +23,10 @@ AERO = 0.295
 OPEN = "() => JSON.parse(document.documentElement.dataset.state).connection === 'open'"
 
 
-@contextmanager
-def tab(chromium: Browser) -> Iterator[tuple[Page, list[str]]]:
-    """An empty tab, and the errors that it meets."""
-    context = chromium.new_context(viewport={"width": 1280, "height": 800}, ignore_https_errors=True)
-    page = context.new_page()
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    page.on("console", lambda message: message.type == "error" and errors.append(message.text))
-    yield page, errors
-    context.close()
-
-
 def scene(page: Page) -> Frame:
     frame = page.wait_for_selector("iframe[src]").content_frame()
     assert frame is not None
-    frame.wait_for_function(f"() => ({MESHES})() > 0", timeout=PATIENCE)
+    frame.wait_for_function(f"() => ({MESHES})() > 0")
     return frame
 
 
@@ -55,8 +42,9 @@ def set_pole(page: Page, number: int, value: float) -> None:
 
 def test_a_tab_whose_replica_is_killed_goes_on_elsewhere(farm: Farm, chromium: Browser, record_property):
     """Also where the first request to the new replica is lost."""
-    with tab(chromium) as (page, errors):
-        opened(page, farm.url, scene=UNDRAWN)
+    with visited(chromium, UNDRAWN, SEEN) as visit:
+        page = visit.page
+        goto(page, farm.url)
         page.get_by_test_id("preset").select_option("quanser-aero-2")
         settled(page)
         set_pole(page, 2, -5.5)
@@ -69,7 +57,7 @@ def test_a_tab_whose_replica_is_killed_goes_on_elsewhere(farm: Farm, chromium: B
         victim = farm.home(session)
         sockets: list[str] = []
         page.on("websocket", lambda socket: sockets.append(socket.url))
-        assert errors == []
+        assert visit.errors == []
         told: list[str] = []
 
         def lose_the_first(route: Route) -> None:
@@ -91,10 +79,8 @@ def test_a_tab_whose_replica_is_killed_goes_on_elsewhere(farm: Farm, chromium: B
 
         # Viser's page and the hub come back as well; the new replica has built the same rig.
         rebuilt = re.compile(rf"/scene/{session}(/hub.*)?$")
-        deadline = perf_counter() + 40
-        while len({url for url in sockets if rebuilt.search(url)}) < 2 and perf_counter() < deadline:
-            page.wait_for_timeout(100)
-        assert len({url for url in sockets if rebuilt.search(url)}) == 2, sockets
+        while len({url for url in sockets if rebuilt.search(url)}) < 2:
+            page.wait_for_event("websocket")
         frame.wait_for_function(f"() => Math.abs(({LIFTED})() - {AERO}) < 1e-9")
         whole = perf_counter() - ended
         assert len(told) >= 2  # the request that was lost is made again
@@ -109,11 +95,10 @@ def test_a_tab_whose_replica_is_killed_goes_on_elsewhere(farm: Farm, chromium: B
         record_property("scene_s", round(whole, 2))
 
         # And the link alone, opened anew, shows what it showed before.
-        with tab(chromium) as (again, none):
-            opened(again, link)
+        visit.errors.clear()  # the console tells of what the killed replica did not answer
+        with opened(chromium, link) as again:
             assert placed(again) == [p["re"] for p in before["poles"]]
             assert state(again)["K"] == before["K"]
-            assert none == []
 
 
 def snippet(heading: str, **replaced: str) -> str:
@@ -156,16 +141,17 @@ def below_a_path(farm: Farm, tmp_path: Path) -> Iterator[str]:
 
 
 def test_the_page_works_below_a_path_over_tls(below_a_path: str, chromium: Browser):
-    with tab(chromium) as (page, errors):
+    with visited(chromium, UNDRAWN, SEEN, ignore_https_errors=True) as visit:
+        page = visit.page
         sockets: list[str] = []
         asked: list[str] = []
         page.on("websocket", lambda socket: sockets.append(socket.url))
         page.on("request", lambda request: asked.append(request.url))
-        opened(page, below_a_path, scene=UNDRAWN)
+        goto(page, below_a_path)
         set_pole(page, 2, -5.5)
         assert placed(page)[2] == -5.5
         frame = scene(page)
-        frame.wait_for_function(f"() => ({MESHES})() >= {PARTS}", timeout=PATIENCE)
+        frame.wait_for_function(f"() => ({MESHES})() >= {PARTS}")
         page.wait_for_function("() => location.hash.includes('-5.5')")
 
         page.get_by_test_id("export").click()
@@ -190,4 +176,3 @@ def test_the_page_works_below_a_path_over_tls(below_a_path: str, chromium: Brows
         }
         own = [url for url in asked + sockets if not url.startswith(("data:", "blob:"))]
         assert [url for url in own if not url.startswith((below_a_path, secure))] == []
-        assert errors == []

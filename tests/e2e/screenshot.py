@@ -2,31 +2,30 @@
 
 from __future__ import annotations
 
-import os
 import sys
 
 from playwright.sync_api import sync_playwright
 
-from tests.conftest import FLAGS
-from tests.e2e.conftest import DRAWN, opened, running_app, settled
+from tests.browser import DRAWN, launched, opened, settled
+from tests.e2e.conftest import running_app
 from tests.e2e.test_page import scene, seek
+from tests.e2e.test_scene import rendered
 
 
 def main() -> None:
     target, *size = sys.argv[1:]
     width, height = (int(value) for value in size) if size else (1280, 800)
-    with running_app() as app, sync_playwright() as playwright:
-        path = os.environ.get("CHROMIUM") or "/usr/bin/chromium"
-        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
-        page = browser.new_page(viewport={"width": width, "height": height})
-        opened(page, app.url, scene=DRAWN)
+    with (
+        running_app() as app,
+        sync_playwright() as playwright,
+        launched(playwright.chromium) as browser,
+        opened(browser, app.url, scene=DRAWN, moving=True, size=(width, height)) as page,
+    ):
         frame = scene(page)
         seek(page, 0.12)
         settled(page)
-        drawn = "window.__viserTestpoints.rendererInfo.render.frame"
-        frame.wait_for_function(f"(start) => {drawn} > start + 5", arg=frame.evaluate(drawn))
+        rendered(frame, 5)
         page.screenshot(path=target)
-        browser.close()
 
 
 if __name__ == "__main__":

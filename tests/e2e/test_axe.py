@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page
 
-from tests.e2e.conftest import App, opened, settled
+from tests.browser import opened, settled
+from tests.e2e.conftest import App
 
 AXE = Path(__file__).parents[2] / "node_modules" / "axe-core" / "axe.min.js"
 RUN = """async () => {
@@ -28,25 +29,20 @@ def violations(page: Page) -> list[str]:
 
 @pytest.mark.parametrize("size", [(1280, 800), (390, 844)])
 def test_no_violation(chromium: Browser, app: App, size: tuple[int, int]):
-    context = chromium.new_context(
-        viewport={"width": size[0], "height": size[1]}, color_scheme="dark", reduced_motion="reduce"
-    )
-    page = context.new_page()
-    opened(page, app.url)
-    assert violations(page) == []
-    page.emulate_media(color_scheme="light")
-    settled(page)
-    assert page.evaluate(RUN) == []
-    page.get_by_test_id("require-settling").fill("0.4")
-    page.get_by_test_id("require-overshoot").fill("5")
-    page.get_by_test_id("mode-yaw-complex").click()
-    settled(page)
-    page.get_by_test_id("pole-1").focus()
-    assert page.evaluate(RUN) == []
-    page.emulate_media(color_scheme="dark")
-    settled(page)
-    assert page.evaluate(RUN) == []
-    context.close()
+    with opened(chromium, app.url, size=size, color_scheme="dark") as page:
+        assert violations(page) == []
+        page.emulate_media(color_scheme="light")
+        settled(page)
+        assert page.evaluate(RUN) == []
+        page.get_by_test_id("require-settling").fill("0.4")
+        page.get_by_test_id("require-overshoot").fill("5")
+        page.get_by_test_id("mode-yaw-complex").click()
+        settled(page)
+        page.get_by_test_id("pole-1").focus()
+        assert page.evaluate(RUN) == []
+        page.emulate_media(color_scheme="dark")
+        settled(page)
+        assert page.evaluate(RUN) == []
 
 
 def test_no_violation_below_the_instrument(page: Page):

@@ -7,19 +7,12 @@ from urllib.parse import urlsplit
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.e2e.conftest import App, opened, settled, state
+from tests.browser import later, opened, settled, state, until_state
+from tests.e2e.conftest import App
 
 POLES = [-12.0, -10.0, -9.25, -8.76]
 METHODS = 11
 """Four full-rank structures and seven other methods."""
-
-
-def until_state(page: Page, condition: str) -> None:
-    """Waits for a condition on the page's state `s`, and until the answer to it is shown."""
-    page.wait_for_function(
-        f"() => {{ const s = JSON.parse(document.documentElement.dataset.state); return {condition}; }}"
-    )
-    settled(page)
 
 
 def choose(page: Page, preset: str) -> None:
@@ -200,10 +193,10 @@ def test_nothing_is_asked_until_it_is_seen_nor_during_a_drag(page: Page):
     assert box is not None and box["y"] > 0
     asked.clear()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x + 30, y, steps=5)
-    page.wait_for_timeout(500)
+    with later(page):
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.mouse.move(x + 30, y, steps=5)
     assert state(page)["dragging"] and asked == []
     page.mouse.up()
     seen(page, "compare")
@@ -212,9 +205,7 @@ def test_nothing_is_asked_until_it_is_seen_nor_during_a_drag(page: Page):
 
 @pytest.mark.parametrize("width", [390, 1280])
 def test_the_page_does_not_scroll_sideways(chromium: Browser, app: App, width: int):
-    page = chromium.new_page(viewport={"width": width, "height": 800})
-    opened(page, app.url)
-    for card in ("compare", "splits", "interaction"):
-        seen(page, card)
-    assert page.evaluate("() => document.scrollingElement.scrollWidth - innerWidth") <= 0
-    page.close()
+    with opened(chromium, app.url, size=(width, 800)) as page:
+        for card in ("compare", "splits", "interaction"):
+            seen(page, card)
+        assert page.evaluate("() => document.scrollingElement.scrollWidth - innerWidth") <= 0

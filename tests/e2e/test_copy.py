@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.e2e.conftest import App, state
+from tests.browser import state
+from tests.e2e.conftest import App
 from tests.e2e.test_permalink import clipboard
 
 
@@ -132,7 +133,7 @@ def test_the_cursor_is_shared_and_tells_time_and_values(page: Page, app: App):
     assert box is not None
     page.mouse.move(box["x"] + box["width"] / 3, box["y"] + 20)
     time = page.get_by_test_id("plot-time")
-    expect(time).to_have_text("at 1.00 s, both steps played")
+    expect(time).to_have_text("at 1.00 s, both steps in 3D")
     i = min(range(501), key=lambda k: abs(step["t"][k] - 1.0))
     for signal, unit, factor in (("theta", "°", 180 / np.pi), ("V_y", " V", 1)):
         shown = page.locator(f"[data-testid=plot-{signal}] .at.pitch").inner_text().replace("−", "-")

@@ -7,7 +7,8 @@ import re
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from tests.e2e.conftest import App, settled, state
+from tests.browser import opened, settled, state
+from tests.e2e.conftest import App
 from tests.e2e.test_paper import follows, opened_paper
 
 
@@ -82,25 +83,20 @@ def test_arrow_keys_walk_through_the_symbols_of_a_formula(page: Page):
 
 
 def test_a_tap_shows_the_card_and_a_tap_elsewhere_closes_it(chromium: Browser, app: App):
-    context = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
-    page = context.new_page()
-    page.set_default_timeout(60_000)
-    page.goto(app.url)
-    settled(page)
-    page.locator("#paper").scroll_into_view_if_needed()
-    page.get_by_test_id("paper-alpha").wait_for(state="attached")
-    scrolled_to(page, "eq-15")
-    expect(page.get_by_test_id("paper-alpha")).to_have_text(re.compile(r"^0\.08"))
-    symbol(page, "eq-15", "alpha").tap()
-    expect(card(page)).to_be_visible()
-    box = card(page).bounding_box()
-    assert box is not None and box["x"] >= 0 and box["x"] + box["width"] <= 390
-    page.locator("#eq-15 h4").tap()
-    expect(card(page)).to_be_hidden()
-    for diagram in ("fig-2-drawing", "fig-3-drawing"):
-        drawn = page.get_by_test_id(diagram).bounding_box()
-        assert drawn is not None and 300 < drawn["width"] <= 390
-    context.close()
+    with opened(chromium, app.url, size=(390, 844), has_touch=True) as page:
+        page.locator("#paper").scroll_into_view_if_needed()
+        page.get_by_test_id("paper-alpha").wait_for(state="attached")
+        scrolled_to(page, "eq-15")
+        expect(page.get_by_test_id("paper-alpha")).to_have_text(re.compile(r"^0\.08"))
+        symbol(page, "eq-15", "alpha").tap()
+        expect(card(page)).to_be_visible()
+        box = card(page).bounding_box()
+        assert box is not None and box["x"] >= 0 and box["x"] + box["width"] <= 390
+        page.locator("#eq-15 h4").tap()
+        expect(card(page)).to_be_hidden()
+        for diagram in ("fig-2-drawing", "fig-3-drawing"):
+            drawn = page.get_by_test_id(diagram).bounding_box()
+            assert drawn is not None and 300 < drawn["width"] <= 390
 
 
 def test_every_parameter_in_a_formula_has_its_card(page: Page):

@@ -9,7 +9,8 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from app.exports import FORMATS
-from tests.e2e.conftest import App, settled, state
+from tests.browser import settled, state
+from tests.e2e.conftest import App
 
 
 def saved(page: Page, name: str) -> tuple[str, bytes]:
@@ -48,6 +49,27 @@ def test_the_report_opens_in_a_tab(page: Page):
     report = opened.value
     expect(report.locator("h1")).to_have_text("Pole placement: Quanser 2-DOF Helicopter (manual)")
     assert report.locator("svg[role=img]").count() == 5
+    line = report.locator("svg .pitch").first
+    assert line.evaluate("e => [getComputedStyle(e).fill, getComputedStyle(e).stroke]") == [
+        "none",
+        "rgb(185, 74, 44)",
+    ]  # the page's policy, which the tab inherits, lets the report's style in
+    for name, row in (
+        ("settling", "Settling time"),
+        ("overshoot", "Overshoot"),
+        ("error", "Error at the end"),
+        ("coupling", "Other axis moves"),
+        ("iae", "IAE, °s"),
+        ("V_p", "V_p peak"),
+        ("effort-V_y", "V_y effort, V²s"),
+    ):
+        cells = report.locator("tr", has=report.get_by_role("rowheader", name=row, exact=True)).locator("td")
+        shown = [page.get_by_test_id(f"metric-{name}-{axis}").text_content() for axis in ("theta", "psi")]
+        assert [cells.nth(i).text_content() for i in (0, 2)] == shown, row
+    for name, row in (("margin", "Gain · phase margin"), ("delay", "Delay margin")):
+        cells = report.locator("tr", has=report.get_by_role("rowheader", name=row, exact=True)).locator("td")
+        shown = [page.get_by_test_id(f"metric-{name}-{axis}").text_content() for axis in ("theta", "psi")]
+        assert cells.all_text_contents() == shown, row
 
 
 def test_the_menu_works_by_keyboard(page: Page):
@@ -77,3 +99,10 @@ def test_a_refusal_is_told(page: Page, status: int):
     page.get_by_test_id("export").click()
     page.get_by_test_id("export-csv").click()
     expect(page.get_by_test_id("export-told")).to_have_text("It cannot be made.")
+
+
+def test_without_a_network_the_menu_says_so(page: Page):
+    page.evaluate("() => { window.fetch = () => Promise.reject(new TypeError('Failed to fetch')); }")
+    page.get_by_test_id("export").click()
+    page.get_by_test_id("export-python").click()
+    expect(page.get_by_test_id("export-told")).to_contain_text("No connection to the server")

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from playwright.sync_api import Browser, Page, expect
 
-from tests.e2e.conftest import App, opened, settled, state
+from tests.browser import EMPTY, SEEN, goto, reopened, settled, state, visited
+from tests.e2e.conftest import App
 from tests.e2e.test_rig import entered, until
 
 SLOW = "#v1&p=-1,-1.5,-2,-2.5"
 
 
 def test_slow_poles_under_pi_are_told_at_the_loops_and_lead_to_the_remedy(page: Page, app: App):
-    page.goto("about:blank")
-    opened(page, app.url + SLOW)
+    reopened(page, app.url + SLOW)
     assert "pi_unstable" in state(page)["findings"]
     expect(page.get_by_test_id("remark-loops")).to_have_text("✕ unstable")
     finding = page.locator("#strip .list [data-code=pi_unstable] button")
@@ -48,13 +48,37 @@ def test_saturation_leads_to_its_plot_and_a_slow_sample_time_opens_its_field(pag
 
 
 def test_a_missed_requirement_is_in_the_summary_and_leads_to_its_pole(page: Page):
-    page.get_by_test_id("require-settling").fill("0.44")
+    page.get_by_test_id("require-settling").fill("0.78")
     finding = page.locator("#strip .list [data-code=requirement_missed] button")
-    expect(finding).to_contain_text("yaw 4 too slow")
+    expect(finding).to_contain_text("Requirement missed: the yaw step settles in 0.85 s.")
     finding.click()
     expect(page.get_by_test_id("pole-3")).to_be_focused()
     page.get_by_test_id("require-settling").fill("2")
     expect(finding).to_have_count(0)
+
+
+def test_an_unwise_design_is_not_green(page: Page):
+    expect(page.get_by_test_id("findings")).to_contain_text("No warnings.")
+    entered(page, "pole-field-0", "-900")
+    until(page, "s.findings.includes('high_gain') && s.findings.includes('short_delay_margin')")
+    expect(page.get_by_test_id("verdict")).to_have_class("verdict stable uneasy")
+    expect(page.get_by_test_id("remark-loops")).to_have_text("▲ slow")
+    assert {"slow_pole", "not_settled"} <= set(state(page)["findings"])
+
+
+def test_figures_of_another_design_are_dimmed_where_the_present_one_cannot_be_computed(page: Page):
+    dimmed = "(e) => Number(getComputedStyle(e).opacity) < 0.6"
+    places = ("[data-testid=metrics]", "[data-testid=k-matrix]", "#plots", "[data-testid=loop-poles]")
+    page.get_by_test_id("method").select_option("ackermann")
+    problem = "JSON.parse(document.documentElement.dataset.state).problem"
+    page.wait_for_function(f"() => {problem} === 'method_unavailable'")
+    for place in places:
+        assert page.locator(f"{place}, :has(> {place})").evaluate_all(f"all => all.some({dimmed})"), place
+    expect(page.get_by_test_id("verdict")).to_contain_text("last computed design")
+    page.get_by_test_id("method").select_option("full-rank/triangular/pitch")
+    until(page, "s.problem === null && s.settled")
+    for place in places:
+        assert not page.locator(f"{place}, :has(> {place})").evaluate_all(f"all => all.some({dimmed})"), place
 
 
 # The page's first frame comes before its first design: what fails there must still be told afterwards.
@@ -68,26 +92,24 @@ LATE_PRESETS = """(() => {
 
 
 def test_a_view_that_throws_stops_no_other_and_is_told_of_quietly(chromium: Browser, app: App):
-    page = chromium.new_page(viewport={"width": 1280, "height": 800})
-    errors: list[str] = []
-    page.on("console", lambda message: message.type == "error" and errors.append(message.text))
-    page.route(
-        "**/static/panels/metrics.js",
-        lambda route: route.fulfill(
-            content_type="text/javascript",
-            body=route.fetch()
-            .text()
-            .replace("  render(", "  render() { throw new Error('out of order'); }\n  never(", 1),
-        ),
-    )
-    page.add_init_script(LATE_PRESETS)
-    opened(page, app.url)
-    expect(page.get_by_test_id("fault")).to_contain_text("out of order")
-    entered(page, "pole-field-0", "-20")
-    until(page, "s.poles[0].re === -20")
-    expect(page.get_by_test_id("verdict")).to_contain_text("Stable")
-    settled(page)
-    assert len([text for text in errors if "out of order" in text]) == 1
-    page.get_by_test_id("fault-close").click()
-    expect(page.get_by_test_id("fault")).to_be_hidden()
-    page.close()
+    with visited(chromium, EMPTY, SEEN, LATE_PRESETS) as visit:
+        page = visit.page
+        page.route(
+            "**/static/panels/metrics.js",
+            lambda route: route.fulfill(
+                content_type="text/javascript",
+                body=route.fetch()
+                .text()
+                .replace("  render(", "  render() { throw new Error('out of order'); }\n  never(", 1),
+            ),
+        )
+        goto(page, app.url)
+        expect(page.get_by_test_id("fault")).to_contain_text("out of order")
+        entered(page, "pole-field-0", "-20")
+        until(page, "s.poles[0].re === -20")
+        expect(page.get_by_test_id("verdict")).to_contain_text("Stable")
+        settled(page)
+        assert len([text for text in visit.errors if "out of order" in text]) == 1
+        visit.errors.clear()
+        page.get_by_test_id("fault-close").click()
+        expect(page.get_by_test_id("fault")).to_be_hidden()

@@ -7,7 +7,21 @@ import socket
 import pytest
 from playwright.sync_api import Browser, Frame, Page, expect
 
-from tests.e2e.conftest import PATIENCE, UNDRAWN, App, opened, running_app, settled, state
+from tests.browser import (
+    EMPTY,
+    GONE,
+    SEEN,
+    UNDRAWN,
+    goto,
+    later,
+    opened,
+    settled,
+    state,
+    until_state,
+    visited,
+)
+from tests.e2e.conftest import App, running_app
+from tests.e2e.test_scene import rendered
 
 POSE = """() => {
   const data = window.__viserMutable?.nodePoseData ?? {};
@@ -38,11 +52,11 @@ def drag(page: Page, testid: str, dx: float, dy: float = 0.0, steps: int = 12) -
 
 
 def scene(page: Page) -> Frame:
-    """The scene's frame, its rig there and drawn a few times (the first pictures take seconds)."""
+    """The scene's frame, its rig there and drawn a few times."""
     frame = page.wait_for_selector("iframe[src]").content_frame()
     assert frame is not None
     frame.wait_for_function(f"() => ({POSE})() !== null")
-    frame.wait_for_function("() => window.__viserTestpoints.rendererInfo.render.frame > 12")
+    rendered(frame, 12)
     return frame
 
 
@@ -111,23 +125,21 @@ def test_poles_move_by_keyboard_as_sliders_with_a_name(page: Page):
 
 def test_two_tabs_do_not_disturb_each_other(page_with_scene: Page, app: App, chromium: Browser):
     page = page_with_scene
-    other = chromium.new_context(viewport={"width": 1280, "height": 800}).new_page()
-    opened(other, app.url, scene=UNDRAWN)
-    assert page.locator("iframe").get_attribute("src") != other.locator("iframe").get_attribute("src")
-    mine, theirs = scene(page), scene(other)
-    for tab in (page, other):
-        seek(tab, 1.0)
-    for rig in (mine, theirs):
-        rig.wait_for_function(f"() => Math.abs(({POSE})()[0] - Math.PI / 18) < 5e-3")
-    before, pose = state(page), mine.evaluate(POSE)
+    with opened(chromium, app.url, scene=UNDRAWN, moving=True) as other:
+        assert page.locator("iframe").get_attribute("src") != other.locator("iframe").get_attribute("src")
+        mine, theirs = scene(page), scene(other)
+        for tab in (page, other):
+            seek(tab, 1.0)
+        for rig in (mine, theirs):
+            rig.wait_for_function(f"() => Math.abs(({POSE})()[0] - Math.PI / 18) < 5e-3")
+        before, pose = state(page), mine.evaluate(POSE)
 
-    drag(other, "pole-1", 30)
-    seek(other, 0.05)
-    theirs.wait_for_function(f"() => Math.abs(({POSE})()[0]) < 0.1")
+        drag(other, "pole-1", 30)
+        seek(other, 0.05)
+        theirs.wait_for_function(f"() => Math.abs(({POSE})()[0]) < 0.1")
 
-    assert state(page) == before
-    assert mine.evaluate(POSE) == pytest.approx(pose, abs=1e-6)
-    other.context.close()
+        assert state(page) == before
+        assert mine.evaluate(POSE) == pytest.approx(pose, abs=1e-6)
 
 
 def test_inner_loop_alone_has_the_placed_poles_and_pi_moves_them(page: Page):
@@ -191,12 +203,15 @@ def test_bad_number_is_told_at_its_field_and_nothing_else_changes(page: Page):
 def test_playing_ends_at_the_end_in_real_time(page_with_scene: Page):
     page = page_with_scene
     scene(page)
+    page.get_by_test_id("duration").fill("1")
+    page.get_by_test_id("duration").press("Enter")
+    until_state(page, "s.scenario.duration === 1")
     played, longest = page.evaluate(
         """async () => {
           const of = (id) => document.querySelector(`[data-testid=${id}]`);
           let [before, played, longest] = [await new Promise(requestAnimationFrame), 0, 0];
           of("replay").click();
-          while (Number(of("time").value) < 2.999) {
+          while (Number(of("time").value) < 0.999) {
             const now = await new Promise(requestAnimationFrame);
             const step = Math.min((now - before) / 1000, 1); // after a longer stall it goes on where it was
             [before, played, longest] = [now, played + step, Math.max(longest, step)];
@@ -204,77 +219,77 @@ def test_playing_ends_at_the_end_in_real_time(page_with_scene: Page):
           return [played, longest];
         }"""
     )
-    assert played + longest > 2.99 and played < 3.0 + 3 * longest
+    assert played + longest > 0.99 and played < 1.0 + 3 * longest
     assert page.get_by_test_id("hud-theta").inner_text().startswith("10.0")
 
 
-def test_who_moves_time_after_a_change_keeps_it(page: Page):
+def test_who_moves_time_after_a_change_keeps_it(chromium: Browser, app: App):
     """What plays by itself half a second after a change does not take the slider out of a hand."""
-    clock = page.get_by_test_id("clock")
-    for pole, share in (("-6", 0.4), ("-7", 0.6)):
-        page.get_by_test_id("pole-field-2").fill(pole)
-        page.get_by_test_id("pole-field-2").press("Enter")
-        settled(page)
-        seek(page, share)
-        held = clock.inner_text()
-        page.evaluate("() => new Promise((passed) => setTimeout(passed, 700))")
-        assert clock.inner_text() == held
-        expect(page.get_by_test_id("play")).to_have_attribute("aria-pressed", "false")
+    with opened(chromium, app.url, moving=True) as page:
+        clock = page.get_by_test_id("clock")
+        for pole, share in (("-6", 0.4), ("-7", 0.6)):
+            with later(page):
+                page.get_by_test_id("pole-field-2").fill(pole)
+                page.get_by_test_id("pole-field-2").press("Enter")
+                settled(page)
+                seek(page, share)
+                held = clock.inner_text()
+            assert clock.inner_text() == held
+            expect(page.get_by_test_id("play")).to_have_attribute("aria-pressed", "false")
 
 
 def test_no_request_leaves_the_server(chromium: Browser, app: App):
-    page = chromium.new_page()
-    strangers: list[str] = []
-    page.on("request", lambda r: r.url.startswith((app.url, "blob:", "data:")) or strangers.append(r.url))
-    page.on("websocket", lambda s: f"127.0.0.1:{app.port}/" in s.url or strangers.append(s.url))
-    opened(page, app.url, scene=UNDRAWN)
-    scene(page)
-    page.goto(app.url + "docs")
-    page.locator("#operations-design-gains_api_v1_gains_post").wait_for()
-    assert strangers == []
-    page.close()
+    with visited(chromium, UNDRAWN, SEEN) as visit:
+        page = visit.page
+        strangers: list[str] = []
+        page.on("request", lambda r: r.url.startswith((app.url, "blob:", "data:")) or strangers.append(r.url))
+        page.on("websocket", lambda s: f"127.0.0.1:{app.port}/" in s.url or strangers.append(s.url))
+        goto(page, app.url)
+        scene(page)
+        page.goto(app.url + "docs")
+        page.locator("#operations-design-gains_api_v1_gains_post").wait_for()
+        assert strangers == []
 
 
 @pytest.mark.parametrize("size", [(1280, 800), (1920, 1080)])
 def test_the_main_loop_needs_no_scrolling(chromium: Browser, app: App, size: tuple[int, int]):
-    page = chromium.new_page(viewport={"width": size[0], "height": size[1]})
-    opened(page, app.url)
-    for testid in (
-        "splane",
-        *PLOTS,
-        "scene",
-        "k-matrix-03",
-        "rga-matrix-11",
-        "suggest-pi",
-        "kp-yaw",
-        "ti-yaw",
-    ):
-        box = page.get_by_test_id(testid).bounding_box()
-        assert box is not None, testid
-        assert box["x"] >= 0 and box["x"] + box["width"] <= size[0], testid
-        assert box["y"] >= 0 and box["y"] + box["height"] <= size[1], testid
-    assert page.evaluate("() => document.scrollingElement.scrollWidth - innerWidth") <= 0
-    page.close()
+    with opened(chromium, app.url, size=size) as page:
+        for testid in (
+            "splane",
+            *PLOTS,
+            "scene",
+            "k-matrix-03",
+            "rga-matrix-11",
+            "suggest-pi",
+            "kp-yaw",
+            "ti-yaw",
+        ):
+            box = page.get_by_test_id(testid).bounding_box()
+            assert box is not None, testid
+            assert box["x"] >= 0 and box["x"] + box["width"] <= size[0], testid
+            assert box["y"] >= 0 and box["y"] + box["height"] <= size[1], testid
+        assert page.evaluate("() => document.scrollingElement.scrollWidth - innerWidth") <= 0
 
 
 def test_lost_server_is_told_edits_continue_and_are_sent_when_it_returns(chromium: Browser):
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
-    page = chromium.new_page()
-    lost = "() => JSON.parse(document.documentElement.dataset.state).connection !== 'open'"
-    with running_app(port) as app:
-        opened(page, app.url)
-    page.wait_for_function(lost)
-    field = page.get_by_test_id("pole-field-0")
-    field.fill("-15")
-    field.press("Enter")
-    assert state(page)["settled"] is False
-    with running_app(port):
-        settled(page)
-        assert state(page)["poles"][0]["re"] == -15
-        assert state(page)["connection"] == "open"
-        page.close()
+    with visited(chromium, EMPTY, SEEN) as visit:
+        page = visit.page
+        lost = "() => JSON.parse(document.documentElement.dataset.state).connection !== 'open'"
+        with running_app(port) as app:
+            goto(page, app.url)
+        page.wait_for_function(lost)
+        field = page.get_by_test_id("pole-field-0")
+        field.fill("-15")
+        field.press("Enter")
+        assert state(page)["settled"] is False
+        with running_app(port):
+            settled(page)
+            assert state(page)["poles"][0]["re"] == -15
+            assert state(page)["connection"] == "open"
+        visit.forgive(GONE)
 
 
 def test_a_drag_updates_many_times_a_second(page: Page, record_property):
@@ -299,7 +314,7 @@ def test_uncertain_rigs_show_as_a_cloud_of_poles_and_a_band(page: Page):
     cloud = "() => [...document.querySelector('canvas.cloud').getContext('2d')"
     cloud += ".getImageData(0, 0, 500, 500).data].filter((v, i) => i % 4 === 3 && v > 0).length"
     page.get_by_test_id("spread").select_option("0.1")
-    expect(page.get_by_test_id("cloud-words")).to_contain_text("2000 rigs: 100 % stable", timeout=PATIENCE)
+    expect(page.get_by_test_id("cloud-words")).to_contain_text("2000 rigs: 100 % stable")
     assert page.evaluate(cloud) > 500
     assert page.evaluate(TRACES, "plot-theta") != before["plot-theta"]
     assert page.evaluate(TRACES, "plot-V_p") == before["plot-V_p"]

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.e2e.conftest import App, page_of, settled, state
+from tests.browser import opened, settled, state
+from tests.e2e.conftest import App
 
 
 def opened_paper(page: Page) -> None:
@@ -36,13 +37,20 @@ def test_everything_of_the_reply_is_shown(page: Page, app: App):
     for erratum in paper["errata"]:
         assert page.locator(f"#erratum-{erratum['name']}").get_attribute("data-holds") == "true"
     assert page.get_by_test_id("erratum").count() == len(paper["errata"]) == 12
+    for standing, list_id in (("confirmed", "errata"), ("unclear", "unclear")):
+        listed = page.get_by_test_id(list_id).locator("a").evaluate_all("all => all.map((a) => a.hash)")
+        assert listed == [f"#erratum-{e['name']}" for e in paper["errata"] if e["standing"] == standing]
+    symbols = page.locator("[data-testid=symbol-list] dt").all_text_contents()
+    assert len(symbols) == len(paper["symbols"]) and not [text for text in symbols if "(" in text]
     for i, j in [(i, j) for i in (1, 2) for j in (1, 2, 3, 4)]:
         assert "reproduced" in page.get_by_test_id(f"paper-number-k_{i}{j}").inner_text()
     assert page.locator("[data-verdict]").count() == len(paper["numbers"])
     reproduced = sum(n["verdict"] == "reproduced" for n in paper["numbers"])
     differ = sum(n["verdict"] == "differs" for n in paper["numbers"])
     tally = page.get_by_test_id("paper-tally").inner_text()
-    assert f"{reproduced} of {reproduced + differ}" in tally and "12" in tally
+    assert (
+        f"{reproduced} of {reproduced + differ}" in tally and "8 errata" in tally and "4 more places" in tally
+    )
     assert "−6.128" in page.get_by_test_id("paper-consequence").inner_text()
     for figure in (
         *("fig-1-side", "fig-1-top", "fig-2-drawing", "fig-3-drawing", "fig-4-plot", "fig-5-plot"),
@@ -111,8 +119,7 @@ def test_another_method_says_that_it_has_no_such_steps(page: Page):
 
 @pytest.mark.parametrize("width", [390, 1280, 1920])
 def test_nothing_scrolls_the_page_sideways(chromium: Browser, app: App, width: int):
-    with page_of(chromium, app, scene=False) as page:
-        page.set_viewport_size({"width": width, "height": 844})
+    with opened(chromium, app.url, size=(width, 844)) as page:
         opened_paper(page)
         for anchor in ("#paper", "#eq-17", "#paper-numbers", "#paper-errata", "#paper-consequence"):
             page.locator(anchor).scroll_into_view_if_needed()

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Browser, Page, expect
 
-from tests.e2e.conftest import App, opened, settled, state
-from tests.e2e.test_compare import until_state
+from tests.browser import opened, reopened, settled, state, until_state
+from tests.e2e.conftest import App
 from tests.e2e.test_page import PLOTS, drag
 from tests.e2e.test_permalink import set_field, until_hash
 
@@ -102,7 +102,7 @@ def test_use_rename_and_unpin_by_keyboard(page: Page):
     expect(page.locator("#pins")).to_be_hidden()
 
 
-def test_pins_survive_a_reload_and_travel_with_the_link(page: Page, app: App):
+def test_pins_survive_a_reload_and_travel_with_the_link(page: Page, app: App, chromium: Browser):
     pin(page, 1)
     set_field(page, "pole-field-0", "-5")
     pin(page, 2)
@@ -112,15 +112,11 @@ def test_pins_survive_a_reload_and_travel_with_the_link(page: Page, app: App):
     settled(page)
     until_state(page, "s.pins.length === 2 && s.pins.every((p) => p.K)")
     assert state(page)["pins"] == pins
-    page.goto("about:blank")
-    page.evaluate("() => 0")
-    opened(page, app.url)  # the tab keeps them without the link
+    reopened(page, app.url)  # the tab keeps them without the link
     until_state(page, "s.pins.length === 2 && s.pins.every((p) => p.K)")
-    other = page.context.browser.new_page()  # pyright: ignore[reportOptionalMemberAccess]
-    opened(other, link)
-    until_state(other, "s.pins.length === 2 && s.pins.every((p) => p.K)")
-    assert state(other)["pins"] == pins
-    other.close()
+    with opened(chromium, link) as other:
+        until_state(other, "s.pins.length === 2 && s.pins.every((p) => p.K)")
+        assert state(other)["pins"] == pins
 
 
 def test_pins_do_not_slow_a_drag(page: Page, record_property):

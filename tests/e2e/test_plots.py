@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from tests.e2e.conftest import App, settled, state
+from tests.browser import opened, settled, state
+from tests.e2e.conftest import App
 from tests.e2e.test_copy import saved
 from tests.e2e.test_page import PLOTS, centre
-from tests.e2e.test_tour import LETTERS, visit
+from tests.e2e.test_tour import LETTERS
 
 DEGREE = 180 / np.pi
 UNSTABLE = "#v1&preset=paper-as-computed&p=-3%2B2j,-3-2j,-1%2B3j,-1-3j"
@@ -162,7 +163,7 @@ def test_plots_over_frequency_are_read_by_keys(page: Page):
 
 
 def test_an_unstable_loop_has_no_margins(chromium: Browser, app: App):
-    with visit(chromium, app, UNSTABLE) as page:
+    with opened(chromium, app.url + UNSTABLE) as page:
         page.get_by_test_id("open-loops").scroll_into_view_if_needed()
         expect(page.get_by_test_id("margin-words")).to_have_text(
             "The whole loop is unstable: it has no margins."
@@ -200,7 +201,7 @@ def type_of(page: Page) -> list[float]:
 def test_a_very_large_window_grows_all_and_all_still_fits(chromium: Browser, app: App):
     sizes = {}
     for size in ((1920, 1080), (3840, 2160)):
-        with visit(chromium, app, size=size) as page:
+        with opened(chromium, app.url, size=size) as page:
             page.locator("#compare").scroll_into_view_if_needed()
             page.locator("[data-testid=interaction-gains] canvas").wait_for()
             page.evaluate("() => scrollTo(0, 0)")
@@ -217,7 +218,7 @@ def test_a_very_large_window_grows_all_and_all_still_fits(chromium: Browser, app
 
 
 def test_in_a_very_large_window_a_pole_goes_where_the_pointer_takes_it(chromium: Browser, app: App):
-    with visit(chromium, app, size=(3840, 2160)) as page:
+    with opened(chromium, app.url, size=(3840, 2160)) as page:
         x, y = centre(page, "pole-0")
         page.mouse.move(x, y)
         page.mouse.down()
@@ -237,7 +238,7 @@ def test_in_a_very_large_window_a_pole_goes_where_the_pointer_takes_it(chromium:
 def test_figures_of_an_unstable_loop_do_not_touch(
     chromium: Browser, app: App, search: str, size: tuple[int, int]
 ):
-    with visit(chromium, app, search + UNSTABLE, size=size) as page:
+    with opened(chromium, app.url + search + UNSTABLE, size=size) as page:
         assert state(page)["stable"] is False
         over = page.locator(".metrics tbody td").evaluate_all(
             """all => all.filter((td) => td.checkVisibility()).map((td) => {
@@ -259,7 +260,7 @@ CanvasRenderingContext2D.prototype.fillText = function (text, ...where) {
 
 
 def test_what_is_painted_passes_through_the_words_too(chromium: Browser, app: App):
-    with visit(chromium, app, "?lang=qps-ploc") as page:
+    with opened(chromium, app.url + "?lang=qps-ploc") as page:
         page.add_init_script(PAINTED)
         page.reload()
         settled(page)

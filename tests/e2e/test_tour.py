@@ -2,43 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import Any
-
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.e2e.conftest import App, opened, settled, state
+from tests.browser import later, opened, settled, state
+from tests.e2e.conftest import App
 from tests.e2e.test_axe import RUN, violations
 from tests.e2e.test_page import PLOTS
 from tests.e2e.test_rig import entered, until
 
 
-@contextmanager
-def visit(
-    chromium: Browser,
-    app: App,
-    search: str = "",
-    *,
-    tour: bool = False,
-    size: tuple[int, int] = (1280, 800),
-    **how: Any,
-) -> Iterator[Page]:
-    """A fresh visitor's page, nothing in its scene's frame; fails on errors in its console."""
-    context = chromium.new_context(viewport={"width": size[0], "height": size[1]}, **how)
-    page = context.new_page()
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    page.on("console", lambda message: message.type == "error" and errors.append(message.text))
-    opened(page, app.url + search, tour=tour)
-    yield page
-    context.close()
-    assert errors == []
-
-
 def test_the_tour_comes_once_leads_through_five_steps_and_blocks_nothing(chromium: Browser, app: App):
-    with visit(chromium, app, tour=True) as page:
+    with opened(chromium, app.url, tour=True) as page:
         tour = page.get_by_test_id("tour")
         expect(tour).to_contain_text("1 of 5")
         assert page.evaluate("() => document.activeElement === document.body")  # it takes no focus
@@ -52,14 +27,27 @@ def test_the_tour_comes_once_leads_through_five_steps_and_blocks_nothing(chromiu
         page.get_by_test_id("tour-next").click()
         expect(tour).to_be_hidden()
         assert page.locator(".toured").count() == 0
-        page.reload()
-        settled(page)
-        page.wait_for_function("() => performance.now() > 2500")  # later than it would have come
+        asked: list[str] = []
+        page.on("request", lambda request: asked.append(request.url.rpartition("/")[2]))
+        with later(page):
+            page.reload()
+            settled(page)
         expect(page.get_by_test_id("tour")).to_have_count(0)
+        assert "main.js" in asked and "tour.js" not in asked
+
+
+def test_who_has_moved_a_pole_finds_no_tour_at_the_next_visit(chromium: Browser, app: App):
+    with opened(chromium, app.url, tour=True) as page:
+        expect(page.get_by_test_id("tour")).to_contain_text("1 of 5")
+        page.get_by_test_id("pole-0").focus()
+        page.keyboard.press("ArrowLeft")
+        settled(page)
+        expect(page.get_by_test_id("tour")).to_be_visible()  # it goes on where it is
+        assert page.evaluate("localStorage.getItem('heli2dof.tour')") == "done"
 
 
 def test_the_tour_by_keyboard_from_the_header(chromium: Browser, app: App):
-    with visit(chromium, app) as page:
+    with opened(chromium, app.url) as page:
         button = page.get_by_test_id("tour-open")
         button.focus()
         page.keyboard.press("Enter")
@@ -79,7 +67,7 @@ def test_the_tour_by_keyboard_from_the_header(chromium: Browser, app: App):
 def test_axe_finds_nothing_in_the_tour_and_it_hides_nothing_it_speaks_of(
     chromium: Browser, app: App, size: tuple[int, int]
 ):
-    with visit(chromium, app, tour=True, size=size, reduced_motion="reduce") as page:
+    with opened(chromium, app.url, tour=True, size=size, reduced_motion="reduce") as page:
         tour = page.get_by_test_id("tour")
         expect(tour).to_be_visible()
         assert violations(page) == []
@@ -109,7 +97,7 @@ LETTERS = """() => {
 
 @pytest.mark.parametrize("size", [(1280, 720), (1920, 1080)])
 def test_the_projector_enlarges_all_and_all_still_fits(chromium: Browser, app: App, size: tuple[int, int]):
-    with visit(chromium, app, size=size) as page:
+    with opened(chromium, app.url, size=size) as page:
         button = page.get_by_test_id("projector")
         expect(button).to_have_attribute("aria-pressed", "false")
         before = page.evaluate(LETTERS)
@@ -143,7 +131,7 @@ def test_the_projector_enlarges_all_and_all_still_fits(chromium: Browser, app: A
 
 
 def test_the_address_asks_for_the_projector_until_it_is_switched_off(chromium: Browser, app: App):
-    with visit(chromium, app, "?projector") as page:
+    with opened(chromium, app.url + "?projector") as page:
         expect(page.get_by_test_id("projector")).to_have_attribute("aria-pressed", "true")
         page.get_by_test_id("projector").click()
         assert "projector" not in page.url
@@ -153,13 +141,12 @@ def test_the_address_asks_for_the_projector_until_it_is_switched_off(chromium: B
 
 
 def test_with_reduced_motion_nothing_moves_by_itself(chromium: Browser, app: App):
-    with visit(chromium, app, reduced_motion="reduce") as page:
+    with opened(chromium, app.url, moving=False) as page:
         expect(page.get_by_test_id("play")).to_have_text("Play")
         expect(page.get_by_test_id("clock")).to_have_text("0.00 s")
-        entered(page, "pole-field-0", "-15")
-        until(page, "s.poles[0].re === -15")
-        drawn = page.evaluate("() => performance.now()")
-        page.wait_for_function("(then) => performance.now() > then + 1200", arg=drawn)  # later than a replay
+        with later(page):
+            entered(page, "pole-field-0", "-15")
+            until(page, "s.poles[0].re === -15")
         expect(page.get_by_test_id("clock")).to_have_text("0.00 s")
         moving = """() => [...document.querySelectorAll('*')]
           .filter((n) => getComputedStyle(n).transitionDuration.split(',').some((d) => parseFloat(d) > 0)).length"""
@@ -192,7 +179,7 @@ UNTRANSLATED = """(exceptions) => {
 
 
 def test_every_static_string_passes_through_the_words(chromium: Browser, app: App):
-    with visit(chromium, app, "?lang=qps-ploc", size=(1920, 1080)) as page:
+    with opened(chromium, app.url + "?lang=qps-ploc", size=(1920, 1080)) as page:
         for testid in ("rig", "experiment", "more-figures"):
             page.get_by_test_id(testid).click()
         page.get_by_test_id("tour-open").click()
@@ -204,7 +191,7 @@ def test_every_static_string_passes_through_the_words(chromium: Browser, app: Ap
 
 
 def test_an_unknown_language_is_english(chromium: Browser, app: App):
-    with visit(chromium, app, "?lang=xx") as page:
+    with opened(chromium, app.url + "?lang=xx") as page:
         expect(page.get_by_test_id("undo")).to_have_text("Undo")
         assert page.evaluate("() => document.documentElement.lang") == "en"
 

@@ -9,8 +9,17 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Download, Page
 
-from tests.e2e.conftest import PATIENCE, UNDRAWN, App, opened, running_app, settled, state
+from tests.browser import GONE, SEEN, UNDRAWN, goto, opened, settled, state, visited
+from tests.e2e.conftest import App, running_app
 from tests.e2e.test_scene import ANGLES
+
+
+@pytest.fixture
+def page(chromium: Browser, app: App) -> Iterator[Page]:
+    """The page without its scene, which plays by itself as at everybody's."""
+    with opened(chromium, app.url, moving=True) as page:
+        yield page
+
 
 WATCHED = """selector => {
   // When time 0 was, by the wall, as each change shows it at a quarter of the speed; seconds.
@@ -29,16 +38,12 @@ def window_of(page: Page, app: App, viewport: tuple[int, int] = (640, 420)) -> I
     """The rig in a window of its own, playing what the page shows; fails on any error in it."""
     session = page.evaluate("() => sessionStorage.getItem('heli2dof-scene')")
     window = page.context.new_page()
-    window.set_viewport_size({"width": viewport[0], "height": viewport[1]})
-    window.set_default_timeout(PATIENCE)
     window.add_init_script(UNDRAWN)
-    errors: list[str] = []
-    window.on("pageerror", lambda error: errors.append(str(error)))
+    window.set_viewport_size({"width": viewport[0], "height": viewport[1]})
     window.goto(f"{app.url}scene/{session}/")
     drawn(window)
     yield window
     window.close()
-    assert errors == []
 
 
 def drawn(window: Page) -> None:
@@ -148,27 +153,24 @@ def test_panel_works_on_where_the_page_has_gone(page: Page, app: App):
 
 
 def test_two_sessions_stay_apart(page: Page, app: App, chromium: Browser):
-    context = chromium.new_context()
-    context.add_init_script(UNDRAWN)
-    other = context.new_page()
-    other.set_default_timeout(PATIENCE)
-    other.goto(f"{app.url}scene/{'a-session-of-its-own'.ljust(24, '_')}/")
-    drawn(other)
-    with window_of(page, app) as window:
-        shows(other, "p₁", -12)
-        panel_input(window, "p₁").fill("-6.5")
-        panel_input(window, "p₁").press("Enter")
-        page.wait_for_function(
-            "() => JSON.parse(document.documentElement.dataset.state).poles[0].re === -6.5"
-        )
-        settled(page)  # a new response plays from its start
-        seek(page, 0.0)
-        stands_at(window, 0.0, 0.0)
-        panel_input(other, "p₂").fill("-4.5")
-        panel_input(other, "p₂").press("Enter")
-        shows(other, "p₁", -12)
-        assert poles(page)[1] == -10
-    context.close()
+    with visited(chromium, UNDRAWN) as visit:
+        other = visit.page
+        other.goto(f"{app.url}scene/{'a-session-of-its-own'.ljust(24, '_')}/")
+        drawn(other)
+        with window_of(page, app) as window:
+            shows(other, "p₁", -12)
+            panel_input(window, "p₁").fill("-6.5")
+            panel_input(window, "p₁").press("Enter")
+            page.wait_for_function(
+                "() => JSON.parse(document.documentElement.dataset.state).poles[0].re === -6.5"
+            )
+            settled(page)  # a new response plays from its start
+            seek(page, 0.0)
+            stands_at(window, 0.0, 0.0)
+            panel_input(other, "p₂").fill("-4.5")
+            panel_input(other, "p₂").press("Enter")
+            shows(other, "p₁", -12)
+            assert poles(page)[1] == -10
 
 
 @pytest.mark.parametrize("kind", ["html", "viser"])
@@ -184,21 +186,16 @@ def test_motion_plays_offline(page: Page, tmp_path: Path, chromium: Browser):
     reference = state(page)["scenario"]["reference"]
     path = tmp_path / "motion.html"
     saved(page, "html").save_as(path)
-    context = chromium.new_context(viewport={"width": 500, "height": 400}, offline=True)
-    reader = context.new_page()
-    reader.set_default_timeout(PATIENCE)
-    asked: list[str] = []
-    errors: list[str] = []
-    reader.on("request", lambda request: asked.append(request.url))
-    reader.on("pageerror", lambda error: errors.append(str(error)))
-    reader.goto(path.as_uri())
-    assert "poles −12, −10, −9.25, −8.76" in reader.title()
-    # From rest to the reference, as the page's own plot ends.
-    stands_at(reader, 0.0, 0.0, 0.02)
-    stands_at(reader, reference["theta"], reference["psi"], 0.02)
-    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
-    assert errors == []
-    context.close()
+    with visited(chromium, size=(500, 400), offline=True) as visit:
+        reader = visit.page
+        asked: list[str] = []
+        reader.on("request", lambda request: asked.append(request.url))
+        reader.goto(path.as_uri())
+        assert "poles −12, −10, −9.25, −8.76" in reader.title()
+        # From rest to the reference, as the page's own plot ends.
+        stands_at(reader, 0.0, 0.0, 0.02)
+        stands_at(reader, reference["theta"], reference["psi"], 0.02)
+        assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
 
 
 def saved(page: Page, kind: str) -> Download:
@@ -219,30 +216,28 @@ def test_menu_gives_the_link_of_the_window(page: Page):
 
 
 def test_window_is_rebuilt_after_the_server_was_started_anew(chromium: Browser):
-    context = chromium.new_context()
-    page = context.new_page()
-    with running_app() as first:
-        opened(page, first.url)
-        page.get_by_test_id("preset").select_option("quanser-aero-2")
-        settled(page)
-        session = page.evaluate("() => sessionStorage.getItem('heli2dof-scene')")
-        window = context.new_page()
-        window.set_default_timeout(PATIENCE)
-        window.add_init_script(UNDRAWN)
-        window.goto(f"{first.url}scene/{session}/")
-        drawn(window)
-        window.evaluate("() => { window.kept = true; }")
-    lifted = "() => window.__viserMutable.nodePoseData['/rig/yoke/body']?.position?.[2]"
-    with running_app(first.port):
-        page.wait_for_function(
-            "() => JSON.parse(document.documentElement.dataset.state).connection === 'open'"
-        )
-        page.get_by_test_id("pole-field-2").fill("-5.5")
-        page.get_by_test_id("pole-field-2").press("Enter")
-        shows(window, "p₃", -5.5)
-        window.wait_for_function(f"() => Math.abs(({lifted})() - 0.295) < 1e-9")  # the Aero's, again
-        settled(page)
-        seek(page, 0.0)
-        stands_at(window, 0.0, 0.0)
-        assert window.evaluate("() => window.kept")  # by itself, without a reload
-        context.close()
+    with visited(chromium, UNDRAWN, SEEN) as visit:
+        page = visit.page
+        with running_app() as first:
+            goto(page, first.url)
+            page.get_by_test_id("preset").select_option("quanser-aero-2")
+            settled(page)
+            session = page.evaluate("() => sessionStorage.getItem('heli2dof-scene')")
+            window = visit.context.new_page()
+            window.goto(f"{first.url}scene/{session}/")
+            drawn(window)
+            window.evaluate("() => { window.kept = true; }")
+        lifted = "() => window.__viserMutable.nodePoseData['/rig/yoke/body']?.position?.[2]"
+        with running_app(first.port):
+            page.wait_for_function(
+                "() => JSON.parse(document.documentElement.dataset.state).connection === 'open'"
+            )
+            page.get_by_test_id("pole-field-2").fill("-5.5")
+            page.get_by_test_id("pole-field-2").press("Enter")
+            shows(window, "p₃", -5.5)
+            window.wait_for_function(f"() => Math.abs(({lifted})() - 0.295) < 1e-9")  # the Aero's, again
+            settled(page)
+            seek(page, 0.0)
+            stands_at(window, 0.0, 0.0)
+            assert window.evaluate("() => window.kept")  # by itself, without a reload
+        visit.forgive(GONE)

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import re
-import subprocess
 import sys
 from collections.abc import Iterator
 from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
 
 import pytest
 
 from heli2dof_core import PRESETS
-from tests.scene_server import until
+from tests.children import ROOT, python, served
+from tests.patience import until
 
-ROOT = Path(__file__).parents[2]
+pytestmark = pytest.mark.slow
+
 FILE = ROOT / "examples" / "client.py"
 
 
@@ -31,22 +30,10 @@ example = _module()
 
 
 @pytest.fixture(scope="module")
-def address() -> Iterator[str]:
-    command = [sys.executable, "-m", "app", "serve", "--port", "0"]
-    process = subprocess.Popen(
-        command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
-    )
-    assert process.stdout is not None
-    try:
-        found = re.search(r"http://127.0.0.1:\d+", process.stdout.readline())
-        assert found
-        with example.Client(found[0]) as client:
-            until(lambda: client.presets() != [], "the server answers", 60)
-        yield found[0]
-    finally:
-        process.terminate()
-        process.wait(30)
-        process.stdout.close()
+def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    with served(tmp_path_factory.mktemp("server")) as server, example.Client(server.http) as client:
+        until(lambda: client.presets() != [], "the server answers")
+        yield server.http
 
 
 def test_it_gets_the_numbers(address):
@@ -68,8 +55,5 @@ def test_a_refusal_names_the_field(address):
 
 
 def test_it_runs_as_a_program(address):
-    shown = subprocess.run(
-        [sys.executable, str(FILE), address], capture_output=True, text=True, check=True, timeout=60
-    ).stdout
-    lines = shown.strip().split("\n")
+    lines = python(str(FILE), address).strip().split("\n")
     assert [line.partition(":")[0] for line in lines] == list(PRESETS)

@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 FILE = ROOT / "examples" / "pole_placement.ipynb"
 NOTEBOOK = json.loads(FILE.read_text(encoding="utf-8"))

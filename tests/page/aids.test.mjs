@@ -27,7 +27,10 @@ const state = (part = {}) => ({ design: { poles }, requirements: NONE, problem: 
 test('a finding leads to the pole that it is about, to its field, or nowhere', () => {
   assert.equal(placeOf('right_half_plane', state()), '[data-testid="pole-1"]');
   assert.equal(placeOf('far_out', state()), '[data-testid="pole-0"]');
-  assert.equal(placeOf('requirement_missed', state({ design: { poles: [-12, -10, -1, -8].map((re) => ({ re, im: 0 })) }, requirements: { settling: 0.6, overshoot: null } })), '[data-testid="pole-2"]');
+  const reply = { axis_steps: { theta: { nonlinear: { metrics: { theta: { settling_time: 0.5 } } } }, psi: { nonlinear: { metrics: { psi: { settling_time: 0.9 } } } } } };
+  assert.equal(placeOf('requirement_missed', state({ reply, requirements: { settling: 0.6, overshoot: null } })), '[data-testid="pole-3"]'); // yaw's slower one, though pitch's are slower
+  assert.equal(placeOf('high_gain', state()), '[data-testid="pole-0"]');
+  assert.equal(placeOf('not_settled', state()), '[data-testid="duration"]');
   assert.equal(placeOf('saturation_V_y', state()), '[data-testid="plot-V_y"] .plot-body');
   assert.equal(placeOf('slow_sampling', state()), '[data-testid="experiment-sample-time"]');
   assert.equal(placeOf('unheard_of', state()), '');
@@ -55,4 +58,10 @@ test('the address asks for the projector before the memory does', () => {
   assert.equal(withoutProjector('?projector&lang=de'), '?lang=de');
   assert.equal(withoutProjector('?projector=1'), '');
   assert.equal(withoutProjector('?lang=de'), '?lang=de');
+});
+
+test('a share at the limit shows a decimal below one percent alone, so that it never reads as none', () => {
+  const said = (share) => remarksOf({ reply: { findings: [{ code: 'saturation_V_p', severity: 'warning', message: '' }], step: { nonlinear: { metrics: { V_p: { saturated: share } } } } }, problem: null }).V_p.text;
+  assert.deepEqual([0.004, 0.0099, 0.01, 0.011, 1].map(said), ['0.4 %', '1.0 %', '1 %', '1 %', '100 %'].map((share) => `▲ at limit ${share}`));
+  assert.equal(said(0), '▲ at limit'); // no share of the samples is known
 });

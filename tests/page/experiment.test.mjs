@@ -1,11 +1,12 @@
-/** The experiment's options: what is kept, what is sent, what is said; and what limits cost. */
+/** The experiment's options: what is kept, what is sent, what is said. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { cloudRequest, cloudWords } from '../../static/cloud.js';
 import { cloudCaveat, cloudScenario, experimentWords, isStandard, scenarioBody, standard, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../../static/experiment.js';
-import { differs, limitsCost } from '../../static/limits_cost.js';
+import { differs } from '../../static/format.js';
 import { findingsOf } from '../../static/panels/findings.js';
 import { linearPeak, motorText } from '../../static/panels/metrics.js';
+import { NONE } from '../../static/requirements.js';
 import { designOf, requestOf } from '../../static/store.js';
 
 const STEPS = { reference: { theta: 0.1, psi: 0.2 }, duration: 3 };
@@ -83,18 +84,6 @@ test('words name what differs, with units, and nothing else', () => {
   for (const [scenario, words] of cases) assert.equal(experimentWords(scenario).join(' · '), words);
 });
 
-const step = (settling, saturated) => ({ t: [0, 3], metrics: { theta: { settling_time: settling }, V_p: { saturated }, V_y: { saturated: 0 } } });
-const reply = (own, ideal, saturated = 0.1, findings = []) => ({ findings, axis_steps: { theta: { nonlinear: step(own, saturated), linear: step(ideal, 0) } } });
-
-test('limits cost what the linear model does not know, where they alone tell the models apart', () => {
-  assert.equal(limitsCost(reply(1.2, 0.7)), 'At the motors’ limits the pitch step settles in 1.20 s (linear: 0.70 s).');
-  assert.equal(limitsCost(reply(undefined, 0.7)), 'At the motors’ limits the pitch step settles not within 3.00 s (linear: 0.70 s).');
-  const silent = [reply(1.2, 0.7, 0), reply(0.71, 0.7), reply(1.2, undefined), reply(1.2, 0.7, 0.1, [{ code: 'travel_stop' }]), null];
-  for (const r of silent) assert.equal(limitsCost(r), '');
-  assert.equal(limitsCost(reply(1.2, 0.7), withDigital(STEPS, {})), '');
-  assert.equal(limitsCost(reply(1.2, 0.7), withDisturbance(STEPS, {})), '');
-});
-
 test('figures differ from five percent on, and what is missing from what is there', () => {
   assert.deepEqual([differs(1, 1.04), differs(1, 1.06), differs(0.001, 0.002, 0.01), differs(undefined, 1), differs(undefined, undefined)], [false, true, false, true, false]);
 });
@@ -106,10 +95,10 @@ test('the linear model’s peak has the trim, and a limit its share of time', ()
   assert.equal(motorText({ V_p: { peak: 12.34, saturated: 0 } }, 'V_p'), '12.3 V');
 });
 
-test('the cost of limits and the causes come first among warnings, errors before all', () => {
-  const codes = ['saturation_V_p', 'slow_sampling', 'loop_unstable'];
-  const findings = codes.map((code, i) => ({ code, severity: i === 2 ? 'error' : 'warning', message: code }));
-  const order = (part) => findingsOf({ reply: { ...reply(1.2, 0.7), ...part }, problem: null, design: designOf(preset) }).map((f) => f.code);
-  assert.deepEqual(order({ findings }), ['loop_unstable', 'slow_sampling', 'limits_cost', 'saturation_V_p']);
-  assert.deepEqual(order({ findings: [] }), ['limits_cost']);
+test('what explains others, or says what limits cost, comes first among warnings, errors before all', () => {
+  const codes = ['saturation_V_p', 'unlike_linear', 'slow_sampling', 'loop_unstable'];
+  const findings = codes.map((code, i) => ({ code, severity: i === 3 ? 'error' : 'warning', message: code }));
+  const order = (part) => findingsOf({ reply: part, problem: null, design: designOf(preset), requirements: NONE }).map((f) => f.code);
+  assert.deepEqual(order({ findings }), ['loop_unstable', 'unlike_linear', 'slow_sampling', 'saturation_V_p']);
+  assert.deepEqual(order({ findings: [] }), []);
 });

@@ -54,3 +54,25 @@ test("statistics of the updates", () => {
   stats.reset();
   assert.equal(stats.summary().median, null);
 });
+
+test("what is no number is a dash, in every way of writing", () => {
+  for (const write of [fixed, significant]) {
+    for (const nothing of [undefined, NaN, Infinity, -Infinity]) assert.equal(write(nothing), "–");
+    assert.notEqual(write(0), "–");
+  }
+});
+
+test("read back, a number is the one that was written, to all digits but one, and only zero is written as zero", () => {
+  let seed = 3;
+  const drawn = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
+  const read = (text) => Number(text.replace("\u2212", "-").replace("e\u2212", "e-"));
+  for (let k = 0; k < 2000; k++) {
+    const v = (drawn() < 0.5 ? -1 : 1) * 10 ** (18 * drawn() - 9);
+    const digits = 3 + Math.floor(6 * drawn());
+    const text = significant(v, digits);
+    assert.ok(Math.abs(read(text) / v - 1) <= 0.5 * 10 ** (2 - digits), `${v} with ${digits} digits: ${text}`);
+    assert.equal(text.includes("e"), Math.abs(v) >= 1e6 || Math.abs(v) < 1e-4, text);
+    assert.equal(text.startsWith("\u2212"), v < 0);
+  }
+  assert.deepEqual([1e-4, 0.99e-4, 0.001, 0.05, 999999, 1e6, 0].map((v) => significant(v, 3)), ["0.00010", "9.9e\u22125", "0.0010", "0.050", "999999", "1.0e6", "0.00"]);
+});

@@ -19,12 +19,12 @@ test("an equation's anchor and its name in the contents follow from its number",
 test("the tally counts verdicts and proofs", () => {
   const paper = {
     numbers: [..."rrdgg"].map((c) => ({ verdict: { r: "reproduced", d: "differs", g: "given" }[c] })),
-    errata: [{ proof: { holds: true } }, { proof: { holds: false } }],
+    errata: [{ standing: "confirmed", proof: { holds: true } }, { standing: "confirmed", proof: { holds: false } }, { standing: "unclear", proof: { holds: true } }],
     equations: [{ status: "corrected" }, { status: "corrected" }, { status: "explained" }],
   };
   const c = countsOf(/** @type {any} */ (paper));
   assert.deepEqual([c.reproduced, c.derivable, c.differs, c.given, c.numbers], [2, 3, 1, 2, 5]);
-  assert.deepEqual([c.errata, c.proofs], [2, 1]);
+  assert.deepEqual([c.errata, c.unclear, c.proofs], [2, 1, 2]);
   assert.deepEqual(c.status, { corrected: 2, explained: 1 });
 });
 
@@ -48,6 +48,7 @@ test("figures: a true minus, no trailing zeros, integers as integers", () => {
 test("what rounding left of zeros is taken away, small entries stay", () => {
   assert.deepEqual(clean([[0, 1, -2e-18], [-120, 1e-9, 3e-15]]), [[0, 1, 0], [-120, 1e-9, 0]]);
   assert.equal(clean(undefined), undefined);
+  assert.deepEqual(clean([[-0, 0], [0, -0]]), [[0, 0], [0, 0]]); // a zero has no sign to be read
 });
 
 test("a conjugate pair is written once", () => {

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { corners } from '../../static/plot_paths.js';
+import { corners, plainPath } from '../../static/plot_paths.js';
 
 const TOLERANCE = 0.2;
 
@@ -56,4 +56,26 @@ test('noise keeps what is above the tolerance', () => {
   const ys = xs.map(() => 3 * noise());
   const kept = cornersOf(xs, ys);
   assert.ok(farthest(xs, ys, kept) <= TOLERANCE + 1e-9);
+});
+
+test('a path runs through the data as the axes place them, as far as a fifth of a pixel', () => {
+  globalThis.Path2D = class { points = []; lineTo(x, y) { this.points.push([x, y]); } };
+  const data = [xs.map((x) => x / 80), xs.map((_, i) => Math.sin(i / 40)), xs.map(() => null), xs.map((_, i) => Math.exp(-i / 60))];
+  const u = { data, bbox: { left: 30, top: 12, width: 700, height: 240 }, scales: { x: { min: 1, max: 4 }, y: { min: -2, max: 3 } } };
+  for (const k of [1, 3]) {
+    const { points } = plainPath(u, k, 100, 400).stroke;
+    const [ends, values] = [[points[0], points[points.length - 1]], [100, 400]];
+    values.forEach((i, end) => {
+      assert.ok(Math.abs((ends[end][0] - 30) / 700 - (data[0][i] - 1) / 3) < 1e-12, 'its share of the width');
+      assert.ok(Math.abs((252 - ends[end][1]) / 240 - (data[k][i] + 2) / 5) < 1e-12, 'its share of the height');
+    });
+    for (let i = 100, at = 0; i <= 400; i++) {
+      const [x, y] = [30 + (700 * (data[0][i] - 1)) / 3, 252 - (240 * (data[k][i] + 2)) / 5];
+      while (points[at + 1][0] < x - 1e-9) at++;
+      const [[x0, y0], [x1, y1]] = [points[at], points[at + 1]];
+      assert.ok(Math.abs(y0 + ((y1 - y0) * (x - x0)) / (x1 - x0) - y) <= TOLERANCE + 1e-9);
+    }
+  }
+  assert.equal(plainPath(u, 2, 100, 400), null); // a trace that is not there
+  delete globalThis.Path2D;
 });

@@ -93,3 +93,11 @@ test("the pairing crosses with the signs of the channels, and the decoupler make
   for (const [i, j, expected] of [[0, 0, 2], [0, 1, 0], [1, 0, 0], [1, 1, 1]]) assert.ok(Math.abs(product[i][j] - expected) < 1e-12);
   assert.equal(inverseOf([[1, 2], [2, 4]]), undefined);
 });
+
+test("an entry of A or B is worth its own number, not the matrix", () => {
+  const walk = { constants: {}, A: [[0, 0, 1, 0], [0, 0, 0, 1], [0, 0, -9.25, 0], [0, 0, 0, -3.49]], B: [[0, 0], [0, 0], [2.36, 0.08], [0.24, 0.79]] };
+  const now = { parameters: {}, components: {}, walk };
+  assert.equal(worthOf("A_44", now).text, "−3.49");
+  assert.equal(worthOf("B_31", now).text, "2.36");
+  assert.equal(worthOf("A", now).matrix.length, 4);
+});

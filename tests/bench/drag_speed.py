@@ -1,6 +1,7 @@
 """How smooth a drag is: a move sixty times a second, frame times and latency up to the plots as the page sees them.
 
-`python -m tests.e2e.drag_speed http://127.0.0.1:8000/` prints one JSON object per run; `test_drag_speed` judges it.
+`python -m tests.bench.drag_speed http://127.0.0.1:8000/ [runs]` prints one JSON object per run.
+Aims: frames' p95 under 20 ms, median latency under 33 ms.
 """
 
 from __future__ import annotations
@@ -15,8 +16,8 @@ from typing import Any
 
 from playwright.async_api import Page, async_playwright
 
-FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader", "--disable-background-networking"]
-TOURED = "try { localStorage.setItem('heli2dof.tour', 'done') } catch { /* a frame without storage */ }"
+from tests.browser import FLAGS, SEEN
+
 MOVES = 300
 RATE = 60.0
 """Moves per second: one for each frame of a usual screen."""
@@ -98,7 +99,7 @@ async def measure(url: str, runs: int = 1) -> list[dict[str, Any]]:
             await page.route(
                 "**/scene/*/", lambda route: route.fulfill(content_type="text/html", body="<title>-</title>")
             )
-            await page.add_init_script(TOURED)
+            await page.add_init_script(SEEN)
             await page.goto(url)
             await page.get_by_test_id("show-scene").uncheck()
             await page.wait_for_function(

@@ -1,0 +1,198 @@
+"""Remarks on the closed loop: settling, rig against linear model, delay margin, gains and slow poles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from math import degrees, radians
+
+import numpy as np
+
+from .findings import Finding
+from .loop import Loop
+from .margins import Margins
+from .metrics import AxisMetrics, StepMetrics
+from .remarks import FAR_OUT
+from .signals import AXES, INPUTS, OUTPUTS
+from .simulation.response import Response
+from .spec import Digital, Limits, Scenario
+from .tables import number
+
+UNLIKE, UNLIKE_AT_LIMITS = 1.25, 1.05
+"""Ratio of two settling times from which rig and linear model are said to differ; and where a motor is at its limit,
+whose cost is worth knowing."""
+UNLIKE_OVERSHOOT = 10.0
+"""The same for overshoot, percentage points."""
+SLOWER = 5.0
+"""How many times slower than every placed pole a pole of the whole loop is remarked on."""
+DEAD_SAMPLES = 1.5
+"""Dead time of a digital loop in samples: one to compute, half a sample's hold
+(Åström and Wittenmark, Computer-Controlled Systems, 1997, section 8)."""
+_OTHER_CAUSES = frozenset(
+    ("diverges", "integration_stopped", "starts_on_stop", "reference_beyond_stop", "travel_stop")
+)
+
+Stepped = tuple[Response, StepMetrics]
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """One experiment by both models, each as its response and its metrics."""
+
+    linear: Stepped
+    rig: Stepped
+
+
+def behaviour_remarks(
+    loop: Loop,
+    limits: Limits,
+    scenario: Scenario,
+    margins: tuple[Margins, Margins] | None,
+    experiments: Sequence[Experiment],
+) -> tuple[Finding, ...]:
+    """Findings on a stable loop; an unstable one has its own, which explains whatever else is seen.
+
+    Args:
+        loop: the whole loop.
+        limits: of the rig.
+        scenario: the experiment; in `experiments` it may step one axis alone.
+        margins: at the pitch and the yaw motor.
+        experiments: each axis is judged in the last one that steps it, so the one that steps it alone.
+    """
+    if not loop.stable or margins is None:
+        return ()
+    axes = {name: each for each in experiments for name in each.rig[1].axes}
+    return tuple(
+        chain(
+            _on_delay(margins, scenario),
+            _on_gain(loop, limits),
+            _on_slow_poles(loop),
+            _on_settling(loop, axes),
+            () if scenario.disturbance else _on_models(axes, scenario),
+        )
+    )
+
+
+def _on_delay(margins: tuple[Margins, Margins], scenario: Scenario) -> Iterator[Finding]:
+    sample = (scenario.digital or Digital()).sample_time
+    short = {
+        axis: m.delay_margin
+        for axis, m in zip(AXES, margins, strict=True)
+        if m.delay_margin is not None and m.delay_margin < DEAD_SAMPLES * sample
+    }
+    if short:
+        axis = min(short, key=lambda name: short[name])
+        usual = "this" if scenario.digital else "a usual"
+        yield Finding(
+            "short_delay_margin",
+            "warning",
+            f"The {axis} motor's delay margin is {_time(short[axis])}. A digital controller with {usual} sample "
+            f"time of {_time(sample)} adds up to {_time(DEAD_SAMPLES * sample)} of dead time. Place slower poles "
+            "or lower the gains.",
+        )
+
+
+def _on_gain(loop: Loop, limits: Limits) -> Iterator[Finding]:
+    if float(np.max(np.abs(loop.design.closed_loop_poles))) > FAR_OUT:
+        return  # said of the poles already
+    volts = np.abs(loop.design.K[:, :2]) * radians(1.0)
+    bounds = np.array([limits.V_p, limits.V_y])
+    motor, axis = np.unravel_index(int(np.argmax(volts / bounds[:, None])), volts.shape)
+    if volts[motor, axis] > bounds[motor]:
+        yield Finding(
+            "high_gain",
+            "warning",
+            f"One degree of {AXES[axis]} error asks the {AXES[motor]} motor for {volts[motor, axis]:.3g} V; its "
+            f"limit is {bounds[motor]:g} V. Place slower poles.",
+        )
+
+
+def _on_slow_poles(loop: Loop) -> Iterator[Finding]:
+    placed = float(np.max(loop.design.closed_loop_poles.real))
+    slowest = float(loop.poles[0].real)
+    if loop.has_integrators and placed < SLOWER * slowest:
+        yield Finding(
+            "slow_pole",
+            "warning",
+            f"The integral action adds a slow pole at {number(slowest, 2)} rad/s, {min(placed / slowest, 999):.0f} "
+            f"times slower than the slowest placed pole. The last of an error takes about "
+            f"{number(-4 / slowest, 2)} s to decay. Tune the loops for these poles.",
+        )
+
+
+def _on_settling(loop: Loop, axes: Mapping[str, Experiment]) -> Iterator[Finding]:
+    parts = []
+    for i, signal in enumerate(OUTPUTS):
+        each = axes.get(signal.name)
+        if each is None or _explained(each):
+            continue
+        own, ideal = (metrics.axes[signal.name] for _, metrics in (each.rig, each.linear))
+        if own.settling_time is None:
+            linear = (
+                "" if ideal.settling_time is None else f" (linear: settled in {_time(ideal.settling_time)})"
+            )
+            error = f"{abs(degrees(own.steady_state_error)):.2g}°"
+            parts.append((AXES[i], error, linear))
+    if parts:
+        end = _time(float(next(iter(axes.values())).rig[0].t[-1]))
+        names = " and ".join(
+            f"{axis} ends {error} from its reference{linear}" for axis, error, linear in parts
+        )
+        advice = "Watch longer, or place faster poles."
+        if not loop.has_integrators and any(linear for *_, linear in parts):
+            advice = "Without integral action such an error stays: close the PI loops."
+        yield Finding("not_settled", "warning", f"Not settled within {end}: {names}. {advice}")
+
+
+def _on_models(axes: Mapping[str, Experiment], scenario: Scenario) -> Iterator[Finding]:
+    parts, limited = [], False
+    for i, signal in enumerate(OUTPUTS):
+        each = axes.get(signal.name)
+        if each is None or _explained(each):
+            continue
+        (_, rig), (_, linear) = each.rig, each.linear
+        at_limit = any(rig.motors[motor.name].saturated > 0 for motor in INPUTS)
+        ratio = UNLIKE_AT_LIMITS if at_limit else UNLIKE
+        told = _difference(rig.axes[signal.name], linear.axes[signal.name], ratio)
+        if told:
+            parts.append(f"the {AXES[i]} step {told}")
+            limited = limited or at_limit
+    if parts:
+        causes = [
+            *(["the motors' limits"] if limited else []),
+            *(["sampling"] if scenario.digital else []),
+            *([] if scenario.trim_feedforward else ["the missing trim voltages"]),
+        ]
+        cause = " and ".join(causes) or "gravity and coupling beyond the operating point"
+        advice = " Step less, or place slower poles." if limited else ""
+        yield Finding(
+            "unlike_linear",
+            "warning",
+            f"The rig differs from the linear model: {', '.join(parts)}. "
+            f"The linear model leaves out {cause}.{advice}",
+        )
+
+
+def _difference(rig: AxisMetrics, linear: AxisMetrics, ratio: float) -> str:
+    """In which figures the models differ, the linear one's in parentheses; empty where in none.
+
+    `ratio` of the settling times counts as a difference.
+    """
+    words = []
+    own, ideal = rig.settling_time, linear.settling_time
+    if own is not None and ideal is not None and max(own, ideal) > ratio * min(own, ideal):
+        words.append(f"settles in {_time(own)} (linear: {_time(ideal)})")
+    if abs(rig.overshoot - linear.overshoot) > UNLIKE_OVERSHOOT:
+        words.append(f"overshoots by {rig.overshoot:.1f} % (linear: {linear.overshoot:.1f} %)")
+    return " and ".join(words)
+
+
+def _explained(each: Experiment) -> bool:
+    found = chain(each.rig[0].findings, each.linear[0].findings)
+    return any(finding.code in _OTHER_CAUSES for finding in found)
+
+
+def _time(seconds: float) -> str:
+    """As the page writes it: milliseconds below 0.1 s."""
+    return f"{1e3 * seconds:.2g} ms" if seconds < 0.1 else f"{seconds:.2f} s"
