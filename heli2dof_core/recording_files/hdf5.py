@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from .variables import Unreadable, table_of_variables
 
 MARK = b"\x89HDF\r\n\x1a\n"
 _INNER = ("#refs#", "#subsystem#")
-_MOST_RANGE = 10_000_000
+_MOST_RANGE = 1_000_000
 
 
 def read_hdf5(data: bytes, name: str, wanted: Wanted) -> Table:
@@ -102,14 +103,19 @@ class _Reader:
         if data.is_virtual or data.external:
             return Unreadable("stored in another file")
         dtype = data.dtype
-        self.unpacked += 8 * int(data.size or 0) * max(1, len(dtype.names or ()))
-        check_unpacked(self.unpacked, data.name)
+        each = max(8, dtype.itemsize)
+        self.unpacked += each * int(data.size or 0)
+        check_unpacked(self.unpacked + each * prod(data.chunks or ()), data.name)  # unpacked as a whole, each
         if self.h5py.check_string_dtype(dtype) or dtype.kind == "S":
             return Unreadable("text") if data.shape else _text(data[()])
         if dtype.kind == "O":
             return data[()] if self.h5py.check_ref_dtype(dtype) else Unreadable("no numbers")
         if dtype.names:
-            return _Compound(data).read()
+            values = _Compound(data).read()
+            if not isinstance(values, Unreadable):
+                self.unpacked += values.nbytes
+                check_unpacked(self.unpacked, data.name)
+            return values
         return np.asarray(data[()]) if dtype.kind in "fiub" else Unreadable("no numbers")
 
     def _octave(self, group: Any, depth: int) -> Any:

@@ -30,6 +30,9 @@ _STORED = MappingProxyType(
 """How numbers are stored, by the type of their element."""
 _V4_STORED = ("f8", "f4", "i4", "i2", "u2", "u1")
 _PART = 2**18
+_LONGEST_NAME = 256
+"""Bytes. MATLAB's own names have at most 63, Octave's may be longer."""
+_MOST_DIMENSIONS = 32
 _WAY_OUT = "Save it again with save(…, '-v7')."
 
 
@@ -58,6 +61,10 @@ def _damaged() -> RecordingError:
     return refused("the .mat file is damaged", hint=_WAY_OUT)
 
 
+def _too_many(what: str) -> RecordingError:
+    return refused(f"the .mat file holds too many {what}", hint="Save the recording's variables only.")
+
+
 def _v4_header(data: bytes, place: int, order: str) -> tuple[str, str, int, tuple[int, int], int] | None:
     """Name, dtype, kind, shape and end of a variable; None where there is none."""
     head = data[place : place + 20].ljust(20, b"\xff")
@@ -67,9 +74,11 @@ def _v4_header(data: bytes, place: int, order: str) -> tuple[str, str, int, tupl
     if not (0 <= kind < 5000 and plausible and min(rows, columns) >= 0 and imaginary in (0, 1)):
         return None
     dtype = np.dtype(order + _V4_STORED[precision])
-    own = data[place + 20 : place + 20 + max(0, length)].rstrip(b"\0")
     end = place + 20 + length + rows * columns * dtype.itemsize * (1 + imaginary)
-    if not 1 <= length <= 64 or end > len(data) or not own.isascii() or not own.decode().isidentifier():
+    if not 1 <= length <= _LONGEST_NAME or end > len(data):
+        return None
+    own = data[place + 20 : place + 20 + length].rstrip(b"\0")
+    if not own.isascii() or not own.decode().isidentifier():
         return None
     return own.decode(), dtype.str, matrix + 10 * imaginary, (rows, columns), end
 
@@ -77,9 +86,12 @@ def _v4_header(data: bytes, place: int, order: str) -> tuple[str, str, int, tupl
 def _v4_variables(data: bytes, wanted: Wanted) -> dict[str, Any]:
     order = "<" if _v4_header(data, 0, "<") else ">"
     found: dict[str, Any] = {}
-    place = total = 0
+    place = total = count = 0
     while place < len(data):
         wanted()
+        count += 1
+        if count > MOST_VARIABLES:
+            raise _too_many("variables")
         header = _v4_header(data, place, order)
         if header is None:
             raise _damaged()
@@ -121,29 +133,30 @@ class _Reader:
         return found
 
     def _unpacked(self, packed: bytes) -> bytes:
-        unpacker, parts, rest = zlib.decompressobj(), [], packed
-        while rest:
-            try:
-                part = unpacker.decompress(rest, _PART)
-            except zlib.error as error:
-                raise _damaged() from error
-            if not part:
-                break
-            self.unpacked += len(part)
-            check_unpacked(self.unpacked)
-            parts.append(part)
-            rest = unpacker.unconsumed_tail
-            self.wanted()
-        return b"".join(parts)
+        """What a compressed element holds; a part at a time, so that the limit holds before the rest is unpacked."""
+        unpacker, whole = zlib.decompressobj(), bytearray()
+        for place in range(0, len(packed), _PART):
+            rest = packed[place : place + _PART]
+            while rest and not unpacker.eof:
+                try:
+                    part = unpacker.decompress(rest, _PART)
+                except zlib.error as error:
+                    raise _damaged() from error
+                self.unpacked += len(part)
+                check_unpacked(self.unpacked)
+                whole += part
+                rest = unpacker.unconsumed_tail
+                self.wanted()
+        if not unpacker.eof:
+            raise _damaged()
+        return bytes(whole)
 
     def _elements(self, data: bytes, place: int, end: int) -> Iterator[tuple[int, int, int]]:
         """Kind, start and end of each element."""
         while place + 8 <= end:
             self.parts += 1
             if self.parts > 20 * MOST_VARIABLES:
-                raise refused(
-                    "the .mat file holds too many parts", hint="Save the recording's variables only."
-                )
+                raise _too_many("parts")
             kind, size = struct.unpack_from(self.order + "II", data, place)
             if kind >> 16:  # a small element: length and data within these eight bytes
                 yield kind & 0xFFFF, place + 4, min(place + 4 + (kind >> 16), place + 8)
@@ -166,12 +179,15 @@ class _Reader:
         word = struct.unpack_from(self.order + "I", data, flags[1])[0]
         kind = word & 0xFF
         if kind == _OPAQUE:
-            name, _, what = ([data[a:b] for _, a, b in islice(parts, 3)] + [b""] * 3)[:3]
-            return name.decode("latin-1"), Unreadable(_class(what))
+            name, _, what = ([_name(data, a, b) for _, a, b in islice(parts, 3)] + [""] * 3)[:3]
+            return name, Unreadable(_class(what))
         _, first, last = next(parts, (0, 0, 0))
-        shape = struct.unpack_from(f"{self.order}{(last - first) // 4}i", data, first)
+        dimensions = (last - first) // 4
+        if dimensions > _MOST_DIMENSIONS:
+            raise _damaged()
+        shape = struct.unpack_from(f"{self.order}{dimensions}i", data, first)
         _, first, last = next(parts, (0, 0, 0))
-        name = data[first:last].decode("latin-1")
+        name = _name(data, first, last)
         if min(shape, default=0) < 0:
             raise _damaged()
         return name, self._value(
@@ -186,37 +202,40 @@ class _Reader:
             return Unreadable("a function" if kind == _FUNCTION else "a sparse matrix")
         if kind == _OBJECT:
             _, first, last = next(parts, (0, 0, 0))
-            return Unreadable(_class(data[first:last]))
+            return Unreadable(_class(_name(data, first, last)))
         if kind in (_CELL, _STRUCT):
-            if size > room // 8 + 1:  # each takes eight bytes at least
+            if size > room // 8:  # each takes eight bytes at least
                 raise _damaged()
             if kind == _CELL:
                 return [self._inner(data, part, depth) for part in islice(parts, size)]
-            return self._structures(data, parts, size, depth)
+            return self._structures(data, parts, size, room, depth)
         self.numbers += 8 * size
         check_unpacked(self.numbers)
         stored, first, last = next(parts, (0, 0, 0))
         if kind == _CHAR:
-            return _text(data[first:last], stored, self.order)
+            return _text(data[first : min(last, first + _LONGEST_NAME)], stored, self.order)
         if word & _COMPLEX:
             return Unreadable("complex numbers")
         if stored not in _STORED:
             return None if not size else Unreadable("of an unknown kind")
-        flat = np.frombuffer(data[first:last], self.order + _STORED[stored])
+        dtype = np.dtype(self.order + _STORED[stored])
+        if last - first != size * dtype.itemsize:  # before the numbers are widened
+            raise _damaged()
+        flat = np.frombuffer(data, dtype, size, first)
         return flat.astype(np.float64).reshape(shape, order="F")
 
-    def _structures(self, data: bytes, parts: Any, size: int, depth: int) -> Any:
+    def _structures(self, data: bytes, parts: Any, size: int, room: int, depth: int) -> Any:
         _, first, last = next(parts, (0, 0, 0))
         width = struct.unpack_from(self.order + "i", data, first)[0] if last - first >= 4 else 0
         _, first, last = next(parts, (0, 0, 0))
-        if width <= 0:
+        if width <= 0 or last == first:
             return None
-        names = [
-            data[place : place + width].partition(b"\0")[0].decode("latin-1")
-            for place in range(first, last, width)
-        ]
-        if not names:
-            return None
+        count = -(-(last - first) // width)
+        if count > MOST_VARIABLES:
+            raise _too_many("fields")
+        if count * size > room // 8:
+            raise _damaged()
+        names = [_name(data, place, place + width) for place in range(first, last, width)]
         found = [
             {key: self._inner(data, next(parts, (0, 0, 0)), depth) for key in names} for _ in range(size)
         ]
@@ -230,9 +249,12 @@ class _Reader:
 def _text(data: bytes, stored: int, order: str) -> str:
     wide = {4: "utf-16", 17: "utf-16", 18: "utf-32"}.get(stored)
     coding = f"{wide}-{'le' if order == '<' else 'be'}" if wide else "utf-8"
-    return data[:1000].decode(coding, errors="replace")
+    return data.decode(coding, errors="replace")
 
 
-def _class(name: bytes) -> str:
-    text = name.decode("latin-1")
-    return f"MATLAB's {text}" if text.isidentifier() else "an object"
+def _name(data: bytes, first: int, last: int) -> str:
+    return data[first : min(last, first + _LONGEST_NAME)].partition(b"\0")[0].decode("latin-1")
+
+
+def _class(name: str) -> str:
+    return f"MATLAB's {name}" if name.isidentifier() else "an object"

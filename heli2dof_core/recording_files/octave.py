@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,8 @@ from .text import decoded
 from .variables import Unreadable, table_of_variables
 
 _AT_A_TIME = 20_000
+_MOST_LINES = 2_000_000
+_LONGEST_LINE = 10_000_000
 
 
 def is_octave_text(data: bytes) -> bool:
@@ -32,7 +35,7 @@ def read_octave(data: bytes, name: str, wanted: Wanted) -> Table:
         content = _Reader(decoded(data, name), wanted).content()
     except Heli2DofError:
         raise
-    except (ValueError, IndexError) as error:
+    except (ValueError, IndexError, TypeError, OverflowError) as error:
         raise refused("Octave's file is damaged", name, "Save it again, or with save -v7.") from error
     return table_of_variables(content, "file")
 
@@ -41,7 +44,9 @@ class _Reader:
     """Reads line by line; `# key: value` lines describe what follows."""
 
     def __init__(self, text: str, wanted: Wanted) -> None:
-        self.lines = [line for line in text.splitlines() if line.strip()]
+        if text.count("\n") > _MOST_LINES:
+            raise refused("the file has too many lines", hint="Save only the recording's variables.")
+        self.lines = [line for line in text.split("\n") if line.strip()]
         self.place = self.parts = self.size = 0
         self.wanted = wanted
 
@@ -74,7 +79,10 @@ class _Reader:
         self.place += 1
         if self.place % _AT_A_TIME == 0:
             self.wanted()
-        return [float(word) for word in self.lines[self.place - 1].split()]
+        line = self.lines[self.place - 1]
+        if len(line) > _LONGEST_LINE:
+            raise refused("a line of the file is too long", hint="Save only the recording's variables.")
+        return [float(word) for word in line.split()]
 
     def _value(self, depth: int) -> Any:  # noqa: PLR0911
         self.parts += 1
@@ -88,7 +96,7 @@ class _Reader:
             self._shape()
             return {self._next("name") or "": self._value(depth + 1) for _ in range(self._count("length"))}
         if kind == "cell":
-            count = int(np.prod(self._shape()))
+            count = prod(self._shape())
             cells = []
             for _ in range(min(count, MOST_VARIABLES)):
                 self._next("name")
@@ -98,7 +106,9 @@ class _Reader:
             return self._string()
         if kind in ("range", "double_range"):
             self.place += self.lines[self.place].startswith("# base")
-            return range_of(*self._row()[:3])
+            values = range_of(*self._row()[:3])
+            self._allow(len(values))
+            return values
         if kind.endswith("matrix") and "sparse" not in kind and "diagonal" not in kind:
             return self._matrix()
         if kind in ("scalar", "bool", "float scalar") or kind.endswith("scalar"):
@@ -111,23 +121,29 @@ class _Reader:
             return tuple(int(n) for n in self._row())
         return self._count("rows"), self._count("columns")
 
+    def _allow(self, numbers: int) -> None:
+        self.size += 8 * numbers
+        check_unpacked(self.size)
+
     def _string(self) -> str:
         parts = []
         for _ in range(self._count("elements")):
             self._count("length")
-            parts.append(self.lines[self.place] if self.place < len(self.lines) else "")
+            parts.append(self.lines[self.place].strip("\r") if self.place < len(self.lines) else "")
             self.place += 1
         return " ".join(parts)
 
     def _matrix(self) -> Any:
         flat = self.lines[self.place].startswith("# ndims:")
         shape = self._shape()
-        total = int(np.prod(shape, dtype=float))
-        self.size += 8 * total
-        check_unpacked(self.size)
+        if min(shape, default=0) < 0:
+            raise ValueError("a negative size")
+        total = prod(shape)
+        self._allow(total)
         if not total:
             return None
         if flat:  # one number a line, columns first
             return np.array([self._row()[0] for _ in range(total)]).reshape(shape, order="F")
-        rows = np.array([self._row() for _ in range(shape[0])])
-        return rows if rows.shape == shape else Unreadable("a damaged matrix")
+        rows = [np.array(self._row()) for _ in range(shape[0])]
+        whole = all(len(row) == shape[1] for row in rows)
+        return np.array(rows) if whole else Unreadable("a damaged matrix")
