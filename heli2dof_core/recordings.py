@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from math import pi
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .checks import require_one_of, require_within
 from .errors import RecordingError
@@ -254,7 +255,7 @@ def decimated(recording: Recording, factor: int) -> Recording:
     )
 
 
-def _time(table: Table, columns: Columns) -> tuple[Floats, Floats, list[Finding]]:
+def _time(table: Table, columns: Columns) -> tuple[Floats, NDArray[np.int64], list[Finding]]:
     name, rows = columns.names.get("time"), len(table.values)
     if name:
         unit = columns.time_unit or table.unit(name, "time") or "s"
@@ -263,7 +264,7 @@ def _time(table: Table, columns: Columns) -> tuple[Floats, Floats, list[Finding]
         raise RecordingError(
             "no column is chosen for time", field="columns.time", hint="Choose one, or give the sample time."
         )
-    return np.arange(rows, dtype=np.float64) * columns.sample_time, np.arange(rows), []
+    return np.arange(rows, dtype=np.float64) * columns.sample_time, np.arange(rows, dtype=np.int64), []
 
 
 def _angle(table: Table, columns: Columns, role: str) -> Floats:
@@ -336,7 +337,7 @@ def _followed(reference: Floats, angle: Floats) -> Floats:
 def _contradicted(table: Table, columns: Columns) -> list[Finding]:
     """Where the chosen unit is not the one that the file states."""
     chosen: list[tuple[str, Kind, str]] = [(role, "angle", columns.unit_of(role)) for role in ANGLES]
-    chosen += [(role, "voltage", columns.voltage_unit) for role in ("V_p", "V_y")]
+    chosen.extend((role, "voltage", columns.voltage_unit) for role in ("V_p", "V_y"))
     if columns.time_unit is not None:
         chosen.append(("time", "time", columns.time_unit))
     odd = []

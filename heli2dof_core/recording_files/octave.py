@@ -106,7 +106,8 @@ class _Reader:
             return self._string()
         if kind in ("range", "double_range"):
             self.place += self.lines[self.place].startswith("# base")
-            values = range_of(*self._row()[:3])
+            base, limit, step = self._row()[:3]
+            values = range_of(base, limit, step)
             self._allow(len(values))
             return values
         if kind.endswith("matrix") and "sparse" not in kind and "diagonal" not in kind:
