@@ -166,4 +166,4 @@ def _shapes(
         for axis, word in enumerate(_MOTORS):
             torque = np.zeros_like(volts)
             torque[:, axis] = -float(np.max(np.abs(thrust))) * np.tanh(rates[:, axis] / _SLOW)
-            yield f"dry friction in {word}", np.linalg.solve(thrust, torque.T).T
+            yield f"dry friction in {word}", np.asarray(np.linalg.solve(thrust, torque.T).T, dtype=np.float64)
