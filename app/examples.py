@@ -49,6 +49,19 @@ EXAMPLES: dict[str, dict[str, tuple[str, Json]]] = {
             "Under the recorded voltages, begun anew every second or so",
             {"columns": {"time": "time", "theta": "theta", "psi": "psi", "V_p": "V_p", "V_y": "V_y"}},
         ),
+        "units": (
+            "The same with all units said, every second row kept",
+            {
+                "columns": {
+                    **{"time": "time", "theta": "theta", "psi": "psi", "V_p": "V_p", "V_y": "V_y"},
+                    **{"time_unit": "s", "unit": "rad", "units": {"psi": "rad"}, "voltage_unit": "V"},
+                    "decimate": 2,
+                }
+            },
+        ),
+    },
+    "JoinRequest": {
+        "one": ("A file that was sent before; give the id of each signal's", {"recordings": ["{key}"]})
     },
     "PlaceRequest": {
         "three": (

@@ -97,13 +97,17 @@ class Rga(Model):
 
 
 class AxisMetrics(Model):
-    """Step metrics of one axis; s, %, rad, rad·s, rad·s²."""
+    """Step metrics of one axis; s, %, rad, rad·s, rad·s². They belong to the response, not to its samples."""
 
     rise_time: float | None = Field(None, description="10 % to 90 % of the step, s")
-    settling_time: float | None = Field(None, description="into 2 % of the step, s")
-    overshoot: float = Field(description="% of the step")
+    settling_time: float | None = Field(
+        None, description="into 2 % of the step for good, s; left out where not `settled`"
+    )
+    settled: bool = Field(description="whether it is within 2 % of the step when the window ends, for good")
+    overshoot: float = Field(description="beyond the reference, % of the step")
+    undershoot: float = Field(description="from the start away from the reference, % of the step")
     peak: float = Field(description="angle farthest from the start, rad")
-    peak_time: float = Field(description="s")
+    peak_time: float | None = Field(None, description="s; left out where nothing overshoots")
     steady_state_error: float = Field(description="at the end, rad")
     iae: float = Field(description="∫ |e| dt, rad·s")
     itae: float = Field(description="∫ t |e| dt, rad·s²")

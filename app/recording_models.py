@@ -9,7 +9,20 @@ from pydantic import Field
 
 from heli2dof_core.identification import IDENTIFIABLE, Identification, Progress
 from heli2dof_core.overlay import Overlay
-from heli2dof_core.recordings import ROLES, AngleUnit, Columns, Recording, Table, guess_columns
+from heli2dof_core.recording_files import MOST_FILES
+from heli2dof_core.recording_guess import guess_columns
+from heli2dof_core.recording_time import likely_unit
+from heli2dof_core.recording_units import SECONDS
+from heli2dof_core.recordings import (
+    MOST_DECIMATED,
+    ROLES,
+    AngleUnit,
+    Columns,
+    Recording,
+    Table,
+    TimeUnit,
+    VoltageUnit,
+)
 from heli2dof_core.signals import Floats
 
 from .models import Finding, Model
@@ -37,6 +50,15 @@ class Offsets(Strict):
     psi: float = Field(default=0.0, description="to yaw, in the file's unit")
 
 
+class AngleUnits(Strict):
+    """Units of single angles, where they are not the file's usual one; a reference takes its axis' unit."""
+
+    theta: AngleUnit | None = Field(default=None, description="of pitch")
+    psi: AngleUnit | None = Field(default=None, description="of yaw")
+    theta_ref: AngleUnit | None = Field(default=None, description="of pitch's reference")
+    psi_ref: AngleUnit | None = Field(default=None, description="of yaw's reference")
+
+
 class Mapping(Strict):
     """Which column is what, and how its angles become ours."""
 
@@ -47,18 +69,47 @@ class Mapping(Strict):
     V_y: str | None = None
     theta_ref: str | None = None
     psi_ref: str | None = None
+    time_unit: TimeUnit | None = Field(
+        default=None, description="of the column of time; by default what the file states, or s"
+    )
     unit: AngleUnit = Field(default="rad", description="of the file's angles")
+    units: AngleUnits = AngleUnits()
+    voltage_unit: VoltageUnit = Field(default="V", description="of both voltages")
     signs: Signs = Signs()
     offsets: Offsets = Offsets()
     sample_time: Annotated[float, within(1e-5, 10.0)] | None = Field(
         default=None, description="s, where no column is the time"
+    )
+    decimate: Whole = Field(
+        default=1,
+        ge=1,
+        le=MOST_DECIMATED,
+        description="of so many rows one is kept, and the voltages between are averaged",
     )
 
     def to_columns(self) -> Columns:
         """The core's mapping."""
         names = {role: name for role in ROLES if (name := getattr(self, role)) is not None}
         signs, offsets = (self.signs.theta, self.signs.psi), (self.offsets.theta, self.offsets.psi)
-        return Columns(names, self.unit, signs, offsets, self.sample_time)
+        return Columns(
+            names,
+            self.unit,
+            signs,
+            offsets,
+            self.sample_time,
+            self.time_unit,
+            self.units.model_dump(exclude_none=True),
+            self.voltage_unit,
+            self.decimate,
+        )
+
+
+class JoinRequest(Strict):
+    """Files of one run, sent before, to be joined into one recording."""
+
+    recordings: list[Annotated[str, Field(max_length=64)]] = Field(
+        min_length=1, max_length=MOST_FILES, description="their ids"
+    )
 
 
 class SampleRequest(StepRequest):
@@ -103,7 +154,18 @@ class Guess(Model):
     """What the columns probably are."""
 
     columns: dict[str, str]
-    unit: str
+    unit: str = Field(description="of the angles: rad or deg")
+    units: dict[str, str] = Field(default={}, description="of angles whose unit is another one")
+    time_unit: str | None = Field(default=None, description="of the column of time")
+    voltage_unit: str = Field(default="V", description="of both voltages")
+    sample_time: float | None = Field(default=None, description="usual time between two rows in that unit, s")
+
+
+class Dialect(Model):
+    """How text was split into cells."""
+
+    separator: str
+    decimal: str
 
 
 class Preview(Model):
@@ -116,6 +178,11 @@ class Preview(Model):
     first_row: int = Field(description="line of the file where they begin")
     preview: list[list[float | None]] = Field(description="the first rows, in the file's own units")
     guess: Guess
+    units: dict[str, str] = Field(
+        default={}, description="of columns, where rows or cells of the file state them"
+    )
+    dialect: Dialect | None = Field(default=None, description="of text; null of other files")
+    findings: list[Finding] = Field(default=[], description="what was left out or read in a special way")
 
 
 class PerAxis(Model):
@@ -139,6 +206,13 @@ class Volts(Model):
     V_y: list[float] = Field(description="V")
 
 
+class Driving(Model):
+    """V; null where nothing was simulated."""
+
+    V_p: list[float | None] = Field(description="V")
+    V_y: list[float | None] = Field(description="V")
+
+
 class OverlayReply(Model):
     """Measured and simulated, at no more than 1500 of the recording's times."""
 
@@ -155,7 +229,7 @@ class OverlayReply(Model):
     residuals: Courses
     references: Courses | None = None
     voltages: Volts
-    driving: Volts
+    driving: Driving
     findings: list[Finding]
 
 
@@ -195,8 +269,27 @@ def preview_reply(key: str, name: str, table: Table) -> Reply:
         **about,
         "first_row": table.first_row,
         "preview": rows,
-        "guess": {"columns": guess.names, "unit": guess.unit},
+        "guess": {
+            "columns": guess.names,
+            "unit": guess.unit,
+            "units": dict(guess.units),
+            "time_unit": guess.time_unit,
+            "voltage_unit": guess.voltage_unit,
+            "sample_time": _sample_time(table, guess),
+        },
+        "units": dict(table.units),
+        "dialect": dict(table.dialect) or None,
+        "findings": [vars(finding) for finding in table.findings],
     }
+
+
+def _sample_time(table: Table, guess: Columns) -> float | None:
+    """The usual time between two rows, s, by the guess."""
+    if "time" not in guess.names:
+        return None
+    raw = table.values[:, table.names.index(guess.names["time"])]
+    steps = np.diff(raw[np.isfinite(raw)])
+    return float(np.median(steps)) * SECONDS[guess.time_unit or likely_unit(raw)] if len(steps) else None
 
 
 def overlay_reply(driver: Driver, recording: Recording, overlay: Overlay) -> Reply:
@@ -221,7 +314,7 @@ def overlay_reply(driver: Driver, recording: Recording, overlay: Overlay) -> Rep
         **({} if references is None else {"references": _courses(references[kept])}),
         "voltages": _volts(recording.voltages[kept]),
         "driving": _volts(overlay.voltages[kept]),
-        "findings": [vars(finding) for finding in recording.findings],
+        "findings": [vars(finding) for finding in (*recording.findings, *overlay.findings)],
     }
 
 

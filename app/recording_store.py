@@ -20,6 +20,7 @@ class _Kept:
     table: Table
     owner: str
     used: float
+    name: str
 
     @property
     def size(self) -> int:
@@ -27,7 +28,7 @@ class _Kept:
 
 
 class RecordingStore:
-    """Tables by unguessable names. Where there are too many, the owner who holds most loses the longest unused.
+    """Tables by unguessable keys. Where there are too many, the owner who holds most loses the longest unused.
 
     Args:
         most: tables.
@@ -41,21 +42,25 @@ class RecordingStore:
     def __len__(self) -> int:
         return len(self._kept)
 
-    def put(self, table: Table, owner: str = "") -> str:
-        """Keeps a table under a new name."""
+    def put(self, table: Table, owner: str = "", name: str = "") -> str:
+        """Keeps a table, and its file's name, under a new key."""
         key = secrets.token_urlsafe(18)
         self._drop_old()
-        self._kept[key] = _Kept(table, owner, monotonic())
+        self._kept[key] = _Kept(table, owner, monotonic(), name)
         while len(self._kept) > 1 and (len(self._kept) > self._most or self._bytes() > self._most_bytes):
             self._drop_one(key)
         return key
 
     def get(self, key: str) -> Table:
-        """The table of that name.
+        """The table under that key.
 
         Raises:
             RecordingError: it is not, or not any more, there.
         """
+        return self.named(key)[1]
+
+    def named(self, key: str) -> tuple[str, Table]:
+        """The file's name and the table under that key, see `get`."""
         self._drop_old()
         if key not in self._kept:
             raise RecordingError(
@@ -67,7 +72,7 @@ class RecordingStore:
         kept = self._kept[key]
         kept.used = monotonic()
         self._kept.move_to_end(key)
-        return kept.table
+        return kept.name, kept.table
 
     def _bytes(self) -> int:
         return sum(kept.size for kept in self._kept.values())

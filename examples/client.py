@@ -104,8 +104,9 @@ def main(address: str) -> None:
             poles = [-4, -5, -3 + 2j, -3 - 2j]
             gains = heli.gains(poles, preset=preset)
             step = heli.step(poles, theta=0.1, preset=preset)
-            settling = step["metrics"]["theta"].get("settling_time")
-            print(f"{preset}: ‖K‖ = {gains['norm']:.1f}, settles in {settling} s, stable: {step['stable']}")
+            pitch = step["metrics"]["theta"]
+            settling = f"settles in {pitch['settling_time']:.3g} s" if pitch["settled"] else "not settled"
+            print(f"{preset}: ‖K‖ = {gains['norm']:.1f}, {settling}, stable: {step['stable']}")
 
 
 if __name__ == "__main__":

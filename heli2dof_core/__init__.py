@@ -8,7 +8,9 @@
 >>> report.step["nonlinear"].response.theta.shape
 (501,)
 
-`formulas()` gives the derivation as SymPy objects, `to_control()` of a plant, a design or a loop a
+`read_recording(path)` reads what a rig did; `driven_in_segments` lays the model over it and `identify` finds
+the rig's parameters. `formulas()` gives the derivation
+as SymPy objects, `to_control()` of a plant, a design or a loop a
 `control.StateSpace`. Results are frozen; a notebook shows them as small tables.
 
 Knows no web, no 3D and no plot. SymPy and python-control are imported when they are first needed.
@@ -52,12 +54,17 @@ from .tuning import Suggestion, suggest_pi
 if TYPE_CHECKING:
     from . import paper as paper
     from . import symbolic as symbolic
+    from .identification import Identification, identify
+    from .overlay import Overlay, driven_by_references, driven_by_voltages, driven_in_segments
+    from .recording_files.opened import read_recording
+    from .recordings import Columns, Recording
 
 __all__ = [
     "METHODS",
     "PRESETS",
     "Assessment",
     "Cloud",
+    "Columns",
     "Comparison",
     "Components",
     "Design",
@@ -65,17 +72,20 @@ __all__ = [
     "Disturbance",
     "Finding",
     "Heli2DofError",
+    "Identification",
     "Interaction",
     "InvalidInputError",
     "Limits",
     "Loop",
     "MethodUnavailableError",
     "OuterLoop",
+    "Overlay",
     "PIGains",
     "Parameters",
     "Plant",
     "PoleSet",
     "Preset",
+    "Recording",
     "Report",
     "Response",
     "Scenario",
@@ -96,9 +106,13 @@ __all__ = [
     "compare_splits",
     "design",
     "diagonal_dominance",
+    "driven_by_references",
+    "driven_by_voltages",
+    "driven_in_segments",
     "evaluate",
     "formulas",
     "full_rank",
+    "identify",
     "interaction",
     "match_poles",
     "niederlinski_index",
@@ -107,6 +121,7 @@ __all__ = [
     "plant",
     "pole_error",
     "preset",
+    "read_recording",
     "relative_gain_array",
     "rga_over_frequency",
     "simulate",
@@ -115,10 +130,23 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
-    """`symbolic` and `paper`, imported when they are asked for: SymPy comes with them."""
-    if name in ("paper", "symbolic"):
-        from importlib import import_module
+_LATE = {
+    **dict.fromkeys(("Identification", "identify"), ".identification"),
+    **dict.fromkeys(
+        ("Overlay", "driven_by_references", "driven_by_voltages", "driven_in_segments"), ".overlay"
+    ),
+    **dict.fromkeys(("Columns", "Recording"), ".recordings"),
+    "read_recording": ".recording_files.opened",
+}
+"""Modules of what is not imported before it is asked for."""
 
+
+def __getattr__(name: str) -> Any:
+    """What is imported when it is asked for: recordings; `symbolic` and `paper`, with which SymPy comes."""
+    from importlib import import_module
+
+    if name in _LATE:
+        return getattr(import_module(_LATE[name], __name__), name)
+    if name in ("paper", "symbolic"):
         return import_module(f".{name}", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -10,6 +10,7 @@ from math import degrees, radians
 import numpy as np
 
 from .findings import Finding
+from .layout import BAND
 from .loop import Loop
 from .margins import Margins
 from .metrics import AxisMetrics, StepMetrics
@@ -128,17 +129,17 @@ def _on_settling(loop: Loop, axes: Mapping[str, Experiment]) -> Iterator[Finding
         if each is None or _explained(each):
             continue
         own, ideal = (metrics.axes[signal.name] for _, metrics in (each.rig, each.linear))
-        if own.settling_time is None:
+        if not own.settled:
             linear = (
                 "" if ideal.settling_time is None else f" (linear: settled in {_time(ideal.settling_time)})"
             )
-            error = f"{abs(degrees(own.steady_state_error)):.2g}°"
-            parts.append((AXES[i], error, linear))
+            response, error = each.rig[0], abs(own.steady_state_error)
+            within = error <= BAND * abs(response.reference[i] - response.start[i])
+            words = f"{degrees(error):.2g}° from its reference{', but does not stay there' if within else ''}"
+            parts.append((AXES[i], words, linear))
     if parts:
         end = _time(float(next(iter(axes.values())).rig[0].t[-1]))
-        names = " and ".join(
-            f"{axis} ends {error} from its reference{linear}" for axis, error, linear in parts
-        )
+        names = " and ".join(f"{axis} ends {words}{linear}" for axis, words, linear in parts)
         advice = "Watch longer, or place faster poles."
         if not loop.has_integrators and any(linear for *_, linear in parts):
             advice = "Without integral action such an error stays: close the PI loops."

@@ -12,6 +12,7 @@ from .design import FULL_RANK, Design
 from .errors import Heli2DofError, MethodUnavailableError, StructureUnavailableError
 from .evaluate import Report, Spec, evaluate, place
 from .interaction import Interaction, interaction
+from .metrics import settling_words
 from .placement.groups import splits
 from .placement.registry import METHODS
 from .poles import PoleSet
@@ -79,7 +80,7 @@ class Comparison(Shown):
 
 def _cells(name: str, report: Report) -> tuple[str, ...]:
     axes = report.step["nonlinear"].metrics.axes
-    settling = (number(axes[axis].settling_time) if axis in axes else NOTHING for axis in ("theta", "psi"))
+    settling = (settling_words(axes[axis]) if axis in axes else NOTHING for axis in ("theta", "psi"))
     return (
         name,
         number(report.design.norm),

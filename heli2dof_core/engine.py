@@ -20,9 +20,11 @@ from .layout import (
     CONSTANTS,
     COURSE,
     EXPERIMENT,
+    FOLLOWED,
     FREQUENCIES,
     GAIN,
     J_Y,
+    LADDER,
     LIMIT,
     LINEAR_WORKSPACE,
     MARGINS,
@@ -38,6 +40,7 @@ from .layout import (
     SETTINGS,
     START,
     STOP,
+    STRETCH,
     TIME,
     WORKSPACE,
 )
@@ -57,6 +60,7 @@ class Engine:
     close: Any
     compose: Any
     run_linear: Any
+    run_nonlinear: Any
     run_experiments: Any
     integrate: Any
     run_digital: Any
@@ -64,10 +68,6 @@ class Engine:
     run_segments: Any
     run_held: Any
     run_cloud: Any
-    trajectories: Any
-    hold: Any
-    share_at_limit: Any
-    measure: Any
     describe: Any
     stable: Any
     count_stable: Any
@@ -82,12 +82,11 @@ class Engine:
 
 _HOMES = {
     **dict.fromkeys(("close", "compose"), "loop"),
-    **dict.fromkeys(("run_linear", "run_experiments"), "experiment"),
+    **dict.fromkeys(("run_linear", "run_nonlinear", "run_experiments"), "experiment"),
     "integrate": "dormand_prince",
     "run_digital": "digital",
     **dict.fromkeys(("run_recorder", "run_segments", "run_held"), "recorded"),
     "run_cloud": "cloud",
-    **dict.fromkeys(("trajectories", "hold", "share_at_limit", "measure"), "measures"),
     "describe": "polynomials",
     **dict.fromkeys(("stable", "count_stable"), "stability"),
     "margins": "frequency",
@@ -161,30 +160,31 @@ def _exercise(kernels: Engine) -> None:
     x[REFERENCE : START + 2], x[BOUND : STOP + 1] = (1.0, 1.0, 0.0, 0.0), 1.0
     rig, trim = fixed(c[:GAIN]), fixed(c[:2])
     kernels.compose(rig, trim, 0.0, law, by_reference, integral, x, c, m)
+    poles, rest = np.array([-1 + 0j]), fixed(c[:2])
+    room = (np.empty(LADDER), np.empty(STRETCH), np.zeros((2 * FOLLOWED[0], FOLLOWED[1])))
+    figures = np.empty((2, AXIS_METRICS)), np.empty((2, MOTOR_METRICS)), np.empty(COURSE)
     linear, voltages, v = np.empty((AUGMENTED, 2)), np.empty((2, 2)), np.empty(LINEAR_WORKSPACE)
-    kernels.run_linear(0.0, law, by_reference, whole, driven, x, t, v, linear, voltages)
-    loop = (rig, trim, 0.0, law, by_reference, integral, whole, driven)
-    scratch = (w, v, c.copy(), m.copy(), states, trim)
+    outer = (law, by_reference, whole, driven, poles)
+    kernels.run_linear(0.0, *outer, x, t, 10, rest, v, *room, linear, voltages, *figures)
+    raw, grid, f = np.empty((3, 6)), np.empty(3), room[-1]
+    step = (c.copy(), m.copy(), poles, x, t, np.inf, *numbers, rest, w, raw, grid, f)
+    kernels.run_nonlinear(*step, np.empty((6, 2)), voltages, *figures)
+    loop = (rig, trim, 0.0, law, by_reference, integral, whole, driven, poles)
+    scratch = (w, v, *room, c.copy(), m.copy(), raw, grid, rest)
     courses = (np.empty((1, AUGMENTED, 2)), np.empty((1, 6, 2)), np.empty((1, 2, 2, 2)))
     metrics = np.empty((1, 2, 2, AXIS_METRICS)), np.empty((1, 2, 2, MOTOR_METRICS)), np.empty((1, 2, COURSE))
     kernels.run_experiments(*loop, x[None], t, *numbers, *scratch, *courses, *metrics)
     kernels.integrate(y, t, c, m, *numbers, w, states)
     d = np.zeros(SETTINGS)
     d[TIME] = 1e-3
-    scratch = (c.copy(), m.copy(), np.empty(4), np.empty((4, 6)))
-    kernels.run_digital(
-        y, t, c, m, d, np.zeros((3, 2)), np.inf, *numbers, w, *scratch, states, np.empty((2, 2))
-    )
+    scratch = (c.copy(), m.copy(), np.empty(4), np.empty((4, 6)), f)
+    controller = (d, poles, x, np.zeros((3, 2)), np.inf)
+    kernels.run_digital(y, t, c, m, *controller, *numbers, rest, w, *scratch, states, voltages, *figures)
     _exercise_recorded(kernels, (y, c, m, d), numbers)
     rigs, angles = c[None, :GAIN].copy(), np.empty((1, 2, 2))
     kernels.run_cloud(
         rigs, y, t, c, m, *numbers, w, y.copy(), c.copy(), m.copy(), states, angles, np.empty(1)
     )
-    kernels.trajectories(states, c, np.empty((6, 2)), voltages)
-    kernels.hold(linear, voltages, 1.0)
-    kernels.share_at_limit(voltages[0], 1.0)
-    metrics = np.empty((2, AXIS_METRICS)), np.empty((2, MOTOR_METRICS))
-    kernels.measure(t, voltages, voltages, (0.0, 0.0), (1.0, 1.0), np.zeros(2), *metrics)
     f = np.zeros(POLYNOMIALS)
     p = np.empty(POLYNOMIAL_WORKSPACE)
     kernels.describe(A, B, law, f)

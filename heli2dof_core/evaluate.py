@@ -7,8 +7,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar
 
-import numpy as np
-
 from .behaviour import Experiment, behaviour_remarks
 from .couplings import Coupling, Lead, Structure
 from .design import FULL_RANK, Design, design
@@ -17,7 +15,7 @@ from .findings import Finding, merged
 from .interaction import Interaction, interaction
 from .loop import Loop, close_loop
 from .margins import Margins, loop_margins, margin_table
-from .metrics import StepMetrics, measured, step_metrics
+from .metrics import StepMetrics, step_metrics
 from .parameters import Parameters
 from .placement.method import Weights
 from .plant import plant
@@ -246,7 +244,7 @@ class Report(Shown):
 
     def _step(self, n: int, model: Model) -> Step:
         response = self._courses.response(n, model)
-        return Step(response, measured(response, *self._courses.measures(n, model)))
+        return _measured(response)
 
 
 def place(spec: Spec) -> Design:
@@ -256,15 +254,47 @@ def place(spec: Spec) -> Design:
 
 
 def simulate(loop: Loop, spec: Spec, model: Model, most_steps: int | None = None) -> Step:
-    """The scenario's response by one model, with its metrics; `most_steps` as in `simulate_nonlinear`."""
+    """The scenario's response by one model, with its metrics; `most_steps` as in `simulate_nonlinear`.
+
+    A disturbance does not count into the steps' figures: those are of the same experiment without it.
+    """
     if model == "linear":
-        response = simulate_linear(loop, spec.scenario)
-    elif spec.scenario.digital is None:
-        response = simulate_nonlinear(loop, spec.limits, spec.scenario, most_steps)
-    else:
-        response = simulate_digital(loop, spec.limits, spec.scenario, spec.scenario.digital)
-    trim = loop.design.plant.trim if model == "nonlinear" else np.zeros(2)
-    return Step(response, step_metrics(response, trim))
+        return _measured(simulate_linear(loop, spec.scenario, most_steps))
+    return _step_of_the_rig(loop, spec, most_steps)
+
+
+def _step_of_the_rig(loop: Loop, spec: Spec, most_steps: int | None, calm: Response | None = None) -> Step:
+    """The nonlinear response; `calm` is the same without the disturbance, if it is known."""
+    scenario = spec.scenario
+    response = _on_the_rig(loop, spec, scenario, most_steps)
+    if scenario.disturbance is None:
+        return _measured(response)
+    return _measured(
+        response, calm or _on_the_rig(loop, spec, replace(scenario, disturbance=None), most_steps)
+    )
+
+
+def _on_the_rig(loop: Loop, spec: Spec, scenario: Scenario, most_steps: int | None) -> Response:
+    if scenario.digital is None:
+        return simulate_nonlinear(loop, spec.limits, scenario, most_steps)
+    return simulate_digital(loop, spec.limits, scenario, scenario.digital)
+
+
+def _measured(response: Response, calm: Response | None = None) -> Step:
+    """With its metrics; those of its steps from the experiment without a disturbance, where it has one."""
+    metrics = step_metrics(response, calm)
+    if calm is None:
+        return Step(response, metrics)
+    told = (*response.findings, *([_CALM] if metrics.axes else []))
+    return Step(replace(response, findings=told), metrics)
+
+
+_CALM = Finding(
+    "disturbance_left_out",
+    "info",
+    "The steps' figures (rise, settling, overshoot, errors) are those without the disturbance; the motors' "
+    "include it.",
+)
 
 
 def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = None) -> Report:
@@ -290,8 +320,15 @@ def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = No
     courses = run_experiments(loop, spec.limits, [*scenarios.values()], most_steps)
     nonlinear: tuple[Step, ...] = ()
     if scenario.digital is not None or scenario.disturbance is not None:
-        specs = (replace(spec, scenario=each) for each in scenarios.values())
-        nonlinear = tuple(simulate(loop, each, "nonlinear", most_steps) for each in specs)
+        nonlinear = tuple(
+            _step_of_the_rig(
+                loop,
+                replace(spec, scenario=each),
+                most_steps,
+                courses.response(n, "nonlinear") if scenario.digital is None else None,
+            )
+            for n, each in enumerate(scenarios.values())
+        )
     return Report(
         placed,
         interaction(placed, spec.outer.pairing),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from time import perf_counter
 from types import SimpleNamespace
 from typing import Any
@@ -12,14 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .checks import require_within
-from .covariance import plain_covariance, sandwich_covariance
+from .covariance import first_correlation, grouped_covariance, groups_of, plain_covariance, student_quantile
 from .errors import InvalidInputError, RecordingError
 from .findings import Finding
+from .identified import Estimate, Identification, Progress
+from .model_errors import unmodelled
 from .parameters import PARAMETER_INFO, Parameters
 from .recordings import Recording
-from .segments import Fitted, cut, fit_starts, rough_starts, segment_length
+from .segments import Fitted, bridged, cut, divergence_told, fit_starts, rough_starts, segment_length
 from .signals import Floats
-from .simulation.recorded import longest_step
+from .simulation.recorded import Wanted, longest_step, nobody_leaves
 
 IDENTIFIABLE = ("K_pp", "K_py", "K_yp", "K_yy", "B_p", "B_y", "K_s")
 """Parameters that can be found, in the order of the sensitivities; J, m and l only scale them and stay."""
@@ -35,69 +36,8 @@ COARSE_ENCODER = 0.45
 """Residuals in encoder steps below which their rounding is no noise (alone it makes 0.29): it moves with the angle
 and biases what is found; then the intervals held the truth in half of the bench's runs only."""
 _POOR_CONDITION = 1e6
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """One parameter.
-
-    Attributes:
-        name, unit: of the parameter.
-        before, value: as it was, and as found.
-        low, high: its 95 % interval, correlated residuals considered.
-        plain: half width of the interval that takes the residuals for white.
-    """
-
-    name: str
-    unit: str
-    before: float
-    value: float
-    low: float
-    high: float
-    plain: float
-
-    @property
-    def allowed(self) -> float:
-        """The value within the range that the parameter may have."""
-        info = PARAMETER_INFO[self.name]
-        return min(max(self.value, info["low"]), info["high"])
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far the search is: simulations so far, and the residuals' root mean square of θ and ψ, rad."""
-
-    evaluations: int
-    rms: tuple[float, float]
-
-
-@dataclass(frozen=True)
-class Identification:
-    """What a recording says about a rig.
-
-    Attributes:
-        estimates: of the free parameters.
-        parameters: the rig with them, each within its range.
-        rms_before, rms: of the residuals of θ and ψ, rad; starting states are fitted in both. Before: None where
-            the rig as it was thought to be runs away.
-        residuals: measured minus simulated, (n, 2), rad; 0 where nothing was simulated.
-        segments: (count, 2), first sample and last + 1.
-        lags: over which the residuals' correlation was taken into account, samples.
-        evaluations: simulations of the recording.
-        seconds: that it took.
-        findings: remarks.
-    """
-
-    estimates: tuple[Estimate, ...]
-    parameters: Parameters
-    rms_before: tuple[float, float] | None
-    rms: tuple[float, float]
-    residuals: Floats
-    segments: NDArray[np.int64]
-    lags: float
-    evaluations: int
-    seconds: float
-    findings: tuple[Finding, ...]
+CORRELATED = 0.5
+"""Correlation of successive residuals above which they are no white noise."""
 
 
 def default_free(p: Parameters) -> tuple[str, ...]:
@@ -113,6 +53,7 @@ def identify(
     segment: float | None = None,
     travel: float | None = None,
     report: Callable[[Progress], None] = lambda progress: None,
+    wanted: Wanted = nobody_leaves,
 ) -> Identification:
     """The free parameters that bring the simulated angles nearest to the recorded ones.
 
@@ -120,7 +61,8 @@ def identify(
     recorded voltages in segments whose starting states are unknown too, is fitted by SciPy's trust-region
     Gauss–Newton method, starting states eliminated within each step (Golub & Pereyra, SIAM J. Numer. Anal. 10
     (1973) 413–432). Short segments bring a wrong rig near; then both axes are weighted alike, then by their
-    residuals. Intervals are those of `sandwich_covariance`.
+    residuals. Intervals are those of `grouped_covariance`, and never narrower
+    than for white residuals.
 
     Args:
         p: the rig as it is thought to be; what is not free stays.
@@ -129,6 +71,7 @@ def identify(
         segment: length, s; by default as long as no error grows much (`segment_length`).
         travel: pitch stops at ±travel, rad; what happens there is left out.
         report: called after each simulation; what it raises ends the search.
+        wanted: called more often, within a simulation; what it raises ends the search.
 
     Raises:
         InvalidInputError: `free` is empty or holds an unknown name; `segment` is out of its range.
@@ -138,27 +81,48 @@ def identify(
     names = _checked(default_free(p) if free is None else free)
     length = segment_length(p, recording) if segment is None else segment
     require_within(length, "segment", "s", 0.1, 1e4)
-    try:
+    recording = bridged(recording)
 
-        def segmented(length: float, spent: int = 0) -> _Search:
-            return _Search(
-                p, recording, names, cut(recording, length, travel), report=report, evaluations=spent
-            )
+    def segmented(length: float, spent: int = 0) -> _Search:
+        bounds = cut(recording, length, travel)
+        return _Search(p, recording, names, bounds, report=report, wanted=wanted, evaluations=spent)
 
+    with divergence_told():
         search, before, values = _found(segmented, names, length)
-    except FloatingPointError as error:
-        raise RecordingError(
-            "under the recorded voltages the simulated rig runs away",
-            field="columns",
-            hint="Check units, signs, offsets and which rig was recorded, or try shorter segments.",
-        ) from error
+        return _concluded(search, before, values, began)
+
+
+def _concluded(
+    search: _Search, before: tuple[float, float] | None, values: Floats, began: float
+) -> Identification:
+    """The estimates with their intervals, and what is to be said of them."""
+    p, recording, names = search.p, search.recording, search.names
     after = search.fitted(values)
     J, r = search.slopes(after) * search.weights[:, None], after.residuals * search.weights
     inside = search.inside
     unknowns = len(names) + 4 * len(search.bounds)
-    covariance, lags = sandwich_covariance(J[inside], r[inside], unknowns)
-    widths = QUANTILE * search.scales * np.sqrt(np.diag(covariance))
+    groups = groups_of(search.bounds)
+    rho = first_correlation(search.bounds, r)
+    power = 1.0 if np.max(rho) > CORRELATED else 0.5
+    covariance = grouped_covariance(J, r, groups, after.basis, power)
+    own = student_quantile(len(groups) - len(names)) * np.sqrt(np.diag(covariance))
     plain = QUANTILE * search.scales * np.sqrt(np.diag(plain_covariance(J[inside], r[inside], unknowns)))
+    widths = np.maximum(
+        search.scales * own, plain
+    )  # few groups may underrate what white noise does by itself
+    missed = unmodelled(
+        search.rig(values),
+        recording,
+        search.bounds,
+        after.starts,
+        J=J,
+        r=r,
+        widths=widths / search.scales,
+        names=names,
+        weights=search.weights,
+        step=search.step,
+        wanted=search.wanted,
+    )
     estimates = []
     for i, name in enumerate(names):
         own, value = getattr(p, name), search.value(i, values)
@@ -171,10 +135,15 @@ def identify(
         rms=_pair(search.rms(after)),
         residuals=after.residuals,
         segments=search.bounds,
-        lags=lags,
+        lags=float(np.median(np.diff(groups, axis=1))),
         evaluations=search.evaluations,
         seconds=perf_counter() - began,
-        findings=(*recording.findings, *_remarks(estimates, J[inside], names, search)),
+        findings=(
+            *recording.findings,
+            *missed,
+            *_correlated(rho, recording.sample_time),
+            *_remarks(estimates, J[inside], names, search),
+        ),
     )
 
 
@@ -214,15 +183,17 @@ class _Search:
         bounds: NDArray[np.int64],
         *,
         report: Callable[[Progress], None],
+        wanted: Wanted = nobody_leaves,
         evaluations: int = 0,
     ) -> None:
+        self.wanted = wanted
         self.p, self.recording, self.names, self.bounds, self.report = p, recording, names, bounds, report
         self.scales = np.array([_scale(p, name) for name in names])
         self.weights, self.evaluations, self.ended = np.ones(2), evaluations, True
         self._columns = [IDENTIFIABLE.index(name) for name in names]
         self._starts = rough_starts(recording, bounds)
         self._last: tuple[Floats, float, Any] = np.full(len(names), np.nan), 0.0, None
-        self._step = longest_step(p) / 2
+        self.step = longest_step(p) / 2
         inside = np.zeros(len(recording.t), dtype=bool)
         for first, end in bounds.tolist():
             inside[first:end] = True
@@ -241,17 +212,27 @@ class _Search:
         """The i-th free parameter."""
         return float(getattr(self.p, self.names[i]) + deviations[i] * self.scales[i])
 
+    def rig(self, deviations: Floats) -> Any:
+        """The rig with these parameters, which may have any value."""
+        values = SimpleNamespace(**self.p.as_dict(), alpha=self.p.alpha)
+        for i, name in enumerate(self.names):
+            setattr(values, name, self.value(i, deviations))
+        return values
+
     def fitted(self, deviations: Floats) -> Fitted:
         """The segments under these parameters; the last answer is kept, for derivatives are asked for apart."""
         known, weight, answer = self._last
         key = float(self.weights[0] / self.weights[1])
         if answer is not None and weight == key and np.array_equal(known, deviations):
             return answer
-        values = SimpleNamespace(**self.p.as_dict(), alpha=self.p.alpha)
-        for i, name in enumerate(self.names):
-            setattr(values, name, self.value(i, deviations))
         answer = fit_starts(
-            values, self.recording, self.bounds, self._starts, weights=self.weights, step=self._step
+            self.rig(deviations),
+            self.recording,
+            self.bounds,
+            self._starts,
+            weights=self.weights,
+            step=self.step,
+            wanted=self.wanted,
         )
         self._starts, self._last = answer.starts, (deviations.copy(), key, answer)
         self.evaluations += 1
@@ -332,6 +313,18 @@ def _require_excited(J: Floats, names: tuple[str, ...]) -> None:
         )
 
 
+def _correlated(rho: Floats, sample_time: float) -> list[Finding]:
+    worst = float(np.max(rho))
+    if worst <= CORRELATED:
+        return []
+    axis, span = ("pitch", "yaw")[int(np.argmax(rho))], -1e3 * sample_time / np.log(worst)
+    words = (
+        f"The residuals in {axis} are correlated over some {span:.2g} ms. The intervals allow for that, but from few "
+        "segments: they may be too narrow. Record longer, or look for what the model leaves out."
+    )
+    return [Finding("correlated_residuals", "warning", words)]
+
+
 def _pair(values: Floats) -> tuple[float, float]:
     return float(values[0]), float(values[1])
 
@@ -364,3 +357,6 @@ def _remarks(estimates: list[Estimate], J: Floats, names: tuple[str, ...], searc
         words = "The recording hardly tells these parameters apart: their values depend on one another."
         found.append(Finding("poorly_excited", "warning", words))
     return found
+
+
+__all__ = ["IDENTIFIABLE", "Estimate", "Identification", "Progress", "default_free", "identify"]

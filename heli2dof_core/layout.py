@@ -32,15 +32,34 @@ AUGMENTED = 7
 """States of a linear response: up to six of the loop, and the constant 1 that carries the references."""
 DIVERGED = 1e3
 """An angle, rad, beyond which a response counts as diverged and is held at its last value."""
-LINEAR_WORKSPACE = (4 * AUGMENTED + 2, AUGMENTED)
-"""Shape of its scratch array: the augmented matrix, the voltages' rows, and three for the exponential."""
+LINEAR_WORKSPACE = (8 * AUGMENTED + 4, AUGMENTED)
+"""Shape of its scratch array: the augmented matrix, the voltages' rows and their rates', and seven matrices."""
+NODES = 256
+"""Most intervals of a stretch of a linear course that is looked at as a whole; a power of 2."""
+STRETCH = (AUGMENTED + 2, NODES + 1)
+"""Shape of its nodes: the states and both voltages."""
+LADDER = (80, AUGMENTED, AUGMENTED)
+"""Shape of the powers of the linear loop's step, each the square of the one before."""
 
 # Columns of an axis' metrics, of a motor's, of its margins, and of what both motors bear
-RISE_TIME, SETTLING_TIME, OVERSHOOT, PEAK, PEAK_TIME, STEADY_STATE_ERROR, IAE, ITAE, AXIS_METRICS = range(9)
+RISE_TIME, SETTLING_TIME, OVERSHOOT, UNDERSHOOT, PEAK, PEAK_TIME, STEADY_STATE_ERROR, IAE, ITAE = range(9)
+SETTLED, AXIS_METRICS = 9, 10
 PEAK_VOLTAGE, EFFORT, MOTOR_METRICS = range(3)
+BAND = 0.02
+"""How far from its reference an axis may be that has settled, as a share of its step."""
+# f: what is known of a course so far. Rows 0 and 1, an axis: its start, 1/step (1 where it is not stepped), whether
+# it is stepped, highest and lowest share of the step with their times, how many of the levels of the rise it has
+# reached and when, whether it is within the settling band and since when, ∫ |1 − share| dt and ∫ t |1 − share| dt.
+# Rows 2 and 3, a motor: PEAK_VOLTAGE, EFFORT, the time at its limit, its voltage at rest
+FROM, BY, STEPPED, TOP, TOP_AT, BOTTOM, BOTTOM_AT = range(7)
+RISEN, AT_LOW, AT_HIGH, WITHIN, SINCE, AREA, MOMENT = range(7, 14)
+AT_LIMIT, CALM = 2, 3
+FOLLOWED = (4, 14)
 # What else is known of a course: both axes' largest deviations from the start, shares of time at the limits, the
-# first sample that is held, how the integration ended, impacts on the stops
-DEVIATION, SHARE, HELD, OUTCOME, IMPACTS, COURSE = 0, 2, 4, 5, 6, 7
+# first sample that is held, how the integration ended, impacts on the stops, and until when it was followed, s
+DEVIATION, SHARE, HELD, OUTCOME, IMPACTS, REACHED, COURSE = 0, 2, 4, 5, 6, 7, 8
+ENDED, OUT_OF_STEPS, OUT_OF_SWITCHES, OUT_OF_BOUNDS = range(4)
+"""How a course ended: as asked, given up for its steps or its switches, or beyond DIVERGED."""
 GAIN_MARGIN, GAIN_REDUCTION_MARGIN, PHASE_MARGIN, DELAY_MARGIN, MARGINS = range(5)
 SENSITIVITY_PEAK, PEAK_FREQUENCY, DISK_MARGIN, DISK_FREQUENCY, SENSITIVITY = range(5)
 

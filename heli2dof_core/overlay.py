@@ -8,16 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import RecordingError
+from .findings import Finding
 from .loop import Loop
 from .parameters import Parameters
+from .recording_time import stretches
 from .recordings import Recording
-from .segments import SHORTEST, cut, fit_of, rough_starts, segment_length
+from .segments import SHORTEST, bridged, cut, divergence_told, fit_of, rough_starts, segment_length
 from .signals import Floats
-from .simulation.recorded import exact, run_held, run_recorder
+from .simulation.recorded import Wanted, exact, nobody_leaves, run_held, run_recorder
 from .spec import MOST_SAMPLE_TIMES, Digital, Limits
 
 USUAL_SAMPLE_TIME = 0.002
 """Of the controller where none is given, s; a recording that is finer decides."""
+FARTHEST = 1e4
+"""Angle beyond which a simulated rig has run away, rad."""
 
 
 @dataclass(frozen=True)
@@ -30,6 +34,7 @@ class Overlay:
         fit: per axis, %: 100 (1 − ‖y − ŷ‖/‖y − ȳ‖), as `nrmse_fit` says.
         rms: of the residuals per axis, rad.
         segments: (count, 2), first sample and last + 1 of what was simulated at a stretch.
+        findings: remarks on the simulation.
     """
 
     angles: Floats
@@ -37,6 +42,7 @@ class Overlay:
     fit: tuple[float | None, float | None]
     rms: tuple[float, float]
     segments: NDArray[np.int64]
+    findings: tuple[Finding, ...] = ()
 
 
 def nrmse_fit(measured: Floats, simulated: Floats) -> float | None:
@@ -48,34 +54,54 @@ def nrmse_fit(measured: Floats, simulated: Floats) -> float | None:
     return 100.0 * (1.0 - float(np.linalg.norm(measured - simulated)) / spread) if spread > 0 else None
 
 
-def driven_by_voltages(p: Parameters, recording: Recording, travel: float | None = None) -> Overlay:
-    """The rig under the recorded voltages from the recorded initial state, in one run."""
-    whole = np.array([[0, len(recording.t)]])
-    start = rough_starts(recording, whole)[0]
-    states = run_held(p, start, recording.t, recording.voltages, travel)
-    return _overlay(recording, states[:, :2], recording.voltages, whole)
+def driven_by_voltages(
+    p: Parameters, recording: Recording, travel: float | None = None, wanted: Wanted = nobody_leaves
+) -> Overlay:
+    """The rig under the recorded voltages from the recorded initial state, in one run; after a gap it begins anew."""
+    recording, bounds = bridged(recording), stretches(recording.t)
+    angles = np.full_like(recording.angles, np.nan)
+    with divergence_told():
+        starts = rough_starts(recording, bounds)
+        for start, (first, end) in zip(starts, bounds.tolist(), strict=True):
+            own = slice(first, end)
+            states = run_held(p, start, recording.t[own], recording.voltages[own], travel, wanted=wanted)
+            angles[own] = states[:, :2]
+        return _overlay(recording, angles, recording.voltages, bounds)
 
 
 def driven_in_segments(
-    p: Parameters, recording: Recording, length: float | None = None, travel: float | None = None
+    p: Parameters,
+    recording: Recording,
+    length: float | None = None,
+    travel: float | None = None,
+    wanted: Wanted = nobody_leaves,
 ) -> Overlay:
     """As `driven_by_voltages`, but begun anew every `length` s from the state that fits the recording best.
 
-    By default a segment lasts a second, or the whole recording where no error grows; stops are left out.
+    By default a segment lasts a second, or the whole recording where no error grows; gaps and stops are left out.
+
+    Raises:
+        RecordingError: nothing is left to simulate, or the rig runs away.
     """
+    recording = bridged(recording)
     if length is None:
         longest = segment_length(p, recording)
         length = longest if longest >= recording.t[-1] else SHORTEST
     bounds = cut(recording, length, travel)
-    fitted = fit_of(p, recording, bounds)
+    fitted = fit_of(p, recording, bounds, wanted)
     angles = np.full_like(recording.angles, np.nan)
     for first, end in bounds.tolist():
         angles[first:end] = recording.angles[first:end] - fitted.residuals[first:end]
-    return _overlay(recording, angles, recording.voltages, bounds)
+    with divergence_told():
+        return _overlay(recording, angles, recording.voltages, bounds)
 
 
 def driven_by_references(
-    loop: Loop, limits: Limits, recording: Recording, digital: Digital | None = None
+    loop: Loop,
+    limits: Limits,
+    recording: Recording,
+    digital: Digital | None = None,
+    wanted: Wanted = nobody_leaves,
 ) -> Overlay:
     """The design's loop under the recorded references, from the recorded initial state.
 
@@ -89,7 +115,7 @@ def driven_by_references(
         raise RecordingError(
             "no references were recorded",
             field="columns.theta_ref",
-            hint="Choose the columns of both references.",
+            hint="Choose the columns of both references, or let the recorded voltages drive the rig.",
         )
     finest = min(USUAL_SAMPLE_TIME, recording.sample_time)
     controller = digital or exact(Digital(sample_time=max(finest, 1e-4)))
@@ -99,22 +125,48 @@ def driven_by_references(
             f"{count} samples of the controller are too many",
             field="scenario.digital.sample_time",
             value=controller.sample_time,
-            hint=f"At most {MOST_SAMPLE_TIMES} are simulated: record a shorter time.",
+            hint=f"At most {MOST_SAMPLE_TIMES} are simulated: record less, or let the controller run slower.",
         )
-    times = controller.sample_time * np.arange(count)
-    held = np.clip(np.searchsorted(recording.t, times + 1e-9, side="right") - 1, 0, None)
-    start = rough_starts(recording, np.array([[0, len(recording.t)]]))[0]
-    run = run_recorder(
-        loop, limits, controller, recording.references[held], start=start, voltages=recording.voltages[0]
-    )
-    angles = np.column_stack([np.interp(recording.t, times, run.states[:, axis]) for axis in (0, 1)])
-    latest = np.clip(np.searchsorted(times, recording.t + 1e-9, side="right") - 1, 0, count - 1)
-    return _overlay(recording, angles, run.voltages[latest], np.array([[0, len(recording.t)]]))
+    bounds = stretches(recording.t)
+    angles, voltages = np.full_like(recording.angles, np.nan), np.full_like(recording.voltages, np.nan)
+    with divergence_told():
+        starts = rough_starts(recording, bounds)
+        for start, (first, end) in zip(starts, bounds.tolist(), strict=True):
+            wanted()
+            t, wish = recording.t[first:end] - recording.t[first], recording.references[first:end]
+            times = controller.sample_time * np.arange(
+                int(np.ceil(t[-1] / controller.sample_time - 1e-9)) + 1
+            )
+            held = np.clip(np.searchsorted(t, times + 1e-9, side="right") - 1, 0, None)
+            run = run_recorder(
+                loop, limits, controller, wish[held], start=start, voltages=recording.voltages[first]
+            )
+            for axis in (0, 1):
+                angles[first:end, axis] = np.interp(t, times, run.states[:, axis])
+            latest = np.clip(np.searchsorted(times, t + 1e-9, side="right") - 1, 0, len(times) - 1)
+            voltages[first:end] = run.voltages[latest]
+        return _overlay(recording, angles, voltages, bounds)
 
 
 def _overlay(recording: Recording, angles: Floats, voltages: Floats, bounds: NDArray[np.int64]) -> Overlay:
-    shown = np.all(np.isfinite(angles), axis=1)
-    measured, simulated = recording.angles[shown], angles[shown]
+    """The figures of what was simulated; where the model has run away it is cut off, and said so.
+
+    Raises:
+        FloatingPointError: nothing is left.
+    """
+    due = np.zeros(len(angles) + 1, dtype=int)
+    np.add.at(due, bounds[:, 0], 1)
+    np.add.at(due, bounds[:, 1], -1)
+    near = np.all(np.abs(angles) < FARTHEST, axis=1)  # false where NaN, too
+    angles[~near] = np.nan
+    if not np.any(near):
+        raise FloatingPointError("the simulation diverges")
+    lost = np.flatnonzero((np.cumsum(due[:-1]) > 0) & ~near)
+    findings = ()
+    if len(lost):
+        words = f"The model runs away and is shown until {recording.t[lost[0]]:.3g} s: the fit counts what is shown."
+        findings = (Finding("runs_away", "warning", words),)
+    measured, simulated = recording.angles[near], angles[near]
     fit = [nrmse_fit(measured[:, axis], simulated[:, axis]) for axis in (0, 1)]
-    rms = np.sqrt(np.mean((measured - simulated) ** 2, axis=0)) if len(measured) else np.zeros(2)
-    return Overlay(angles, voltages, (fit[0], fit[1]), (float(rms[0]), float(rms[1])), bounds)
+    rms = np.sqrt(np.mean((measured - simulated) ** 2, axis=0))
+    return Overlay(angles, voltages, (fit[0], fit[1]), (float(rms[0]), float(rms[1])), bounds, findings)

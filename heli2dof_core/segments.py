@@ -8,7 +8,9 @@ pp. 102–125; Ljung, System Identification, 1999, section 13.4 on closed loops)
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -17,9 +19,10 @@ from numpy.typing import NDArray
 
 from .errors import RecordingError
 from .parameters import Parameters
+from .recording_time import missing_rows, stretches
 from .recordings import Recording
 from .signals import Floats
-from .simulation.recorded import longest_step, run_segments
+from .simulation.recorded import Wanted, longest_step, nobody_leaves, run_segments
 
 GROWTH = 1.0
 """Exponent by which an error may grow within a segment."""
@@ -29,9 +32,55 @@ FEWEST = 12
 """Samples of the shortest segment that is used: three times what its starting state takes."""
 STOP_MARGIN = 0.01
 """Distance from a stop of the pitch travel below which pitch may rest on it, rad."""
+LEAP, LEAST_LEAP = 4.0, 0.02
+"""A change of a voltage that is many times its usual one from row to row, and the least that counts as usual, V."""
 _START = 0.06
 _TOLERANCE = 1e-9
 _MOST_STEPS = 8
+
+
+@contextmanager
+def divergence_told() -> Iterator[None]:
+    """Turns whatever the numbers of a rig that runs away provoke into an error that says what to look at.
+
+    Raises:
+        RecordingError: under the recorded voltages the simulated rig runs away.
+    """
+    try:
+        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is looked for
+            yield
+    except (ArithmeticError, np.linalg.LinAlgError) as error:
+        raise RecordingError(
+            "under the recorded voltages the simulated rig runs away",
+            field="columns",
+            hint="Check units (of time too), signs, offsets and which rig was recorded, or try shorter segments.",
+        ) from error
+
+
+def bridged(recording: Recording) -> Recording:
+    """The recording with the voltages that acted where rows are missing.
+
+    Behind a row that misses n rows the voltages are not held: the best that is known of them lies between this row's
+    and the next one's, whose mean over the n + 1 sample times is taken.
+    """
+    missing = missing_rows(recording.t)
+    if not np.any(missing):
+        return recording
+    volts = recording.voltages.copy()
+    share = (missing / (2 * (missing + 1)))[:, None]
+    volts[:-1] += share * np.diff(recording.voltages, axis=0)
+    return replace(recording, voltages=volts)
+
+
+def _leaps(recording: Recording) -> NDArray[np.int64]:
+    """Rows before which others are missing while a voltage changed much: nobody knows when it did.
+
+    A volt that comes two milliseconds sooner or later is an error that lasts to the segment's end.
+    """
+    missing = np.append(missing_rows(recording.t), 0)
+    changes = np.abs(np.diff(recording.voltages, axis=0, append=recording.voltages[-1:]))
+    usual = np.maximum(np.median(changes, axis=0), LEAST_LEAP)
+    return np.flatnonzero((missing > 0) & np.any(changes > LEAP * usual, axis=1)) + 1
 
 
 @dataclass(frozen=True)
@@ -43,11 +92,13 @@ class Fitted:
         residuals: measured minus simulated angles, (n, 2), rad; 0 outside the segments.
         slopes: derivatives of the simulated angles by the seven parameters, (n, 2, 7), with whatever the starting
             states can make up for taken out; 0 outside.
+        basis: of what its starting state can do, weighted, orthonormal in each segment, (n, 2, 4); 0 outside.
     """
 
     starts: Floats
     residuals: Floats
     slopes: Floats
+    basis: Floats
 
 
 def segment_length(p: Parameters, recording: Recording) -> float:
@@ -61,7 +112,9 @@ def segment_length(p: Parameters, recording: Recording) -> float:
 
 
 def cut(recording: Recording, length: float, travel: float | None) -> NDArray[np.int64]:
-    """First and last + 1 of each segment, (segments, 2): at most `length` s each, none while pitch is on a stop.
+    """First and last + 1 of each segment, (segments, 2).
+
+    They last at most `length` s; none crosses a gap of the recording, and none lies where pitch is on a stop.
 
     Raises:
         RecordingError: nothing is left.
@@ -69,15 +122,21 @@ def cut(recording: Recording, length: float, travel: float | None) -> NDArray[np
     free = np.ones(len(recording.t), dtype=bool)
     if travel is not None:
         free = np.abs(recording.angles[:, 0]) < travel - STOP_MARGIN
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], free, [False]]).astype(int)))
-    bounds = []
-    for first, end in edges.reshape(-1, 2):
+    bounds, short = [], False
+    for first, end in _runs(free, recording):
         if end - first < FEWEST:
+            short = True
             continue
         span = recording.t[end - 1] - recording.t[first]
         parts = max(1, min(int(np.ceil(span / length - 1e-9)), (end - first) // FEWEST))
         marks = np.linspace(first, end, parts + 1).astype(np.int64)
         bounds += pairwise(marks.tolist())
+    if not bounds and short and np.any(free):
+        raise RecordingError(
+            f"no stretch without gaps has {FEWEST} rows",
+            field="columns.time",
+            hint="Record without interruptions, or choose no column of time and give the sample time.",
+        )
     if not bounds:
         raise RecordingError(
             "the rig rests on its stops all the time",
@@ -85,6 +144,15 @@ def cut(recording: Recording, length: float, travel: float | None) -> NDArray[np
             hint="Check sign and offset of the pitch encoder, or the pitch travel of this rig.",
         )
     return np.array(bounds, dtype=np.int64)
+
+
+def _runs(free: NDArray[np.bool_], recording: Recording) -> Iterator[tuple[int, int]]:
+    """First row and last + 1 wherever the rig is free and its voltages are known."""
+    edges = np.union1d(stretches(recording.t).ravel(), _leaps(recording))
+    for first, end in pairwise(edges.astype(int).tolist()):
+        own = np.concatenate([[False], free[first:end], [False]]).astype(int)
+        for run in np.flatnonzero(np.diff(own)).reshape(-1, 2).tolist():
+            yield first + run[0], first + run[1]
 
 
 def rough_starts(recording: Recording, bounds: NDArray[np.int64]) -> Floats:
@@ -100,7 +168,14 @@ def rough_starts(recording: Recording, bounds: NDArray[np.int64]) -> Floats:
 
 
 def fit_starts(
-    p: Any, recording: Recording, bounds: NDArray[np.int64], starts: Floats, *, weights: Floats, step: float
+    p: Any,
+    recording: Recording,
+    bounds: NDArray[np.int64],
+    starts: Floats,
+    *,
+    weights: Floats,
+    step: float,
+    wanted: Wanted = nobody_leaves,
 ) -> Fitted:
     """Gauss and Newton's method on each segment's starting state, from `starts`; p stays.
 
@@ -111,12 +186,16 @@ def fit_starts(
         starts: where to begin, (segments, 4).
         weights: of the residuals of θ and ψ, 1/rad.
         step: longest one of the integration, s.
+        wanted: called now and then; what it raises ends the fit.
+
+    Raises:
+        FloatingPointError: the simulation diverges.
     """
     t, angles, volts = recording.t, recording.angles, recording.voltages
     starts = starts.copy()
     last = starts, np.empty(0), np.empty(0)
     for _ in range(_MOST_STEPS):
-        outputs, slopes = run_segments(p, starts, bounds, t, volts, step=step)
+        outputs, slopes = run_segments(p, starts, bounds, t, volts, step=step, wanted=wanted)
         residuals, largest = (angles - outputs) * weights, 0.0
         slopes *= weights[:, None]
         last = starts.copy(), slopes, residuals
@@ -138,15 +217,24 @@ def _projected(
 ) -> Fitted:
     """What is left of weighted slopes by the parameters where the starting states follow them."""
     left, kept = np.zeros((*residuals.shape, slopes.shape[2] - 4)), np.zeros_like(residuals)
+    basis = np.zeros((*residuals.shape, 4))
     for first, end in bounds.tolist():
         Q, _ = np.linalg.qr(slopes[first:end, :, :4].reshape(-1, 4))
         rest = slopes[first:end, :, 4:].reshape(len(Q), -1)
         left[first:end] = (rest - Q @ (Q.T @ rest)).reshape(end - first, 2, -1)
+        basis[first:end] = Q.reshape(end - first, 2, 4)
         kept[first:end] = residuals[first:end]
-    return Fitted(starts, kept / weights, left / weights[:, None])
+    return Fitted(starts, kept / weights, left / weights[:, None], basis)
 
 
-def fit_of(p: Parameters, recording: Recording, bounds: NDArray[np.int64]) -> Fitted:
-    """The segments under a rig's parameters, both axes weighted alike."""
+def fit_of(
+    p: Parameters, recording: Recording, bounds: NDArray[np.int64], wanted: Wanted = nobody_leaves
+) -> Fitted:
+    """The segments under a rig's parameters, both axes weighted alike.
+
+    Raises:
+        RecordingError: the rig runs away.
+    """
     starts, step = rough_starts(recording, bounds), longest_step(p)
-    return fit_starts(p, recording, bounds, starts, weights=np.ones(2), step=step)
+    with divergence_told():
+        return fit_starts(p, recording, bounds, starts, weights=np.ones(2), step=step, wanted=wanted)

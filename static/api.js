@@ -83,8 +83,10 @@ async function post(path, body, type = 'application/octet-stream') {
   return response;
 }
 
-/** A recorded file. @param {Blob} file @param {string} name */
-export const sendRecording = async (file, name) => (await post(`api/v1/recordings?${new URLSearchParams({ name })}`, file)).json();
+/** A recorded file, and how its text is to be read where that is not to be judged. @param {Blob} file @param {string} name @param {Record<string, string>} [dialect] */
+export const sendRecording = async (file, name, dialect = {}) => (await post(`api/v1/recordings?${new URLSearchParams({ name, ...dialect })}`, file)).json();
+/** Files of one run as one recording. @param {string[]} recordings their ids */
+export const joinRecordings = (recordings) => call('api/v1/recordings/join', { method: 'POST', body: { recordings } });
 /** A recording of a design's digital rig. @param {unknown} design @returns {Promise<Blob>} */
 export const sampleRecording = async (design) => (await post('api/v1/recordings/sample', JSON.stringify(design), 'application/json')).blob();
 /** @param {string} id @param {unknown} body */

@@ -65,7 +65,7 @@ function couplingMark(step, stepped, other) {
   for (let i = 1; i < values.length; i++) if (Math.abs(values[i] - values[0]) > Math.abs(values[k] - values[0])) k = i;
   const moved = (values[k] - values[0]) * DEGREE;
   if (!(Math.abs(moved) >= MOVES)) return [];
-  const figure = `${fixed(Math.abs(moved), 2)}°`;
+  const figure = `${fixed(Math.abs(step.metrics.coupling_peak * DEGREE || moved), 2)}°`; // the server's, for the samples may miss it
   const text = stepped === 'theta' ? say`The pitch step moves yaw by ${figure} at ${seconds(step.t[k])}` : say`The yaw step moves pitch by ${figure} at ${seconds(step.t[k])}`;
   return [{ kind: 'coupling', axis: stepped, t: step.t[k], value: values[k] * DEGREE, brief: say`moves ${figure}`, text }];
 }

@@ -15,7 +15,7 @@ const LOOPS = `${testid('suggest-pi')}`;
 const PLACES = {
   pi_unstable: LOOPS, loop_unstable: LOOPS, poorly_damped: LOOPS, pitch_loop_open: testid('kp-pitch'), yaw_loop_open: testid('kp-yaw'),
   saturation_V_p: plot('V_p'), saturation_V_y: plot('V_y'), travel_stop: plot('theta'), diverges: plot('theta'), unlike_linear: testid('more-figures'), not_settled: testid('duration'), slow_pole: LOOPS,
-  reference_beyond_stop: testid('step-theta'), starts_on_stop: testid('experiment-start-theta'), integration_stopped: testid('experiment-tolerance'),
+  reference_beyond_stop: testid('step-theta'), starts_on_stop: testid('experiment-start-theta'), integration_stopped: testid('experiment-tolerance'), disturbance_left_out: testid('more-figures'),
   slow_sampling: testid('experiment-sample-time'), fast_tracking: testid('experiment-tracking'), pairing_cross: testid('pair-advised'), pairing_diagonal: testid('pair-advised'),
   own_poles: testid('method'), own_integral_action: testid('method'), nearly_uncontrollable: testid('rig-K_pp'),
 };

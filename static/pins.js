@@ -5,6 +5,7 @@
  */
 import { best, hardest, worseMargins } from './compare_math.js';
 import { decibel, degrees, fixed, seconds, significant } from './format.js';
+import { t } from './words.js';
 
 export const COLORS = 6;
 
@@ -16,6 +17,8 @@ export const colorOf = (index) => `pin-${index % COLORS}`;
 
 const metric = (/** @type {string} */ axis, /** @type {string} */ name) => (/** @type {Reply} */ r) =>
   (r.stable ? r.axis_steps?.[/** @type {'theta'|'psi'} */ (axis)]?.nonlinear.metrics?.[axis]?.[name] : undefined);
+/** Endless where it has not settled within the window. */
+const settling = (/** @type {string} */ axis) => (/** @type {Reply} */ r) => (metric(axis, 'settled')(r) === false ? Infinity : metric(axis, 'settling_time')(r));
 const other = (/** @type {'theta'|'psi'} */ axis) => (/** @type {Reply} */ r) => (r.stable ? r.axis_steps?.[axis]?.nonlinear.metrics?.coupling_peak : undefined);
 const peaks = (/** @type {Reply} */ r) => hardest(Object.fromEntries(Object.entries(r.axis_steps ?? {}).map(([axis, pair]) => [axis, pair.nonlinear.metrics])));
 const size = (/** @type {(r: Reply) => number|undefined} */ of) => (/** @type {Reply} */ r) => { const v = of(r); return v === undefined ? undefined : Math.abs(v); };
@@ -32,8 +35,9 @@ export const FIGURES = [
   { id: 'norm', name: '‖K‖', sub: 'F', title: 'Frobenius norm of K: the size of all its gains', sign: 1, of: (r) => r.gains.norm, text: (v) => significant(v, 4) },
   .../** @type {('theta'|'psi')[]} */ (['theta', 'psi']).flatMap((axis) => /** @type {Figure[]} */ ([
     { id: `rise-${axis}`, axis, name: 'Rise', title: '10 to 90 % of this axis’ step, nonlinear rig', sign: 1, of: metric(axis, 'rise_time'), text: seconds },
-    { id: `settling-${axis}`, axis, name: 'Settling', title: 'to within 2 % of this axis’ step, nonlinear rig', sign: 1, of: metric(axis, 'settling_time'), text: seconds },
+    { id: `settling-${axis}`, axis, name: 'Settling', title: 'to within 2 % of this axis’ step, nonlinear rig', sign: 1, of: settling(axis), text: (v) => (v === Infinity ? t('not settled') : seconds(v)) },
     { id: `overshoot-${axis}`, axis, name: 'Over\u00adshoot', title: 'beyond the reference of this axis’ step', sign: 1, of: metric(axis, 'overshoot'), text: percents },
+    { id: `undershoot-${axis}`, axis, name: 'Under\u00adshoot', title: 'from the start away from the reference of this axis’ step', sign: 1, of: metric(axis, 'undershoot'), text: percents },
     { id: `error-${axis}`, axis, name: 'Error', title: 'size of the error at the end', sign: 1, of: size(metric(axis, 'steady_state_error')), text: (v) => degrees(v, 2) },
     { id: `coupling-${axis}`, axis, name: 'Other axis', title: 'largest deviation of the axis that is not stepped', sign: 1, of: other(axis), text: (v) => degrees(v, 2) },
   ])),
@@ -68,4 +72,4 @@ export function differenceTable(replies) {
 }
 
 /** @param {Figure} figure @param {number|undefined} v */
-const cost = (figure, v) => (v === undefined ? undefined : v === Infinity ? -Number.MAX_VALUE : figure.sign * v);
+const cost = (figure, v) => (v === undefined ? undefined : v === Infinity ? (figure.sign < 0 ? -Number.MAX_VALUE : undefined) : figure.sign * v);

@@ -1,5 +1,5 @@
 /** Asks the server about a recording and keeps its answers in the store: file, overlay, identification with progress and cancel. */
-import { identifyAddress, overlayRecording, ProblemError, sampleRecording, sendRecording } from './api.js';
+import { identifyAddress, joinRecordings, overlayRecording, ProblemError, sampleRecording, sendRecording } from './api.js';
 import { guessed, identifyBody, isMapped, nothing, overlayBody } from './recordings.js';
 import { bodyOf } from './store.js';
 
@@ -27,19 +27,41 @@ export class RecordingFeed {
     this.#set({ busy: '', problem });
   }
 
-  /** Another file, whose columns are guessed. @param {Blob} file @param {string} name */
-  async send(file, name) {
+  /** @type {{file: Blob, name: string}[]} */ #files = [];
+
+  /** Another recording, of one file or of one per signal; its columns are guessed. @param {{file: Blob, name: string}[]} files @param {Record<string, string>} [dialect] */
+  async send(files, dialect = {}) {
     const mine = ++this.#file;
     this.cancel();
+    this.#files = files;
     this.#set({ ...nothing(), busy: 'Reading the file…' });
     try {
-      const preview = await sendRecording(file, name);
+      const previews = [];
+      for (const { file, name } of files) {
+        previews.push(await sendRecording(file, name, dialect));
+        if (mine !== this.#file) return;
+      }
+      const preview = previews.length > 1 ? await joinRecordings(previews.map(({ id }) => id)) : previews[0];
       if (mine !== this.#file) return;
       this.#set({ preview, columns: guessed(preview), busy: '' });
       if (isMapped(this.store.state.recorded.columns)) await this.overlay();
     } catch (error) {
       if (mine === this.#file) this.#fail(error);
     }
+  }
+
+  #refused = { separator: '', decimal: '' };
+
+  /** How the text of what was sent may be read otherwise: as it was, or, where nothing was read, as was said. @param {Recorded} recorded @returns {{separator: string, decimal: string}|null} */
+  dialect({ preview, problem }) {
+    if (preview) return preview.dialect;
+    return problem && this.#files.length ? this.#refused : null;
+  }
+
+  /** The same files, their text read in another way. @param {Record<string, string>} dialect */
+  reread(dialect) {
+    this.#refused = { separator: '', decimal: '', ...dialect };
+    return this.send(this.#files, dialect);
   }
 
   /** A recording of the present design's digital rig. @returns {Promise<Blob|null>} its file */
@@ -50,7 +72,7 @@ export class RecordingFeed {
     this.#set({ ...nothing(), busy: 'Recording the digital rig…' });
     try {
       const file = await sampleRecording(bodyOf(design));
-      if (mine === this.#file) await this.send(file, 'heli2dof-recording.csv');
+      if (mine === this.#file) await this.send([{ file, name: 'heli2dof-recording.csv' }]);
       return file;
     } catch (error) {
       if (mine === this.#file) this.#fail(error);

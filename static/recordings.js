@@ -8,8 +8,8 @@ import { bodyOf, initialState } from './store.js';
 import { count, say } from './words.js';
 
 export const ROLES = [
-  { role: 'time', base: 't', title: 'time, s' }, { role: 'theta', base: 'θ', title: 'pitch angle' }, { role: 'psi', base: 'ψ', title: 'yaw angle' },
-  { role: 'V_p', base: 'V', sub: 'p', title: 'pitch motor, V' }, { role: 'V_y', base: 'V', sub: 'y', title: 'yaw motor, V' },
+  { role: 'time', base: 't', title: 'time' }, { role: 'theta', base: 'θ', title: 'pitch angle' }, { role: 'psi', base: 'ψ', title: 'yaw angle' },
+  { role: 'V_p', base: 'V', sub: 'p', title: 'pitch motor' }, { role: 'V_y', base: 'V', sub: 'y', title: 'yaw motor' },
   { role: 'theta_ref', base: 'θ', sub: 'ref', title: 'pitch reference', optional: true }, { role: 'psi_ref', base: 'ψ', sub: 'ref', title: 'yaw reference', optional: true },
 ];
 export const IDENTIFIABLE = ['K_pp', 'K_py', 'K_yp', 'K_yy', 'B_p', 'B_y', 'K_s'];
@@ -18,17 +18,24 @@ export const DRIVERS = { segments: 'recorded voltages, in segments', voltages: '
 /** @returns {Recorded} */
 export const nothing = () => initialState().recorded;
 
-/** What the server guessed, as the controls hold it. @param {any} preview @returns {RecordingColumns} */
-export const guessed = ({ guess }) => ({ names: { ...guess.columns }, unit: guess.unit, signs: { theta: 1, psi: 1 }, offsets: { theta: 0, psi: 0 }, sample_time: 0.002 });
+export const TIME_UNITS = { s: 's', ms: 'ms', us: 'µs', ns: 'ns', min: 'min', h: 'h', d: 'days' };
+export const SEPARATORS = { comma: 'comma', semicolon: 'semicolon', tab: 'tab', bar: 'bar |', blank: 'blanks' };
+export const DECIMALS = { point: 'point', comma: 'comma' };
+
+/** What the server guessed, as the controls hold it; without a column of time the sample time is for the user to say. @param {any} preview @returns {RecordingColumns} */
+export const guessed = ({ guess }) => ({
+  names: { ...guess.columns }, time_unit: guess.time_unit ?? 's', unit: guess.unit, units: { ...guess.units }, voltage_unit: guess.voltage_unit ?? 'V',
+  signs: { theta: 1, psi: 1 }, offsets: { theta: 0, psi: 0 }, sample_time: null, decimate: 1,
+});
 
 /** The columns as the server takes them; the sample time only where no column is the time. @param {RecordingColumns} columns */
-export function columnsBody({ names, unit, signs, offsets, sample_time }) {
+export function columnsBody({ names, time_unit, unit, units, voltage_unit, signs, offsets, sample_time, decimate }) {
   const chosen = Object.fromEntries(Object.entries(names).filter(([, name]) => name));
-  return { ...chosen, unit, signs, offsets, ...(chosen.time ? {} : { sample_time }) };
+  return { ...chosen, unit, units, voltage_unit, signs, offsets, decimate, ...(chosen.time ? { time_unit } : { sample_time }) };
 }
 
-/** Whether all is chosen that is needed. @param {RecordingColumns|null} columns */
-export const isMapped = (columns) => Boolean(columns) && ROLES.every(({ role, optional }) => optional || role === 'time' || columns?.names[role]);
+/** Whether all is chosen that is needed: the time too, as a column or as the time between two rows. @param {RecordingColumns|null} columns */
+export const isMapped = (columns) => Boolean(columns) && ROLES.every(({ role, optional }) => optional || columns?.names[role] || (role === 'time' && columns?.sample_time));
 
 /** @param {import('./types.js').Design} design @param {Recorded} recorded */
 export const overlayBody = (design, { columns, driver }) => ({ ...bodyOf(design), columns: columns && columnsBody(columns), driver });
@@ -56,12 +63,24 @@ export function rangeOfCurves([, measured, , reference]) {
 /** @param {number|null} fit % */
 export const fitText = (fit) => (fit === null ? 'no fit: the axis never moves' : fit < -100 ? 'fit below −100 %' : `fit ${fixed(fit, 1)} %`);
 
+/** A time in the unit in which it has one to three digits before the point. @param {number} seconds */
+const duration = (seconds) => (seconds < 1 ? say`${significant(1e3 * seconds, 3)} ms` : say`${significant(seconds, 3)} s`);
+
 /** @param {any} preview */
-export const previewWords = (preview) => say`${preview.name || 'Recording'}: ${preview.rows} rows, ${count(preview.columns.length, '{0} column', '{0} columns')}`;
+export function previewWords(preview) {
+  const about = say`${preview.name || 'Recording'}: ${preview.rows} rows, ${count(preview.columns.length, '{0} column', '{0} columns')}`;
+  return preview.guess.sample_time > 0 ? say`${about}, ${duration(preview.guess.sample_time)} apart` : about;
+}
+
+/** What still has to be chosen, in words; empty where nothing is. @param {RecordingColumns|null} columns */
+export function missingWords(columns) {
+  const missing = ROLES.filter(({ role, optional }) => !optional && !columns?.names[role] && !(role === 'time' && columns?.sample_time)).map(({ role, title }) => (role === 'time' ? 'the time, or the sample time' : `the ${title}`));
+  return missing.length ? say`Choose the column of ${missing.join(', ')}.` : '';
+}
 
 /** @param {any} overlay */
 export function overlayWords(overlay) {
-  const about = say`${overlay.samples} samples in ${fixed(overlay.duration, 1)} s`;
+  const about = say`${overlay.samples} samples in ${fixed(overlay.duration, 1)} s, ${duration(overlay.sample_time)} apart`;
   return overlay.segments > 1 ? say`${about}, ${overlay.segments} segments, each from the state that fits it best` : about;
 }
 

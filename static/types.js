@@ -77,7 +77,9 @@
  * @typedef {object} AxisMetrics
  * @property {number} [rise_time]
  * @property {number} [settling_time]
+ * @property {boolean} [settled]
  * @property {number} [overshoot]
+ * @property {number} [undershoot]
  * @property {number} [peak]
  * @property {number} [peak_time]
  * @property {number} [steady_state_error]
@@ -125,7 +127,8 @@
  * A design that is kept for comparison; its reply is missing until the server has given one.
  * @typedef {{id: number, index: number, name: string, design: Design, reply: Reply|null, refused?: string}} Pin  index: its letter, colour and mark
  *
- * @typedef {{names: Record<string, string>, unit: string, signs: {theta: number, psi: number}, offsets: {theta: number, psi: number}, sample_time: number}} RecordingColumns  names: column by role
+ * @typedef {{names: Record<string, string>, time_unit: string, unit: string, units: Record<string, string>, voltage_unit: string, signs: {theta: number, psi: number},
+ *   offsets: {theta: number, psi: number}, sample_time: number|null, decimate: number}} RecordingColumns  names: column by role
  * @typedef {{preview: any, columns: RecordingColumns|null, driver: string, busy: string, problem: Problem|null, overlay: any, overlaid: Design|null, progress: any, found: any, foundFor: Design|null}} Recorded  a recording of a real rig, and what is known of it
  *
  * @typedef {object} State

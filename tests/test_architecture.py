@@ -77,10 +77,16 @@ def test_no_test_waits_for_time():
 @pytest.mark.parametrize(
     ("statement", "forbidden"),
     [
-        ("import heli2dof_core", ("sympy", "control", "viser", "fastapi", "scipy.integrate", "scipy.signal")),
+        (
+            "import heli2dof_core",
+            (
+                *("sympy", "control", "viser", "fastapi", "scipy.integrate", "scipy.signal"),
+                *("h5py", "openpyxl", "scipy.io", "heli2dof_core.recordings"),
+            ),
+        ),
         (
             "import app.main; app.main.create_app()",
-            ("sympy", "control", "viser", "scipy.integrate", "scipy.signal"),
+            ("sympy", "control", "viser", "scipy.integrate", "scipy.signal", "h5py", "openpyxl", "scipy.io"),
         ),
     ],
 )

@@ -9,7 +9,7 @@ from typing import IO, Any, TypeVar, get_args
 
 import click
 
-from .values import Assignment, Name, Numbers, Poles, Split
+from .values import Assignment, Choice, Name, Numbers, Poles, Split, Words
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -37,7 +37,7 @@ class Option:
 
     def decorate(self, command: F) -> F:
         """The command with this option."""
-        several = isinstance(self.kind, Assignment)
+        several = isinstance(self.kind, Assignment | Choice)
         default = None if self.kind is None or not several else ()
         return click.option(
             self.flag, self.parameter, type=self.kind, multiple=several, default=default, help=self.about
@@ -124,7 +124,55 @@ SCENARIO = (
 )
 MODEL = Option("--model", "scenario.model", Name(_words("spec", "Model")), "nonlinear, or linear.")
 FREQUENCIES = Option("--frequencies", "frequencies", Numbers(), "Where |RGA(jω)| is wanted, rad/s: 0,1,10.")
-ALL = (*DESIGN, *LOOPS, *SCENARIO, MODEL, FREQUENCIES)
+
+_ANGLES = ("theta", "psi", "theta_ref", "psi_ref")
+COLUMNS = (
+    Option(
+        "--column",
+        "columns",
+        Choice(lambda: ("time", "theta", "psi", "V_p", "V_y", "theta_ref", "psi_ref")),
+        "Which column is what: theta=Pitch; by the names by default; repeatable.",
+    ),
+    Option(
+        "--time-unit",
+        "columns.time_unit",
+        Name(_words("recording_units", "TimeUnit")),
+        "Of the time: s, ms, us …",
+    ),
+    Option(
+        "--unit", "columns.unit", Name(_words("recording_units", "AngleUnit")), "Of the angles: rad or deg."
+    ),
+    Option("--unit-of", "columns.units", Choice(lambda: _ANGLES), "Of one angle: psi=deg; repeatable."),
+    Option(
+        "--voltage-unit", "columns.voltage_unit", Name(_words("recording_units", "VoltageUnit")), "V or mV."
+    ),
+    Option(
+        "--sign", "columns.signs", Assignment(lambda: _ANGLES[:2]), "Of an encoder: theta=-1; repeatable."
+    ),
+    Option(
+        "--offset",
+        "columns.offsets",
+        Assignment(lambda: _ANGLES[:2]),
+        "Added to an angle, in its unit: theta=-40.5.",
+    ),
+    Option("--sample-time", "columns.sample_time", click.FLOAT, "s, where no column is the time."),
+    Option("--decimate", "columns.decimate", click.INT, "Keep one of so many rows, voltages averaged."),
+)
+SEPARATOR = Option(
+    "--separator",
+    "separator",
+    Name(_words("recording_files.text", "Separator")),
+    "Of text; judged by default.",
+)
+DECIMAL = Option(
+    "--decimal", "decimal", Name(_words("recording_files.text", "Decimal")), "Of text: point or comma."
+)
+DRIVER = Option(
+    "--driver", "driver", Name(lambda: ("segments", "voltages", "references")), "What drives the model."
+)
+SEGMENT = Option("--segment", "segment", click.FLOAT, "Length of a segment, s; by the rig by default.")
+FREE = Option("--free", "free", Words(), "Parameters to be found, with commas: K_pp,B_p.")
+ALL = (*DESIGN, *LOOPS, *SCENARIO, MODEL, FREQUENCIES, *COLUMNS, SEPARATOR, DECIMAL, DRIVER, SEGMENT, FREE)
 
 
 def takes(*options: Option) -> Callable[[F], F]:

@@ -68,6 +68,40 @@ class Assignment(click.ParamType):
         return [CompletionItem(f"{name}=") for name in self.names() if name.startswith(incomplete)]
 
 
+class Choice(click.ParamType):
+    """``name=text``, such as ``theta=Pitch (deg)``."""
+
+    name = "name=text"
+
+    def __init__(self, names: Callable[[], Iterable[str]]) -> None:
+        self.names = names
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """(name, text)."""
+        name, mark, text = value.partition("=")
+        if not mark or name not in self.names():
+            self.fail(
+                f"{value!r} names none of {', '.join(self.names())}; write it like {next(iter(self.names()))}=…"
+            )
+        return name, text
+
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[CompletionItem]:
+        """Names, with their ``=``."""
+        return [CompletionItem(f"{name}=") for name in self.names() if name.startswith(incomplete)]
+
+
+class Words(click.ParamType):
+    """Words with commas between them."""
+
+    name = "words"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """A list."""
+        return [word.strip() for word in value.split(",")]
+
+
 class Name(click.ParamType):
     """One of some names. The core refuses others, and says which there are."""
 

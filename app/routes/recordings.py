@@ -5,16 +5,16 @@ from __future__ import annotations
 import asyncio
 import contextlib
 from dataclasses import replace
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter, HTTPException, Request, Response, WebSocket
+from fastapi import APIRouter, HTTPException, Query, Request, Response, WebSocket
 
 from heli2dof_core import Spec, close_loop, place, preset
 from heli2dof_core.engine import engine
 from heli2dof_core.identification import Progress, identify
-from heli2dof_core.overlay import driven_by_references, driven_by_voltages, driven_in_segments
-from heli2dof_core.recording_files import read_table, write_csv
-from heli2dof_core.recordings import recording_of
+from heli2dof_core.recording_files import Dialect, joined_tables, read_table, write_csv
+from heli2dof_core.recording_files.text import Decimal, Separator
+from heli2dof_core.recordings import Table, recording_of
 from heli2dof_core.sample_recordings import deviating_rig, named_columns, sample_recording
 from heli2dof_core.spec import Digital
 
@@ -22,8 +22,10 @@ from ..compute import Compute, asking, still_wanted
 from ..conversation import Send, converse
 from ..encoding import json_bytes, json_response
 from ..models import described
+from ..overlays import overlaid
 from ..recording_models import (
     IdentifyRequest,
+    JoinRequest,
     OverlayReply,
     OverlayRequest,
     Preview,
@@ -49,10 +51,22 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
     store = RecordingStore(settings.recordings, settings.recordings_bytes)
 
     @router.post("", **_takes_a_file())
-    async def send(request: Request, name: str = "") -> Response:
-        data = await request.body()
-        table = await compute.run_slow(read_table, data, name[:200])
-        return json_response(preview_reply(store.put(table, asking.get().client[0]), name[:200], table))
+    async def send(
+        request: Request,
+        name: str = "",
+        separator: Annotated[Separator | None, Query(description="of text; judged by default")] = None,
+        decimal: Annotated[Decimal | None, Query(description="of text; judged by default")] = None,
+    ) -> Response:
+        data, own = await request.body(), name[:200]
+        table = await compute.run_slow(read_table, data, own, Dialect(separator, decimal), still_wanted)
+        return json_response(preview_reply(store.put(table, asking.get().client[0], own), own, table))
+
+    @router.post("/join", **described(Preview, "Files of one run, one signal each, as one recording"))
+    async def join(request: JoinRequest) -> Response:
+        tables = [store.named(key) for key in request.recordings]
+        table = await compute.run_slow(joined_tables, tables)
+        name = ", ".join(own for own, _ in tables)[:200]
+        return json_response(preview_reply(store.put(table, asking.get().client[0], name), name, table))
 
     @router.post("/sample", **_makes_a_file())
     async def sample(request: SampleRequest) -> Response:
@@ -113,16 +127,9 @@ def _sample(request: SampleRequest) -> bytes:
     return write_csv(named_columns(run), comments)
 
 
-def _overlay(request: OverlayRequest, table: Any) -> Reply:
-    spec, recording = request.to_spec(), recording_of(table, request.columns.to_columns())
-    if request.driver == "voltages":
-        result = driven_by_voltages(spec.parameters, recording, spec.limits.theta)
-    elif request.driver == "segments":
-        result = driven_in_segments(spec.parameters, recording, request.segment, spec.limits.theta)
-    else:
-        loop = close_loop(place(spec), spec.outer)
-        result = driven_by_references(loop, spec.limits, recording, spec.scenario.digital)
-    return overlay_reply(request.driver, recording, result)
+def _overlay(request: OverlayRequest, table: Table) -> Reply:
+    recording = recording_of(table, request.columns.to_columns())
+    return overlay_reply(request.driver, recording, overlaid(request, recording, still_wanted))
 
 
 async def _identify(
@@ -147,6 +154,7 @@ async def _identify(
             segment=request.segment,
             travel=spec.limits.theta,
             report=report,
+            wanted=still_wanted,
         )
         return identification_reply(found)
 
@@ -173,7 +181,9 @@ def _text(value: Reply) -> str:
 def _takes_a_file() -> dict[str, Any]:
     options = described(Preview, "The file as it was read: columns, first rows, what they probably are")
     content = {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}
-    extra = {"requestBody": {"required": True, "description": "CSV or .mat", "content": content}}
+    extra = {
+        "requestBody": {"required": True, "description": "CSV, .xlsx, .mat, HDF5, JSON", "content": content}
+    }
     return {**options, "openapi_extra": extra}
 
 

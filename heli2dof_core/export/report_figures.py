@@ -10,7 +10,7 @@ import numpy as np
 
 from ..evaluate import Report, Step
 from ..margins import Margins
-from ..metrics import AxisMetrics
+from ..metrics import NOT_SETTLED, AxisMetrics
 from ..signals import AXES, OUTPUTS, Floats
 from ..spec import Model
 from .markup import paragraph, table
@@ -93,8 +93,9 @@ def _effort(motor: str) -> Callable[[Step, AxisMetrics, Floats], str]:
 
 ROWS = (
     Row("Rise time", lambda _, m, __: seconds(m.rise_time)),
-    Row("Settling time", lambda _, m, __: seconds(m.settling_time)),
+    Row("Settling time", lambda _, m, __: seconds(m.settling_time) if m.settled else NOT_SETTLED),
     Row("Overshoot", lambda _, m, __: f"{fixed(m.overshoot, 1)} %"),
+    Row("Undershoot", lambda _, m, __: f"{fixed(m.undershoot, 1)} %"),
     Row("Error at the end", lambda _, m, __: angle(m.steady_state_error, 2)),
     Row("Other axis moves", lambda step, _, __: _coupling(step)),
     Row("IAE, °s", lambda _, m, __: _angle_time(m.iae)),

@@ -17,12 +17,20 @@ from ..layout import (
     CLAMPING,
     DELAY,
     DISTURBANCE,
+    ENDED,
     FILTERED,
     GAIN,
+    HELD,
+    IMPACTS,
     LIMIT,
     MOTOR_OF,
     OFFSET,
+    OUT_OF_BOUNDS,
+    OUTCOME,
     RATE,
+    REACHED,
+    REFERENCE,
+    START,
     STEP,
     TIME,
     TRACKING,
@@ -31,52 +39,43 @@ from ..layout import (
     WINDUP,
     F,
 )
-from .dormand_prince import integrate
+from .dormand_prince import ANGLES, travel
+from .exact import dwell
+from .experiment import ROUNDING, SEEN
+from .figures import begin, conclude, confirm, doubtful, hold_voltage, keep
 from .jit import kernel, put
 
 
 @kernel
 def run_digital(
-    y,
-    t,
-    c,
-    m,
-    d,
-    noise,
-    disturbed_from,
-    rtol,
-    atol,
-    most_steps,
-    w,
-    plant,
-    free,
-    grid,
-    course,
-    states,
-    voltages,
-):
-    """States (len(t), 6) and held voltages (len(t), 2) at all t, increasing from t[0] = 0.
+    y, t, c, m, d, poles, x, noise, disturbed_from, rtol, atol, most_steps, rest, w, plant, free, grid, course, f,
+    states, voltages, axes, motors, known,
+):  # fmt: skip
+    """States (len(t), 6) and held voltages (len(t), 2) at all t, increasing from t[0] = 0, and figures of merit.
 
-    `c`, `m` as for `integrate`, with the controller's gains; `noise`, (samples, 2), is added to the
-    measured angles, rad; the disturbance acts from the first sample at or after `disturbed_from`.
-    With a delay the motors have the voltages d[BEFORE] until the second sample. Scratch: `w` of zeros, `plant` and
-    `free` like c and m, `grid` (len(t) + 2,), `course` (len(t) + 2, 6).
-    Returns the outcome, the grid points filled and the impacts.
+    `c`, `m` as for `integrate`, with the controller's gains; `poles` are the linear loop's; `noise`, (samples, 2), is
+    added to the measured angles, rad; the disturbance acts from the first sample at or after `disturbed_from`.
+    With a delay the motors have the voltages d[BEFORE] until the second sample. Figures go into `axes`, `motors` and
+    `known`, as `layout` says. Scratch: `w` of zeros, `plant` and `free` like c and m, `grid` (len(t) + 2,), `course`
+    (len(t) + 2, 6), `f`, twice FOLLOWED. What was not reached is held.
     """
     without_controller(c, m, plant, free)
     filters, measured, held, waiting = w[16:18], w[18], w[19], w[20]
     stand(y, c, d, filters, held)
-    now, done, impacts, k = t[0], 0, 0, 0
-    period = d[TIME]
-    while done < len(t):
+    own, ahead, end, samples = f[:4], f[4:], t[-1], len(t)
+    start, reference = (x[START], x[START + 1]), (x[REFERENCE], x[REFERENCE + 1])
+    begin(own, start, reference, rest, y[0], y[1], 0.0)
+    now, done, impacts, k, outcome, reached = t[0], 0, 0, 0, ENDED, end
+    period, over, until, proven = d[TIME], False, end, True
+    while done < samples or now < until:
         sense(y, d, filters, noise[min(k, len(noise) - 1)], measured)
-        control(y, c, m, d, measured, w[21], waiting)
+        control(y, c, m, d, measured, w[23], waiting)
         if d[DELAY] == 0.0:
             held[0], held[1] = waiting[0], waiting[1]
         following = t[0] + (k + 1) * period
         count = 1
         grid[0] = now
-        while done + count - 1 < len(t) and t[done + count - 1] < following:
+        while done + count - 1 < samples and t[done + count - 1] < following:
             if t[done + count - 1] > now:
                 grid[count] = t[done + count - 1]
                 count += 1
@@ -84,28 +83,64 @@ def run_digital(
                 put(y, states[done])
                 voltages[done, 0], voltages[done, 1] = held[0], held[1]
                 done += 1
-        grid[count] = following
+        ends = not over and done + count - 1 == samples
+        if ends and count == 1:  # with this very sample
+            ends, over = False, True
+            keep(own, ahead)
+            until = doubtful(own, end, min(dwell(poles), end))
+            if not until > end:
+                break
         plant[OFFSET], plant[OFFSET + 1] = held[0], held[1]
         on = 1.0 if now >= disturbed_from - 1e-12 else 0.0
         plant[DISTURBANCE], plant[DISTURBANCE + 1] = on * c[DISTURBANCE], on * c[DISTURBANCE + 1]
         z0, z1 = y[4], y[5]
-        outcome, filled, _, _, hits = integrate(
-            y, grid[: count + 1], plant, free, rtol, atol, most_steps, w, course
+        points = count
+        if not ends:
+            grid[count] = following
+            points += 1
+        found, filled, _, _, hits, here = travel(
+            y, grid[:points], plant, free, rtol, atol, most_steps, w, course, ahead if over else own, ANGLES
         )
         y[4], y[5] = z0, z1
-        impacts += hits
         for i in range(1, count):
             if i < filled:
                 put(course[i], states[done])
                 states[done, 4], states[done, 5] = z0, z1
                 voltages[done, 0], voltages[done, 1] = held[0], held[1]
                 done += 1
-        if outcome != 0:
-            return outcome, done, impacts
+        if not over:
+            impacts += hits
+            for i in range(2):
+                hold_voltage(own[2 + i], held[i], c[LIMIT + i], here - now)
+        if ends and found == ENDED:
+            over = True
+            keep(own, ahead)
+            until = doubtful(own, end, min(dwell(poles), end))
+            if not until > end:
+                break
+            grid[0], grid[1] = end, following
+            found, _, _, _, _, _ = travel(
+                y, grid[:2], plant, free, rtol, atol, most_steps, w, course, ahead, ANGLES
+            )
+            y[4], y[5] = z0, z1
+        if found != ENDED:
+            proven = False
+            if not over:
+                outcome, reached = found, here
+            break
         held[0], held[1] = waiting[0], waiting[1]
         now = following
         k += 1
-    return 0, done, impacts
+    if not over:
+        keep(own, ahead)
+    for k in range(done, samples):
+        put(states[done - 1], states[k])
+        voltages[k, 0], voltages[k, 1] = voltages[done - 1, 0], voltages[done - 1, 1]
+    confirm(own, ahead, proven)
+    known[HELD] = done if outcome == OUT_OF_BOUNDS else samples
+    known[OUTCOME], known[IMPACTS], known[REACHED] = outcome, impacts, reached
+    last, floor = states[samples - 1], min(max(ROUNDING, 10.0 * rtol), SEEN)
+    conclude(own, reference, last[0], last[1], reached, floor, axes, motors, known)
 
 
 @kernel

@@ -9,23 +9,46 @@ from __future__ import annotations
 
 from math import inf, sqrt
 
-from ..layout import REST, TRAVEL
+from ..layout import (
+    DIVERGED,
+    ENDED,
+    GAIN,
+    INSIDE,
+    LIMIT,
+    OFFSET,
+    OUT_OF_BOUNDS,
+    OUT_OF_STEPS,
+    OUT_OF_SWITCHES,
+    REST,
+    SIDE,
+    TRAVEL,
+)
+from .figures import drive, follow, hold_voltage, reach
 from .jit import kernel, put
 from .rig import meet_stop, rates, resolve, switch, watch
 
-ENDED, OUT_OF_STEPS, OUT_OF_SWITCHES = 0, 1, 2
 MOST_SWITCHES = 2000
+NOTHING, ANGLES, EVERYTHING = 0, 1, 2
+"""Which figures are taken on the way."""
 SHORTEST = 1e-9
 """Of first steps, s; a step that errs is made shorter anyway."""
 
 
 @kernel
 def integrate(y, t, c, m, rtol, atol, most_steps, w, states):
+    """`travel` without figures: the outcome, the number of samples filled, of steps, of switches and of impacts."""
+    return travel(y, t, c, m, rtol, atol, most_steps, w, states, w, NOTHING)[:5]
+
+
+@kernel
+def travel(y, t, c, m, rtol, atol, most_steps, w, states, f, figures):
     """States at all t into `states`, (len(t), 6), from y at t[0]; y and m end where the course ends.
 
-    Returns the outcome, the number of samples filled, of steps, of switches and of impacts.
+    `f`, laid out as `layout` says, follows the angles (ANGLES), or the voltages too (EVERYTHING). A course ends
+    early where it is given up, or where an angle leaves ±DIVERGED. Returns the outcome, the number of samples
+    filled, of steps, of switches and of impacts, and the time reached.
     """
-    k, q, trial, probe, g = w[:8], w[8:13], w[13], w[14], w[15]
+    k, q, u, trial, probe, g = w[:8], w[8:13], w[21:23], w[13], w[14], w[15]
     switches = impacts = steps = 0
     now, end, samples = t[0], t[-1], len(t)
     resolve(y, c, m)
@@ -39,18 +62,35 @@ def integrate(y, t, c, m, rtol, atol, most_steps, w, states):
         steps += 1
         h = min(h, end - now)
         if steps > most_steps or h < 1e-15 * end:
-            return OUT_OF_STEPS, done, steps, switches, impacts
+            return OUT_OF_STEPS, done, steps, switches, impacts, now
         error = attempt(y, h, k, trial, c, m, rtol, atol)
         if not error <= 1.0:  # also rejects a state that is not finite
             h *= max(0.2, 0.9 * error**-0.2) if error < inf else 0.1
             continue
         interpolant(y, h, k, trial, q)
-        which, share = first_switch(q, c, m, k, g, probe)
+        which, share = -1, 1.0
+        if not quiet(q, c, m, u):
+            which, share = first_switch(q, c, m, k, g, probe)
+        beyond = which < 0 and max(abs(trial[0]), abs(trial[1])) >= DIVERGED
+        if beyond:
+            share = departure(q)
+        if figures != NOTHING:
+            for i in range(2):
+                follow(f[i], q[0, i], q[1, i], q[2, i], q[3, i], q[4, i], now, h, share, True)
+        if figures == EVERYTHING:
+            for i in range(2):
+                b = f[2 + i]
+                if m[i] == INSIDE:
+                    drive(b, u[i, 0], u[i, 1], u[i, 2], u[i, 3], u[i, 4], h, share)
+                else:
+                    hold_voltage(b, m[SIDE + i] * c[LIMIT + i], c[LIMIT + i], share * h)
         reached = now + share * h
         last = end - reached < 1e-12 * end
         while done < samples and (t[done] <= reached or last):
             point(min((t[done] - now) / h, share), q, states[done])
             done += 1
+        if beyond:
+            return OUT_OF_BOUNDS, done, steps, switches, impacts, reached
         if which < 0:
             for i in range(6):
                 y[i] = trial[i]
@@ -59,7 +99,7 @@ def integrate(y, t, c, m, rtol, atol, most_steps, w, states):
         else:
             switches += 1
             if switches > MOST_SWITCHES:
-                return OUT_OF_SWITCHES, done, steps, switches, impacts
+                return OUT_OF_SWITCHES, done, steps, switches, impacts, reached
             point(share, q, y)
             if which == 4 and m[REST] == 0:
                 impacts += 1
@@ -67,7 +107,45 @@ def integrate(y, t, c, m, rtol, atol, most_steps, w, states):
             rates(y, c, m, k, 0)
             h *= max(1.0 - share, 1e-3)
         now = reached
-    return ENDED, done, steps, switches, impacts
+    return ENDED, done, steps, switches, impacts, now
+
+
+@kernel
+def quiet(q, c, m, u):
+    """Whether no mode can change within a step, by bounds on its polynomials; those of the voltages asked into u."""
+    for motor in range(2):
+        row = GAIN + 6 * motor
+        for i in range(5):
+            total = c[OFFSET + motor] if i == 0 else 0.0
+            for j in range(6):
+                total += c[row + j] * q[i, j]
+            u[motor, i] = total
+    if m[0] != INSIDE or m[1] != INSIDE or m[REST] != 0:
+        return False
+    for motor in range(2):
+        if bound(u[motor, 0], u[motor, 1], u[motor, 2], u[motor, 3], u[motor, 4]) > c[LIMIT + motor]:
+            return False
+    return bound(q[0, 0], q[1, 0], q[2, 0], q[3, 0], q[4, 0]) <= c[TRAVEL]
+
+
+@kernel
+def bound(p0, p1, p2, p3, p4):
+    """The largest of a step's Bernstein ordinates: nothing on the step is larger."""
+    b1, b3 = p0 + 0.25 * (p1 + p2), p0 + 0.75 * p1 + 0.25 * (p2 + p3)
+    b2 = p0 + 0.5 * p1 + (p2 + 0.5 * (p3 + p4)) / 3.0
+    return max(abs(p0), abs(b1), abs(b2), abs(b3), abs(p0 + p1))
+
+
+@kernel
+def departure(q):
+    """The share of a step at which the first angle leaves ±DIVERGED."""
+    share = 1.0
+    for i in range(2):
+        last = q[0, i] + q[1, i]
+        if abs(last) >= DIVERGED:
+            level = DIVERGED if last > 0.0 else -DIVERGED
+            share = min(share, reach(q[0, i], q[1, i], q[2, i], q[3, i], q[4, i], level, 0.0, 1.0))
+    return share
 
 
 @kernel

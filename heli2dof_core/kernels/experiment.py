@@ -2,86 +2,176 @@
 
 from __future__ import annotations
 
-from math import nan
+from math import inf
 
 from ..layout import (
     AUGMENTED,
-    DEVIATION,
+    DISTURBANCE,
     DIVERGED,
+    ENDED,
     HELD,
     IMPACTS,
-    LIMIT,
+    OUT_OF_BOUNDS,
     OUTCOME,
+    REACHED,
     REFERENCE,
-    SHARE,
     START,
+    TRAVEL,
 )
-from .dormand_prince import integrate
-from .jit import kernel
+from .dormand_prince import EVERYTHING, travel
+from .exact import dwell, march, proof
+from .figures import begin, conclude, confirm, doubtful, keep
+from .jit import kernel, put
 from .linear import respond
 from .loop import augment, compose
-from .measures import hold, measure, share_at_limit, trajectories
+from .measures import hold, trajectories
+
+ROUNDING = 1e-6
+"""An overshoot of the exact response below this share of the step is none: with poles at −10⁵, it may be rounding."""
+SEEN = 1e-4
+"""The same of a simulation, whose own error is about its tolerance, whatever that is."""
 
 
 @kernel
-def run_linear(theta_0, law, by_reference, whole, driven, x, t, w, states, voltages):
-    """The loop without limits, exact: absolute states, (7, samples), and voltages; the first sample that is held.
+def run_linear(
+    theta_0, law, by_reference, whole, driven, poles, x, t, most_steps, rest, w, ladder, nodes, f,
+    states, voltages, axes, motors, course,
+):  # fmt: skip
+    """The loop without limits, exact: absolute states, (7, samples), voltages and figures of merit, as `layout` says.
 
-    Scratch: `w`, LINEAR_WORKSPACE.
+    `poles` are those of `whole`. Scratch: `w`, LINEAR_WORKSPACE, `ladder`, LADDER, `nodes`, STRETCH, and `f`, twice
+    FOLLOWED.
     """
-    M, outputs = w[:AUGMENTED], w[AUGMENTED : AUGMENTED + 2]
+    n = AUGMENTED
+    M, outputs, slopes, scratch = w[:n], w[n : n + 2], w[n + 2 : n + 4], w[n + 4 :]
     augment(theta_0, law, by_reference, whole, driven, x, M, outputs, states)
-    respond(M, t[1], outputs, w[AUGMENTED + 2 :], states, voltages)
+    for i in range(n):
+        nodes[i, 0] = states[i, 0]
+        for j in range(2):
+            total = 0.0
+            for k in range(n):
+                total += outputs[j, k] * M[k, i]
+            slopes[j, i] = total
+    respond(M, t[1], outputs, scratch, states, voltages)
     for k in range(len(t)):
         states[0, k] += theta_0
-    return hold(states, voltages, DIVERGED)
+    own, ahead, end = f[:4], f[4:], t[-1]
+    start, reference = (x[START], x[START + 1]), (x[REFERENCE], x[REFERENCE + 1])
+    begin(own, start, reference, rest, x[START], x[START + 1], 0.0)
+    outcome, reached = march(
+        M, outputs, slopes, poles, 0.0, end, theta_0, most_steps, own, ladder, nodes, scratch
+    )
+    proven = outcome == ENDED
+    until = doubtful(own, end, proof(poles))
+    keep(own, ahead)
+    if proven and until > end:
+        proven = False
+        if until < inf:
+            found, _ = march(
+                M,
+                outputs,
+                slopes,
+                poles,
+                end,
+                until - end,
+                theta_0,
+                most_steps,
+                ahead,
+                ladder,
+                nodes,
+                scratch,
+            )
+            proven = found == ENDED
+    confirm(own, ahead, proven)
+    last = len(t) - 1
+    course[HELD] = last + 1 if outcome == ENDED else hold(states, voltages, DIVERGED)
+    course[OUTCOME], course[IMPACTS], course[REACHED] = outcome, 0, reached
+    conclude(own, reference, states[0, last], states[1, last], reached, ROUNDING, axes, motors, course)
 
 
 @kernel
-def run_nonlinear(c, m, x, t, rtol, atol, most_steps, w, raw, states, voltages):
-    """The rig within its limits: states, (6, samples), and voltages; the first held, the outcome, impacts.
+def run_nonlinear(
+    c, m, poles, x, t, since, rtol, atol, most_steps, rest, w, raw, grid, f, states, voltages, axes, motors, course
+):  # fmt: skip
+    """The rig within its limits: states, (6, samples), voltages and figures of merit, as `layout` says.
 
-    Scratch: `w`, WORKSPACE, and `raw`, (samples, 6).
+    `poles` are the linear loop's; the disturbance within c sets in at `since`. Scratch: `w`, WORKSPACE, `raw`,
+    (samples + 1, 6), `grid`, (samples + 1,), and `f`, twice FOLLOWED.
     """
-    y = w[16, :6]
+    own, ahead, y, end, samples = f[:4], f[4:], w[16, :6], t[-1], len(t)
     for i in range(6):
         y[i] = x[START + i] if i < 4 else 0.0
-    outcome, done, _, _, impacts = integrate(y, t, c, m, rtol, atol, most_steps, w, raw)
-    for k in range(done, len(t)):
-        for i in range(6):
-            raw[k, i] = nan
-    trajectories(raw, c, states, voltages)
-    return hold(states, voltages, DIVERGED), outcome, impacts
+    start, reference = (x[START], x[START + 1]), (x[REFERENCE], x[REFERENCE + 1])
+    begin(own, start, reference, rest, min(max(y[0], -c[TRAVEL]), c[TRAVEL]), y[1], 0.0)
+    volts = (c[DISTURBANCE], c[DISTURBANCE + 1])
+    before, outcome, done, impacts, reached = 0, ENDED, 0, 0, 0.0
+    while before < samples and t[before] < since:
+        before += 1
+    if before > 0:  # until the disturbance
+        c[DISTURBANCE] = c[DISTURBANCE + 1] = 0.0
+        for k in range(before):
+            grid[k] = t[k]
+        grid[before] = since
+        count = before + 1 if before < samples else before
+        outcome, done, _, _, impacts, reached = travel(
+            y, grid[:count], c, m, rtol, atol, most_steps, w, raw[:count], own, EVERYTHING
+        )
+        done = min(done, before)
+        c[DISTURBANCE], c[DISTURBANCE + 1] = volts[0], volts[1]
+    if before < samples and outcome == ENDED:
+        grid[0] = since if before > 0 else t[0]
+        count = samples - before + 1
+        for k in range(before, samples):
+            grid[k - before + 1] = t[k]
+        outcome, more, _, _, hits, reached = travel(
+            y, grid[:count], c, m, rtol, atol, most_steps, w, raw[before:], own, EVERYTHING
+        )
+        impacts += hits
+        for k in range(before, before + more - 1):
+            put(raw[k + 1], raw[k])
+        done = before + more - 1
+    trajectories(raw, done, c, states, voltages)
+    pitch, yaw = (y[0], y[1]) if outcome == ENDED else (states[0, samples - 1], states[1, samples - 1])
+    turn = min(dwell(poles), end)
+    settle(own, ahead, y, end, outcome, c, m, turn, rtol, atol, most_steps, w, raw[:2], grid[:2])
+    course[HELD] = done if outcome == OUT_OF_BOUNDS else samples
+    course[OUTCOME], course[IMPACTS], course[REACHED] = outcome, impacts, reached
+    floor = min(max(ROUNDING, 10.0 * rtol), SEEN)
+    conclude(own, reference, pitch, yaw, reached, floor, axes, motors, course)
+
+
+@kernel
+def settle(own, ahead, y, end, outcome, c, m, turn, rtol, atol, most_steps, w, raw, grid):
+    """Looks beyond the end, until an axis has been within its settling band for a time `turn`."""
+    proven, until = outcome == ENDED, doubtful(own, end, turn)
+    keep(own, ahead)
+    if proven and until > end:
+        grid[0], grid[1] = end, until
+        found, _, _, _, _, _ = travel(y, grid, c, m, rtol, atol, most_steps, w, raw, ahead, EVERYTHING)
+        proven = found == ENDED
+    confirm(own, ahead, proven)
 
 
 @kernel
 def run_experiments(
-    rig, trim, theta_0, law, by_reference, integral, whole, driven,
-    experiments, t, rtol, atol, most_steps, w, v, c, m, raw, zeros,
+    rig, trim, theta_0, law, by_reference, integral, whole, driven, poles,
+    experiments, t, rtol, atol, most_steps, w, v, ladder, nodes, f, c, m, raw, grid, zeros,
     linear, nonlinear, voltages, axes, motors, courses,
 ):  # fmt: skip
-    """Both responses to each row of `experiments`, (n, EXPERIMENT), and their measures.
+    """Both responses to each row of `experiments`, (n, EXPERIMENT), and their figures, without disturbances.
 
     Filled, with n in front: states `linear` (7, samples) and `nonlinear` (6, samples); and by model `voltages`
     (2, 2, samples), `axes` (2, 2, AXIS_METRICS), `motors` (2, 2, MOTOR_METRICS), `courses` (2, COURSE).
     """
     for n in range(len(experiments)):
         x = experiments[n]
-        held = run_linear(theta_0, law, by_reference, whole, driven, x, t, v, linear[n], voltages[n, 0])
-        courses[n, 0, HELD], courses[n, 0, OUTCOME], courses[n, 0, IMPACTS] = held, 0, 0
-        courses[n, 0, SHARE] = courses[n, 0, SHARE + 1] = 0.0
+        run_linear(
+            theta_0, law, by_reference, whole, driven, poles, x, t, most_steps, zeros, v, ladder, nodes, f,
+            linear[n], voltages[n, 0], axes[n, 0], motors[n, 0], courses[n, 0],
+        )  # fmt: skip
         compose(rig, trim, theta_0, law, by_reference, integral, x, c, m)
-        held, outcome, impacts = run_nonlinear(
-            c, m, x, t, rtol, atol, most_steps, w, raw, nonlinear[n], voltages[n, 1]
-        )
-        courses[n, 1, HELD], courses[n, 1, OUTCOME], courses[n, 1, IMPACTS] = held, outcome, impacts
-        for i in range(2):
-            courses[n, 1, SHARE + i] = share_at_limit(voltages[n, 1, i], c[LIMIT + i])
-        start, reference = (x[START], x[START + 1]), (x[REFERENCE], x[REFERENCE + 1])
-        for model in range(2):
-            angles = linear[n] if model == 0 else nonlinear[n]
-            rest = zeros if model == 0 else trim
-            pitch, yaw = measure(
-                t, angles, voltages[n, model], start, reference, rest, axes[n, model], motors[n, model]
-            )
-            courses[n, model, DEVIATION], courses[n, model, DEVIATION + 1] = pitch, yaw
+        c[DISTURBANCE] = c[DISTURBANCE + 1] = 0.0
+        run_nonlinear(
+            c, m, poles, x, t, inf, rtol, atol, most_steps, trim, w, raw, grid, f,
+            nonlinear[n], voltages[n, 1], axes[n, 1], motors[n, 1], courses[n, 1],
+        )  # fmt: skip

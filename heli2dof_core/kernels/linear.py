@@ -17,11 +17,11 @@ TERMS = 16
 def respond(M, dt, outputs, w, states, traces):
     """x_k = exp(M dt)ᵏ x₀ into `states`, (7, samples), from its first column; y_k = `outputs` x_k.
 
-    The last state is 1 throughout. `outputs` (rows, 7), `traces` (rows, samples). Scratch: `w`, (21, 7).
+    The last state is 1 throughout. `outputs` (rows, 7), `traces` (rows, samples). Scratch: `w`, (49, 7).
     """
     samples = states.shape[1]
-    power, other = w[:AUGMENTED], w[AUGMENTED : 2 * AUGMENTED]
-    exponential(M, dt, power, other, w[2 * AUGMENTED : 3 * AUGMENTED])
+    power, other = w[6 * AUGMENTED : 7 * AUGMENTED], w[:AUGMENTED]
+    exponential(M, dt, power, w)
     done = 1
     while done < samples:
         more = min(done, samples - done)
@@ -53,28 +53,11 @@ def combine(row, states, count, out, first):
 
 
 @kernel
-def exponential(M, dt, result, scaled, scratch):
-    """exp(M dt) into `result`, by its series for M dt / 2ˢ, squared s times."""
-    norm = 0.0
-    for j in range(AUGMENTED):
-        total = 0.0
-        for i in range(AUGMENTED):
-            total += abs(M[i, j])
-        norm = max(norm, total * dt)
-    squarings = 0
-    while norm > 0.5 and squarings < 1000:
-        norm *= 0.5
-        squarings += 1
-    factor = dt * 0.5**squarings
-    for i in range(AUGMENTED):
-        for j in range(AUGMENTED):
-            scaled[i, j] = M[i, j] * factor
-            result[i, j] = scaled[i, j] / TERMS + (1.0 if i == j else 0.0)
-    for term in range(TERMS - 1, 0, -1):
-        multiply(scaled, result, scratch)
-        for i in range(AUGMENTED):
-            for j in range(AUGMENTED):
-                result[i, j] = scratch[i, j] / term + (1.0 if i == j else 0.0)
+def exponential(M, dt, result, w):
+    """exp(M dt) into `result`, by its series for M dt / 2ˢ, squared s times. Scratch: `w`, (42, 7)."""
+    squarings = halvings(M, dt)
+    series(M, dt * 0.5**squarings, result, w)
+    scratch = w[:AUGMENTED]
     for _ in range(squarings):
         multiply(result, result, scratch)
         for i in range(AUGMENTED):
@@ -83,12 +66,64 @@ def exponential(M, dt, result, scaled, scratch):
 
 
 @kernel
+def halvings(M, dt):
+    """How often M dt must be halved for a 1-norm of at most 1/2."""
+    norm = 0.0
+    for j in range(AUGMENTED):
+        total = 0.0
+        for i in range(AUGMENTED):
+            total += abs(M[i, j])
+        norm = max(norm, total * dt)
+    count = 0
+    while norm > 0.5 and count < 1000:
+        norm *= 0.5
+        count += 1
+    return count
+
+
+@kernel
+def series(M, factor, result, w):
+    """Σ (M `factor`)ⁿ/n! up to n = TERMS into `result`, in four polynomials of degree 3 (Paterson and Stockmeyer)."""
+    A, A2, A3 = w[:AUGMENTED], w[AUGMENTED : 2 * AUGMENTED], w[2 * AUGMENTED : 3 * AUGMENTED]
+    A4, total = w[3 * AUGMENTED : 4 * AUGMENTED], w[4 * AUGMENTED : 5 * AUGMENTED]
+    product = w[5 * AUGMENTED : 6 * AUGMENTED]
+    for i in range(AUGMENTED):
+        for j in range(AUGMENTED):
+            A[i, j] = M[i, j] * factor
+    multiply(A, A, A2)
+    multiply(A, A2, A3)
+    multiply(A2, A2, A4)
+    weight = 1.0  # 1/n!
+    for n in range(1, TERMS + 1):
+        weight /= n
+    for i in range(AUGMENTED):
+        for j in range(AUGMENTED):
+            total[i, j] = weight * A4[i, j]
+    for block in range(3, -1, -1):
+        n = 4 * block
+        w3 = weight * (n + 4)
+        w2 = w3 * (n + 3)
+        w1 = w2 * (n + 2)
+        weight = w1 * (n + 1)
+        for i in range(AUGMENTED):
+            for j in range(AUGMENTED):
+                total[i, j] += w1 * A[i, j] + w2 * A2[i, j] + w3 * A3[i, j]
+            total[i, i] += weight
+        if block > 0:
+            multiply(total, A4, product)
+            for i in range(AUGMENTED):
+                for j in range(AUGMENTED):
+                    total[i, j] = product[i, j]
+    for i in range(AUGMENTED):
+        for j in range(AUGMENTED):
+            result[i, j] = total[i, j]
+
+
+@kernel
 def multiply(A, B, C):
     """A B into C, which is neither."""
     for i in range(AUGMENTED):
+        a, b, c, d, e, f, g = A[i, 0], A[i, 1], A[i, 2], A[i, 3], A[i, 4], A[i, 5], A[i, 6]
         for j in range(AUGMENTED):
-            C[i, j] = 0.0
-        for k in range(AUGMENTED):
-            a = A[i, k]
-            for j in range(AUGMENTED):
-                C[i, j] += a * B[k, j]
+            total = a * B[0, j] + b * B[1, j] + c * B[2, j] + d * B[3, j]
+            C[i, j] = total + e * B[4, j] + f * B[5, j] + g * B[6, j]

@@ -13,24 +13,22 @@ from ..layout import (
     AXIS_METRICS,
     CONSTANTS,
     COURSE,
-    DEVIATION,
-    HELD,
+    LADDER,
     LINEAR_WORKSPACE,
     MODES,
     MOTOR_METRICS,
-    SHARE,
+    STRETCH,
     WORKSPACE,
 )
 from ..loop import Loop
-from ..signals import Floats, fixed
+from ..signals import Floats
 from ..spec import Limits, Model, Scenario
 from .experiment import NOTHING, experiment
-from .linear import linear_response
+from .linear import AT_REST, FOLLOWED_TWICE, linear_response
 from .nonlinear import ABSOLUTE_TOLERANCE, limited_response
-from .response import Response
+from .response import Measured, Response
 
 _MODELS: tuple[Model, ...] = ("linear", "nonlinear")
-_AT_REST = fixed(np.zeros(2))
 
 
 @dataclass(frozen=True)
@@ -49,17 +47,11 @@ class Courses:
 
     def response(self, n: int, model: Model) -> Response:
         """The response of one model to the experiment `n`."""
-        x, numbers = self.experiments[n], self.courses[n]
+        i, x = _MODELS.index(model), self.experiments[n]
+        found = Measured(self.axes[n, i], self.motors[n, i], self.courses[n, i])
         if model == "linear":
-            course = (self.t, self.linear[n, : self.order], self.voltages[n, 0])
-            return linear_response(x, *course, numbers[0, HELD])
-        course = (self.t, self.nonlinear[n, : self.order], self.voltages[n, 1])
-        return limited_response(x, *course, numbers[1, SHARE:].tolist())
-
-    def measures(self, n: int, model: Model) -> tuple[list[float], Floats, Floats]:
-        """Deviations, axes' and motors' metrics of one model's response, as `metrics.measured` takes them."""
-        i = _MODELS.index(model)
-        return self.courses[n, i, DEVIATION:SHARE].tolist(), self.axes[n, i], self.motors[n, i]
+            return linear_response(x, self.t, self.linear[n, : self.order], self.voltages[n, 0], found)
+        return limited_response(x, self.t, self.nonlinear[n, : self.order], self.voltages[n, 1], found)
 
 
 def run_experiments(
@@ -89,6 +81,7 @@ def run_experiments(
         NOTHING if loop.integral is None else loop.integral,
         loop.A,
         loop.B,
+        loop.poles,
         experiments,
         t,
         first.rtol,
@@ -96,10 +89,14 @@ def run_experiments(
         most_steps or kernels.most_steps,
         np.empty(WORKSPACE),
         np.empty(LINEAR_WORKSPACE),
+        np.empty(LADDER),
+        np.empty(STRETCH),
+        np.empty(FOLLOWED_TWICE),
         np.empty(CONSTANTS),
         np.empty(MODES, dtype=np.int64),
-        np.empty((len(t), 6)),
-        _AT_REST,
+        np.empty((len(t) + 1, 6)),
+        np.empty(len(t) + 1),
+        AT_REST,
         *filled,
     )
     return Courses(t, len(loop.A), experiments, *filled)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,8 +13,9 @@ from ..layout import FED, WORKSPACE
 from ..loop import Loop
 from ..signals import Floats
 from ..spec import Digital, Limits, Scenario
-from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop, response_of
-from .response import Response
+from .linear import FOLLOWED_TWICE
+from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop, limited_response
+from .response import Measured, Response
 
 FILTER_FREQUENCY = 2 * np.pi * 20
 """Natural frequency of the rig's rate filters, rad/s (Quanser 2-DOF Helicopter, laboratory manual)."""
@@ -34,34 +36,39 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
     """
     system = NonlinearLoop.of(loop, limits, scenario)
     t = scenario.times
-    states = np.full((scenario.samples, 6), np.nan)
-    held = np.full((scenario.samples, 2), np.nan)
+    states, held, found = np.empty((scenario.samples, 6)), np.empty((scenario.samples, 2)), Measured.empty()
     count = int(np.ceil(scenario.duration / digital.sample_time)) + 2
     noise = digital.noise * np.random.default_rng(digital.seed).standard_normal((count, 2))
     kernels = engine()
-    outcome, _, impacts = kernels.run_digital(
+    kernels.run_digital(
         system.start.copy(),
         t,
         system.constants,
         system.modes.copy(),
         settings_of(digital, standing_voltages(loop, system)),
+        loop.poles,
+        system.experiment,
         noise,
         system.disturbed_from,
         scenario.rtol,
         ABSOLUTE_TOLERANCE * scenario.rtol,
         kernels.most_steps,
+        loop.design.plant.trim,
         np.zeros(WORKSPACE),
         np.empty_like(system.constants),
         np.empty_like(system.modes),
         np.empty(len(t) + 2),
         np.empty((len(t) + 2, 6)),
+        np.empty(FOLLOWED_TWICE),
         states,
         held,
+        found.axes,
+        found.motors,
+        found.course,
     )
     course, voltages = np.ascontiguousarray(states.T), np.ascontiguousarray(held.T)
-    response = response_of(system, t, course, voltages, outcome=outcome, impacts=impacts)
-    remarks = tuple(_remarks(loop, scenario, digital))
-    return Response(**{**vars(response), "findings": (*response.findings, *remarks)})
+    response = limited_response(system.experiment, t, course[: system.order], voltages, found)
+    return replace(response, findings=(*response.findings, *_remarks(loop, scenario, digital)))
 
 
 def standing_voltages(loop: Loop, system: NonlinearLoop) -> Floats:

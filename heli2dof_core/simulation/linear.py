@@ -5,32 +5,57 @@ from __future__ import annotations
 import numpy as np
 
 from ..engine import engine
-from ..layout import AUGMENTED, LINEAR_WORKSPACE, START
+from ..layout import AUGMENTED, FOLLOWED, LADDER, LINEAR_WORKSPACE, START, STRETCH
 from ..loop import Loop
-from ..signals import Floats
+from ..signals import Floats, fixed
 from ..spec import Scenario
 from .experiment import experiment
-from .response import Response, divergence
+from .response import Measured, Response, course_findings
+
+AT_REST = fixed(np.zeros(2))
+"""Its voltages are deviations from the trim."""
+FOLLOWED_TWICE = (2 * FOLLOWED[0], FOLLOWED[1])
+"""Shape of the scratch array for figures: within the window, and beyond it."""
 
 
-def simulate_linear(loop: Loop, scenario: Scenario) -> Response:
+def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = None) -> Response:
     """Step response of the loop without limits, exact at every sample.
 
     Ignores saturation, anti-windup, travel stops and feed-forward. The states are augmented by a
-    constant 1 that carries the references, so that one exponential holds the whole step.
+    constant 1 that carries the references, so that one exponential holds the whole step. Its figures are
+    given up after `most_steps` groups of steps, by default a tenth of a second's work.
     """
     x, t = experiment(loop, None, scenario), scenario.times
-    states, voltages = np.empty((AUGMENTED, len(t))), np.empty((2, len(t)))
-    matrices = (loop.voltage_from_state, loop.voltage_from_reference, loop.A, loop.B)
-    held = engine().run_linear(
-        loop.design.plant.theta_0, *matrices, x, t, np.empty(LINEAR_WORKSPACE), states, voltages
+    states, voltages, found, kernels = (
+        np.empty((AUGMENTED, len(t))),
+        np.empty((2, len(t))),
+        Measured.empty(),
+        engine(),
     )
-    return linear_response(x, t, states[: len(loop.A)], voltages, held)
+    matrices = (loop.voltage_from_state, loop.voltage_from_reference, loop.A, loop.B, loop.poles)
+    kernels.run_linear(
+        loop.design.plant.theta_0,
+        *matrices,
+        x,
+        t,
+        most_steps or kernels.most_steps,
+        AT_REST,
+        np.empty(LINEAR_WORKSPACE),
+        np.empty(LADDER),
+        np.empty(STRETCH),
+        np.empty(FOLLOWED_TWICE),
+        states,
+        voltages,
+        found.axes,
+        found.motors,
+        found.course,
+    )
+    return linear_response(x, t, states[: len(loop.A)], voltages, found)
 
 
-def linear_response(x: Floats, t: Floats, states: Floats, voltages: Floats, held: float) -> Response:
-    """The course of an experiment with its remark; held from sample `held` on."""
+def linear_response(x: Floats, t: Floats, states: Floats, voltages: Floats, found: Measured) -> Response:
+    """The course of an experiment with its remarks."""
     theta, psi, theta_start, psi_start = x[: START + 2].tolist()
-    start = (theta_start, psi_start)
-    remarks = divergence(t, int(held))
-    return Response("linear", t, states[:2], voltages, (theta, psi), start, (0.0, 0.0), remarks, states)
+    ends = ((theta, psi), (theta_start, psi_start))
+    remarks = tuple(course_findings("linear", t, found))
+    return Response("linear", t, states[:2], voltages, *ends, (0.0, 0.0), remarks, states, found)

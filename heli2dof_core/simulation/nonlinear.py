@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import degrees
 
@@ -14,12 +14,12 @@ from ..findings import Finding
 from ..layout import (
     BOUND,
     CONSTANTS,
-    DIVERGED,
     GAIN,
     LIMIT,
     MODES,
     OFFSET,
     REFERENCE,
+    SHARE,
     START,
     STOP,
     TRACKING,
@@ -30,15 +30,11 @@ from ..loop import Loop
 from ..signals import INPUTS, Floats
 from ..spec import Limits, Scenario
 from .experiment import NOTHING, experiment
-from .response import Response, divergence
+from .linear import FOLLOWED_TWICE
+from .response import Measured, Response, course_findings
 
 ABSOLUTE_TOLERANCE = 0.1
 """Absolute tolerance of the integration as a share of the relative one (states are of order 1)."""
-
-_OUTCOMES = {
-    1: "it takes too many steps; shorten the duration or loosen the tolerance",
-    2: "it switches between limits without end",
-}
 
 
 @dataclass(frozen=True)
@@ -112,77 +108,40 @@ def simulate_nonlinear(
     that clamping stops or lets go, pitch that meets its stop (without rebound) or leaves it. After
     `most_steps`, by default half a second's work or two, it is given up and a finding says so.
     """
-    system = NonlinearLoop.of(loop, limits, scenario)
-    t = scenario.times
-    states = np.full((scenario.samples, 6), np.nan)
-    outcome, impacts = _integrate(system, scenario.rtol, most_steps or engine().most_steps, t, states)
-    course, voltages = np.empty((6, len(t))), np.empty((2, len(t)))
-    engine().trajectories(states, system.constants, course, voltages)
-    return response_of(system, t, course, voltages, outcome=outcome, impacts=impacts)
-
-
-def _integrate(
-    system: NonlinearLoop, rtol: float, most_steps: int, t: Floats, states: Floats
-) -> tuple[int, int]:
-    """Fills `states` before and after the disturbance sets in; the outcome and the number of impacts."""
-    y, modes, kernels = system.start.copy(), system.modes.copy(), engine()
-    numbers = (rtol, ABSOLUTE_TOLERANCE * rtol, most_steps, np.empty(WORKSPACE))
-    calm = system.constants.copy()
-    calm[-2:] = 0.0
-    before = int(np.searchsorted(t, system.disturbed_from))
-    if before == len(t):
-        outcome, _, _, _, impacts = kernels.integrate(y, t, calm, modes, *numbers, states)
-        return outcome, impacts
-    impacts, at = 0, max(system.disturbed_from, 0.0)
-    for constants, grid, place in (
-        (calm, np.append(t[:before], at), slice(0, before)),
-        (system.constants, np.insert(t[before:], 0, at), slice(before, len(t))),
-    ):
-        if grid[-1] <= grid[0]:
-            continue
-        course = np.full((len(grid), 6), np.nan)
-        outcome, _, _, _, hits = kernels.integrate(y, grid, constants, modes, *numbers, course)
-        impacts += hits
-        states[place] = course[:-1] if place.start == 0 and before else course[1:]
-        if outcome:
-            return outcome, impacts
-    return 0, impacts
-
-
-def response_of(
-    system: NonlinearLoop, t: Floats, states: Floats, voltages: Floats, *, outcome: int, impacts: int
-) -> Response:
-    """What a kernel has filled, as a response: states (6, n) and voltages (2, n), NaN where none was reached."""
-    kernels = engine()
-    held = kernels.hold(states, voltages, DIVERGED)
-    shares = [kernels.share_at_limit(voltages[i], system.limits[i]) for i in range(2)]
-    numbers = (*shares, held, outcome, impacts)
-    return limited_response(system.experiment, t, states[: system.order], voltages, numbers)
-
-
-def limited_response(
-    x: Floats, t: Floats, states: Floats, voltages: Floats, numbers: Sequence[float]
-) -> Response:
-    """The course of an experiment with its remarks; `numbers` from SHARE on as `layout` says."""
-    pitch, yaw, held, outcome, impacts = numbers
-    theta, psi, theta_start, psi_start = x[: START + 2].tolist()
-    findings = [*divergence(t, int(held))]
-    if outcome:
-        words = f"The simulation stopped early: {_OUTCOMES[int(outcome)]}."
-        findings.append(Finding("integration_stopped", "warning", words))
-    findings += _remarks(x, (pitch, yaw), impacts)
-    start = (theta_start, psi_start)
-    return Response(
-        "nonlinear",
+    system, kernels = NonlinearLoop.of(loop, limits, scenario), engine()
+    t, found = scenario.times, Measured.empty()
+    states, voltages = np.empty((6, len(t))), np.empty((2, len(t)))
+    kernels.run_nonlinear(
+        system.constants,
+        system.modes,
+        loop.poles,
+        system.experiment,
         t,
-        states[:2],
-        voltages,
-        (theta, psi),
-        start,
-        (pitch, yaw),
-        tuple(findings),
+        system.disturbed_from,
+        scenario.rtol,
+        ABSOLUTE_TOLERANCE * scenario.rtol,
+        most_steps or kernels.most_steps,
+        loop.design.plant.trim,
+        np.empty(WORKSPACE),
+        np.empty((len(t) + 1, 6)),
+        np.empty(len(t) + 1),
+        np.empty(FOLLOWED_TWICE),
         states,
+        voltages,
+        found.axes,
+        found.motors,
+        found.course,
     )
+    return limited_response(system.experiment, t, states[: system.order], voltages, found)
+
+
+def limited_response(x: Floats, t: Floats, states: Floats, voltages: Floats, found: Measured) -> Response:
+    """The course of an experiment with its remarks."""
+    theta, psi, theta_start, psi_start = x[: START + 2].tolist()
+    ends = ((theta, psi), (theta_start, psi_start))
+    pitch, yaw, _, _, impacts, *_ = found.course[SHARE:].tolist()
+    remarks = (*course_findings("nonlinear", t, found), *_remarks(x, (pitch, yaw), impacts))
+    return Response("nonlinear", t, states[:2], voltages, *ends, (pitch, yaw), remarks, states, found)
 
 
 def _remarks(x: Floats, saturated: tuple[float, float], impacts: float) -> Iterator[Finding]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..engine import engine
+from ..errors import RecordingError
 from ..layout import GAIN, RECORDED_WORKSPACE, SENSITIVITIES, TRAVEL, WORKSPACE
 from ..loop import Loop
 from ..parameters import Parameters
@@ -21,6 +23,15 @@ from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
 SHARE_OF_TIME_CONSTANT = 0.05
 """Longest step of the Runge–Kutta method in the rig's shortest time constants: an error below 1e-8 per step."""
 RTOL = 1e-6
+MOST_STEPS = 30_000_000
+"""Steps of the Runge–Kutta method that one simulation of a recording may take: half a minute's work."""
+_AT_A_STRETCH = 200_000
+"""Steps between two looks whether somebody still waits."""
+Wanted = Callable[[], None]
+
+
+def nobody_leaves() -> None:
+    """Looks for nobody."""
 
 
 @dataclass(frozen=True)
@@ -50,37 +61,77 @@ def longest_step(p: Parameters) -> float:
     return SHARE_OF_TIME_CONSTANT / max(1.0, *(abs(float(rate)) for rate in rates))
 
 
-def run_held(p: Parameters, start: Floats, t: Floats, volts: Floats, travel: float | None) -> Floats:
-    """States (n, 4) at all t under held voltages (n, 2) from `start`; pitch is stopped at ±`travel` (rad)."""
+def run_held(
+    p: Parameters,
+    start: Floats,
+    t: Floats,
+    volts: Floats,
+    travel: float | None,
+    *,
+    wanted: Wanted = nobody_leaves,
+) -> Floats:
+    """States (n, 4) at all t under held voltages (n, 2) from `start`; pitch is stopped at ±`travel` (rad).
+
+    Raises:
+        RecordingError: it takes more than `MOST_STEPS`.
+    """
     states, constants = np.empty((len(t), 4)), np.zeros(TRAVEL + 1)
     constants[:GAIN] = rig_constants(p)
     constants[TRAVEL] = np.inf if travel is None else travel
-    engine().run_held(
-        np.array(start, dtype=float),
-        t,
-        volts,
-        constants,
-        longest_step(p),
-        np.zeros(RECORDED_WORKSPACE),
-        states,
-    )
+    step, y = longest_step(p), np.array(start, dtype=float)
+    marks = np.arange(len(t))
+    for first, end in _parts(np.column_stack([marks[:-1], marks[1:]]), t, step):
+        wanted()
+        rows = slice(first, end + 1)  # the last row of one part is the first of the next
+        own = states[rows]
+        scratch = np.zeros(RECORDED_WORKSPACE)
+        engine().run_held(y, t[rows], volts[rows], constants, step, scratch, own)
+        y = own[-1].copy()
     return states
 
 
 def run_segments(
-    p: Any, starts: Floats, bounds: NDArray[np.int64], t: Floats, volts: Floats, *, step: float
+    p: Any,
+    starts: Floats,
+    bounds: NDArray[np.int64],
+    t: Floats,
+    volts: Floats,
+    *,
+    step: float,
+    wanted: Wanted = nobody_leaves,
 ) -> tuple[Floats, Floats]:
     """Angles (n, 2) of each segment from its own start, and their derivatives (n, 2, SENSITIVITIES).
 
     `p` has Parameters' fields, of any value; `bounds`, (segments, 2), are first and last + 1; samples outside are 0.
     The derivatives are by θ, ψ, θ̇, ψ̇ at the segment's start, then by K_pp, K_py, K_yp, K_yy, B_p, B_y, K_s.
+
+    Raises:
+        RecordingError: it takes more than `MOST_STEPS`.
     """
     constants = np.array(rig_constants(p), dtype=float)
     outputs, slopes = np.zeros((len(t), 2)), np.zeros((len(t), 2, SENSITIVITIES))
-    engine().run_segments(
-        starts, bounds, t, volts, constants, step, np.zeros(RECORDED_WORKSPACE), outputs, slopes
-    )
+    scratch = np.zeros(RECORDED_WORKSPACE)
+    for first, end in _parts(bounds, t, step):
+        wanted()
+        own = slice(first, end)
+        engine().run_segments(starts[own], bounds[own], t, volts, constants, step, scratch, outputs, slopes)
     return outputs, slopes
+
+
+def _parts(bounds: NDArray[np.int64], t: Floats, step: float) -> Iterator[tuple[int, int]]:
+    """Runs of segments, first and last + 1, of some `_AT_A_STRETCH` steps each."""
+    last = np.minimum(bounds[:, 1], len(t) - 1)
+    count = np.ceil((t[last] - t[bounds[:, 0]]) / step) + (last - bounds[:, 0])
+    total = np.cumsum(count)
+    if len(total) and total[-1] > MOST_STEPS:
+        raise RecordingError(
+            f"the simulation of this recording takes {total[-1]:.2g} steps",
+            field="parameters",
+            hint=f"At most {MOST_STEPS:.0e} are made: a rig as stiff as this one (damping over inertia) needs a "
+            "shorter recording.",
+        )
+    edges = np.flatnonzero(np.diff(total // _AT_A_STRETCH, prepend=-1.0) > 0).tolist()
+    yield from zip(edges, [*edges[1:], len(bounds)], strict=True)
 
 
 def run_recorder(

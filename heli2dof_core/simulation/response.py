@@ -2,12 +2,45 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from ..findings import Finding
+from ..layout import (
+    AXIS_METRICS,
+    COURSE,
+    HELD,
+    MOTOR_METRICS,
+    OUT_OF_STEPS,
+    OUT_OF_SWITCHES,
+    OUTCOME,
+    REACHED,
+)
 from ..signals import Floats
 from ..tables import Shown, number
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Figures of merit as the kernels fill them, laid out as `layout` says; `metrics` gives them names.
+
+    Attributes:
+        axes: (2, AXIS_METRICS), nothing where an axis is not stepped.
+        motors: (2, MOTOR_METRICS).
+        course: (COURSE,).
+    """
+
+    axes: Floats
+    motors: Floats
+    course: Floats
+
+    @classmethod
+    def empty(cls) -> Measured:
+        """Room for them."""
+        return cls(np.empty((2, AXIS_METRICS)), np.empty((2, MOTOR_METRICS)), np.empty(COURSE))
 
 
 @dataclass(frozen=True, repr=False)
@@ -26,6 +59,7 @@ class Response(Shown):
         findings: remarks on this response.
         states: θ, ψ absolute, θ̇, ψ̇, and z_p, z_y = ∫ error where anything integrates, shape
             (4 or 6, samples), rad, rad/s, rad·s.
+        measured: figures of the course itself, whatever its samples are.
     """
 
     model: Literal["linear", "nonlinear"]
@@ -35,8 +69,9 @@ class Response(Shown):
     reference: tuple[float, float]
     start: tuple[float, float]
     saturated: tuple[float, float]
-    findings: tuple[Finding, ...] = ()
-    states: Floats | None = None
+    findings: tuple[Finding, ...]
+    states: Floats
+    measured: Measured
 
     @property
     def theta(self) -> Floats:
@@ -71,9 +106,19 @@ class Response(Shown):
         return f"{self.model}; θ {theta}, ψ {psi} rad; {len(self.t)} samples of {number(float(self.t[-1]))} s{codes}"
 
 
-def divergence(t: Floats, held: int) -> tuple[Finding, ...]:
-    """The remark on a response that is held from sample `held` on; none where that is behind its end."""
-    if held >= len(t):
-        return ()
-    message = f"The response grows without bound. It is shown until t = {t[held - 1]:.3g} s."
-    return (Finding("diverges", "error", message),)
+_GIVEN_UP = {
+    OUT_OF_STEPS: "it takes too many steps; shorten the duration or loosen the tolerance",
+    OUT_OF_SWITCHES: "it switches between limits without end",
+}
+
+
+def course_findings(model: Literal["linear", "nonlinear"], t: Floats, found: Measured) -> Iterator[Finding]:
+    """How a course ended before its time: without bound, or given up."""
+    held, outcome, reached = (found.course[i] for i in (HELD, OUTCOME, REACHED))
+    if held < len(t):
+        message = f"The response grows without bound. It is shown until t = {t[int(held) - 1]:.3g} s."
+        yield Finding("diverges", "error", message)
+    elif outcome in _GIVEN_UP:
+        what = "The simulation" if model == "nonlinear" else "Measuring the linear response"
+        words = f"{what} stopped early, at t = {reached:.3g} s: {_GIVEN_UP[int(outcome)]}."
+        yield Finding("integration_stopped", "warning", words)

@@ -13,7 +13,7 @@ import { motorText } from './metrics.js';
 const ROUNDING = 1e-9; // below it all pole errors are equally good
 const norm = (/** @type {string} */ sub) => h('span', { class: 'sym' }, '‖', h('i', {}, 'K'), '‖', h('sub', {}, sub));
 const step = (/** @type {any} */ row, /** @type {Axis} */ axis) => (row.stable ? row.axis_metrics?.[axis]?.[axis] : undefined);
-const overshoot = (/** @type {number|undefined} */ v) => (v === undefined ? '–' : `${fixed(v, 1)} %`);
+const percents = (/** @type {number|undefined} */ v) => (v === undefined ? '–' : `${fixed(v, 1)} %`);
 const voltage = (/** @type {any} */ row, /** @type {'V_p'|'V_y'} */ name) => hardest(row.axis_metrics)[name];
 
 /** @param {any} row */
@@ -37,7 +37,8 @@ const COLUMNS = [
     cost: (r, cross) => (r.rga ? Math.abs(r.rga[0][cross ? 1 : 0] - 1) : undefined) },
   ...(/** @type {Axis[]} */ (['theta', 'psi']).flatMap((axis) => [
     { id: `rise-${axis}`, group: axis, name: () => ['Rise'], title: '10 to 90 % of this axis’ step, nonlinear rig', text: (/** @type {any} */ r) => seconds(step(r, axis)?.rise_time), cost: (/** @type {any} */ r) => step(r, axis)?.rise_time },
-    { id: `overshoot-${axis}`, group: axis, name: () => ['Over\u00adshoot'], title: 'beyond the reference of this axis’ step, nonlinear rig', text: (/** @type {any} */ r) => overshoot(step(r, axis)?.overshoot), cost: (/** @type {any} */ r) => step(r, axis)?.overshoot },
+    { id: `overshoot-${axis}`, group: axis, name: () => ['Over\u00adshoot'], title: 'beyond the reference of this axis’ step, nonlinear rig', text: (/** @type {any} */ r) => percents(step(r, axis)?.overshoot), cost: (/** @type {any} */ r) => step(r, axis)?.overshoot },
+    { id: `undershoot-${axis}`, group: axis, name: () => ['Under\u00adshoot'], title: 'from the start away from the reference of this axis’ step, nonlinear rig', text: (/** @type {any} */ r) => percents(step(r, axis)?.undershoot), cost: (/** @type {any} */ r) => step(r, axis)?.undershoot },
   ])),
   ...(/** @type {('V_p'|'V_y')[]} */ (['V_p', 'V_y']).map((name) => (
     { id: name, name: () => [symbol('V', name[2]), ' peak'], title: `${name === 'V_p' ? 'pitch' : 'yaw'} motor over both steps, trim included; or the longer share of time at its limit`, text: (/** @type {any} */ r) => motorText({ [name]: voltage(r, name) ?? {} }, name),
@@ -70,14 +71,14 @@ export class CompareTable {
 
   #head() {
     const cell = (/** @type {Column} */ c, /** @type {number} */ rows) => h('th', { scope: 'col', rowspan: rows, title: c.title }, c.name());
+    const [first, grouped] = [COLUMNS.findIndex((c) => c.group), COLUMNS.filter((c) => c.group).length];
     const pair = (/** @type {Axis} */ axis) => {
       const name = axis === 'theta' ? 'pitch' : 'yaw';
-      return h('th', { scope: 'colgroup', colspan: 2, class: 'group' }, h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }), ` ${name} step`);
+      return h('th', { scope: 'colgroup', colspan: grouped / 2, class: 'group' }, h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }), ` ${name} step`);
     };
-    const first = COLUMNS.findIndex((c) => c.group);
     return h('thead', {},
-      h('tr', {}, h('th', { scope: 'col', rowspan: 2, class: 'method-name' }, 'Method'), COLUMNS.slice(0, first).map((c) => cell(c, 2)), pair('theta'), pair('psi'), COLUMNS.slice(first + 4).map((c) => cell(c, 2)), h('th', { rowspan: 2 }, h('span', { class: 'sr' }, 'Use'))),
-      h('tr', {}, COLUMNS.slice(first, first + 4).map((c) => cell(c, 1))));
+      h('tr', {}, h('th', { scope: 'col', rowspan: 2, class: 'method-name' }, 'Method'), COLUMNS.slice(0, first).map((c) => cell(c, 2)), pair('theta'), pair('psi'), COLUMNS.slice(first + grouped).map((c) => cell(c, 2)), h('th', { rowspan: 2 }, h('span', { class: 'sr' }, 'Use'))),
+      h('tr', {}, COLUMNS.slice(first, first + grouped).map((c) => cell(c, 1))));
   }
 
   /** @param {{rows: any[], claim: string}} answer */

@@ -3,7 +3,7 @@ import { h, setAttr, setText, symbol } from '../dom.js';
 import { brief, decibel, DEGREE, degrees, differs, fixed, percent, seconds, significant } from '../format.js';
 import { recall, remember } from '../memory.js';
 import { AXES, verdictOf } from '../requirements.js';
-import { say } from '../words.js';
+import { say, t } from '../words.js';
 
 /** @typedef {import('../types.js').Reply} Reply */
 /** @typedef {'theta'|'psi'} Axis */
@@ -46,12 +46,15 @@ export function linearPeak(step, name) {
 /**
  * One figure of an axis' step. `value` is compared with the linear model's and shown by `text`; `most` replaces that text where the rig has something else to say.
  * @typedef {{id: string, group: string, more?: boolean, name: () => (Node|string)[], title: string, text: (v: number|undefined) => string, value: (m: any, axis: Axis, step?: import('../types.js').Step) => number|undefined,
- *   least?: number, linear?: (step: import('../types.js').Step|undefined, axis: Axis) => number|undefined, most?: (m: any) => string|undefined}} Figure
+ *   least?: number, linear?: (step: import('../types.js').Step|undefined, axis: Axis) => number|undefined, most?: (m: any, axis: Axis) => string|undefined}} Figure
  * One figure of the loop: per motor, or of both at once.
  * @typedef {{id: string, group: string, more?: boolean, name: () => (Node|string)[], title: string, margin?: (g: any) => string, both?: (s: NonNullable<Reply['sensitivity']>) => string}} Robustness
  */
 const OGATA = 'Ogata, Modern Control Engineering, 2010, section 5.3';
 const GRAHAM = 'Graham and Lathrop, Trans. AIEE 72 (1953) 273';
+
+/** What stands in place of a settling time that lies beyond the window. @param {any} m @param {Axis} axis */
+export const notSettled = (m, axis) => (m?.[axis]?.settled === false ? t('not settled') : undefined);
 
 /** @param {Motor} name @returns {Figure[]} */
 const motorRows = (name) => [
@@ -64,8 +67,9 @@ const motorRows = (name) => [
 /** @type {Figure[]} */
 const FIGURES = [
   { id: 'rise', group: 'response', name: () => ['Rise time'], title: `Time from 10 % to 90 % of the step (${OGATA})`, text: seconds, value: (m, a) => m?.[a]?.rise_time, least: 0.01 },
-  { id: 'settling', group: 'response', name: () => ['Settling time'], title: `Time after which the angle stays within 2 % of the step around its reference (${OGATA})`, text: seconds, value: (m, a) => m?.[a]?.settling_time, least: 0.01 },
+  { id: 'settling', group: 'response', name: () => ['Settling time'], title: `Time after which the angle stays within 2 % of the step around its reference (${OGATA})`, text: seconds, value: (m, a) => m?.[a]?.settling_time, least: 0.01, most: notSettled },
   { id: 'overshoot', group: 'response', name: () => ['Overshoot'], title: `Largest excess beyond the reference, in percent of the step (${OGATA})`, text: (v) => (v === undefined ? '–' : `${fixed(v, 1)} %`), value: (m, a) => m?.[a]?.overshoot, least: 1 },
+  { id: 'undershoot', group: 'response', more: true, name: () => ['Undershoot'], title: 'Largest excursion from the start away from the reference, in percent of the step (Skogestad and Postlethwaite, Multivariable Feedback Control, 2005, section 5.6)', text: (v) => (v === undefined ? '–' : `${fixed(v, 1)} %`), value: (m, a) => m?.[a]?.undershoot, least: 1 },
   { id: 'error', group: 'response', name: () => ['Error at the end'], title: 'Reference minus the last angle shown', text: (v) => degrees(v, 2), value: (m, a) => m?.[a]?.steady_state_error, least: 1e-3 },
   { id: 'coupling', group: 'response', name: () => ['Other axis moves'], title: 'Largest deviation of the axis that is not stepped', text: (v) => degrees(v, 2), value: (m) => m?.coupling_peak, least: 1e-3 },
   { id: 'iae', group: 'response', more: true, name: () => ['IAE, °s'], title: `∫ |e| dt, integral of the absolute error over the time shown (${GRAHAM})`, text: angleTime, value: (m, a) => m?.[a]?.iae, least: 1e-4 },
@@ -129,9 +133,9 @@ export class MetricsPanel {
         const { own, linear, cell } = this.figures[i][j];
         const value = row.value(metrics, axis);
         const ideal = row.linear ? row.linear(pair?.linear, axis) : row.value(pair?.linear.metrics, axis);
-        const most = row.most?.(metrics);
+        const most = row.most?.(metrics, axis);
         const missed = (row.id === 'settling' || row.id === 'overshoot') && verdict?.[row.id] === true;
-        setText(own, most ?? (missed ? `✕ ${row.text(value)}` : row.text(value)));
+        setText(own, missed ? `✕ ${most ?? row.text(value)}` : most ?? row.text(value));
         setAttr(own, 'title', missed ? 'misses the requirement' : '');
         const beside = showLinear && ideal !== undefined && (most !== undefined || differs(value, ideal, row.least));
         setText(linear, beside ? `(${brief(row.text(ideal)).replace(/ [V%s]$/, '')})` : '');

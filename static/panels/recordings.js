@@ -1,9 +1,9 @@
 /** A recording of a real rig: file and columns, the simulation over it with its fit, and the rig's parameters identified from it. */
 import { h, setText, symbol } from '../dom.js';
 import { significant } from '../format.js';
-import { NumberField } from '../fields.js';
 import { RecordingFeed } from '../recording_feed.js';
-import { adopted, curves, DRIVERS, estimateRows, fitText, freeAtFirst, IDENTIFIABLE, isMapped, overlayWords, previewWords, progressWords, ROLES } from '../recordings.js';
+import { adopted, curves, DRIVERS, estimateRows, fitText, freeAtFirst, IDENTIFIABLE, isMapped, missingWords, overlayWords, previewWords, progressWords } from '../recordings.js';
+import { RecordingMapping } from './recording_mapping.js';
 import { RecordingPlot } from './recording_plot.js';
 
 const sym = (/** @type {string} */ name) => { const [base, sub] = name.split('_'); return symbol(base, sub); };
@@ -13,20 +13,19 @@ export class RecordingsPanel {
   /** @type {any[]} */ #seen = [];
   /** @type {any} */ #preview = null;
   /** @type {string} */ #preset = '';
-  /** @type {HTMLElement|undefined} */ timeless;
 
   /** @param {HTMLElement} root @param {import('../store.js').Store} store */
   constructor(root, store) {
     this.store = store;
     this.feed = new RecordingFeed(store);
     const button = (/** @type {string} */ id, /** @type {string} */ text, /** @type {() => void} */ act, title = '') => h('button', { type: 'button', 'data-testid': `recording-${id}`, title: title || undefined, onclick: act }, text);
-    this.file = h('input', { type: 'file', accept: '.csv,.txt,.tsv,.dat,.mat', 'data-testid': 'recording-file', onchange: () => this.#send() });
+    this.file = h('input', { type: 'file', multiple: true, accept: '.csv,.txt,.tsv,.dat,.log,.asc,.gz,.xlsx,.mat,.h5,.hdf5,.json,.jsonl', title: 'One file, or one for each signal', 'data-testid': 'recording-file', onchange: () => this.#send() });
     this.sample = button('sample', 'Try with a sample', () => this.#sample(), 'Thirty seconds of the present design on a digital rig whose parameters are off by up to 15 %');
     this.save = h('a', { class: 'button', hidden: true, download: 'heli2dof-recording.csv', 'data-testid': 'recording-save' }, 'Save the sample');
     this.status = h('p', { class: 'caption', role: 'status', 'data-testid': 'recording-status' });
     this.problem = h('p', { class: 'status failure', role: 'alert', hidden: true, 'data-testid': 'recording-problem' });
-    this.mapping = h('div', { class: 'recording-mapping' });
-    this.head = h('div', { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'First rows of the file' });
+    this.mapping = new RecordingMapping(this.feed, store);
+    this.noted = h('ul', { class: 'recording-remarks', 'data-testid': 'recording-findings' });
     this.plots = AXES.map((axis, i) => new RecordingPlot(axis, i ? 'yaw' : 'pitch'));
     this.driver = h('select', { 'data-testid': 'recording-driver', onchange: () => this.feed.drive(this.driver.value) }, Object.entries(DRIVERS).map(([value, text]) => h('option', { value }, text)));
     this.again = button('overlay', 'Simulate again', () => this.feed.overlay(), 'The design has changed since');
@@ -40,17 +39,17 @@ export class RecordingsPanel {
     this.adopt = button('adopt', 'Adopt', () => this.#adopt(), "Make these the rig's parameters; Undo takes them back");
     this.remarks = h('ul', { class: 'recording-remarks' });
     const card = (/** @type {string} */ title, /** @type {string} */ kind, /** @type {any[]} */ ...content) => h('div', { class: `card ${kind}` }, h('h3', {}, title), content);
-    this.overlayCard = card('Over the simulation', 'wide', h('div', { class: 'row' }, h('label', { class: 'row' }, h('span', {}, 'Driven by'), this.driver), this.again), this.about, h('div', { class: 'frequency-plots' }, this.plots.map((p) => p.node)));
+    this.overlayCard = card('Over the simulation', 'wide', h('div', { class: 'row' }, h('label', { class: 'row' }, h('span', {}, 'Driven by'), this.driver), this.again), this.about, this.noted, h('div', { class: 'frequency-plots' }, this.plots.map((p) => p.node)));
     this.identifyCard = card('Identification', 'wide', h('p', { class: 'caption' }, 'Least squares on the nonlinear model under the recorded voltages. Intervals allow for correlated residuals. J, m and l are held fixed.'),
       h('div', { class: 'row', role: 'group', 'aria-label': 'Free parameters' }, h('span', {}, 'Free'), this.free, this.run, this.cancel), this.progress, h('div', { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Identified parameters' }, this.table), this.remarks, this.adopt);
-    root.append(h('div', { class: 'row recording-file' }, h('label', { class: 'row' }, h('span', {}, 'File (CSV or .mat)'), this.file), this.sample, this.save), this.status, this.problem,
-      h('div', { class: 'recording-body' }, this.columnsCard = card('Columns', 'wide', this.mapping, this.head), this.overlayCard, this.identifyCard));
+    root.append(h('div', { class: 'row recording-file' }, h('label', { class: 'row' }, h('span', {}, 'File (CSV, .xlsx, .mat, HDF5)'), this.file), this.sample, this.save), this.status, this.problem, this.mapping.text,
+      h('div', { class: 'recording-body' }, this.columnsCard = card('Columns', 'wide', this.mapping.node), this.overlayCard, this.identifyCard));
   }
 
   #send() {
-    const file = this.file.files?.[0];
+    const files = [...(this.file.files ?? [])].map((file) => ({ file, name: file.name }));
     this.save.hidden = true;
-    if (file) this.feed.send(file, file.name);
+    if (files.length) this.feed.send(files);
   }
 
   async #sample() {
@@ -81,20 +80,22 @@ export class RecordingsPanel {
     this.#seen = now;
     this.#freeOf(design, presets);
     const mapped = isMapped(columns);
-    setText(this.status, busy || (preview ? previewWords(preview) : 'A recording stays on the server for half an hour after its last use.'));
+    setText(this.status, busy || (preview ? [previewWords(preview), missingWords(columns)].filter(Boolean).join('. ') : 'A recording stays on the server for half an hour after its last use.'));
     this.problem.hidden = !problem;
     setText(this.problem, problem ? [problem.detail, problem.hint].filter(Boolean).join(' ') : '');
     this.columnsCard.hidden = !preview;
     this.overlayCard.hidden = !overlay;
     this.identifyCard.hidden = !mapped;
-    if (preview && preview !== this.#preview) this.#map(preview, columns);
+    if (preview && preview !== this.#preview && columns) this.mapping.show(preview, columns);
     this.#preview = preview;
-    if (this.timeless) this.timeless.hidden = Boolean(columns?.names.time);
+    if (columns) this.mapping.render(columns);
+    this.mapping.dialect(this.feed.dialect(recorded));
     for (const option of this.driver.options) option.disabled = option.value === 'references' && !(columns?.names.theta_ref && columns.names.psi_ref);
     this.driver.value = driver;
     this.again.hidden = overlaid === design;
     if (overlay) {
       setText(this.about, overlayWords(overlay));
+      this.noted.replaceChildren(...overlay.findings.map((/** @type {any} */ f) => h('li', {}, f.message)));
       AXES.forEach((axis, i) => this.plots[i].show(curves(overlay, axis), fitText(overlay.fit[axis])));
     }
     const searching = busy === 'Identifying…';
@@ -114,32 +115,6 @@ export class RecordingsPanel {
     this.#preset = design.preset;
     const first = freeAtFirst({ ...preset.parameters, .../** @type {Record<string, number>} */ (design.parameters) });
     this.free.replaceChildren(...IDENTIFIABLE.map((name) => h('label', { class: 'check' }, h('input', { type: 'checkbox', value: name, checked: first.includes(name), 'data-testid': `recording-free-${name}` }), sym(name))));
-  }
-
-  /** @param {any} preview @param {import('../types.js').RecordingColumns|null} columns */
-  #map(preview, columns) {
-    if (!columns) return;
-    const change = (/** @type {any} */ part) => this.feed.change(part);
-    const latest = () => /** @type {import('../types.js').RecordingColumns} */ (this.store.state.recorded.columns);
-    const choice = (/** @type {(typeof ROLES)[number]} */ { role, base, sub, title }) => {
-      const select = h('select', { 'data-testid': `recording-column-${role}`, 'aria-label': title, onchange: () => change({ names: { ...latest().names, [role]: select.value } }) }, h('option', { value: '' }, '–'), preview.columns.map((/** @type {string} */ name) => h('option', { value: name, translate: 'no' }, name)));
-      select.value = columns.names[role] ?? '';
-      return h('label', { class: 'recording-role', title }, symbol(base, sub), select);
-    };
-    const unit = h('select', { 'data-testid': 'recording-unit', 'aria-label': 'Unit of the angles', onchange: () => change({ unit: unit.value }) }, h('option', { value: 'rad' }, 'radians'), h('option', { value: 'deg' }, 'degrees'));
-    unit.value = columns.unit;
-    const axis = (/** @type {'theta'|'psi'} */ name, /** @type {string} */ letter, /** @type {string} */ spoken) => {
-      const sign = h('select', { 'data-testid': `recording-sign-${name}`, 'aria-label': `Sign of the ${spoken} encoder`, onchange: () => change({ signs: { ...latest().signs, [name]: Number(sign.value) } }) }, h('option', { value: '1' }, '+1'), h('option', { value: '-1' }, '−1'));
-      const field = new NumberField({ label: `Offset of the ${spoken} angle, in the unit of the file`, mark: '+', min: -1e4, max: 1e4, testid: `recording-offset-${name}`, onInput: (v) => { field.set(v); }, onCommit: () => change({ offsets: { ...latest().offsets, [name]: field.value } }) });
-      field.set(0);
-      return h('span', { class: 'recording-role' }, symbol(letter), sign, field.node);
-    };
-    const time = new NumberField({ label: 'Sample time where no column is the time', mark: 'sample time', unit: 's', min: 1e-5, max: 10, testid: 'recording-sample-time', onInput: (v) => { time.set(v); }, onCommit: () => change({ sample_time: time.value }) });
-    time.set(columns.sample_time);
-    this.mapping.replaceChildren(...ROLES.map(choice), h('label', { class: 'recording-role' }, h('span', {}, 'angles in'), unit), axis('theta', 'θ', 'pitch'), axis('psi', 'ψ', 'yaw'), this.timeless = h('span', { class: 'recording-role' }, time.node));
-    this.timeless.hidden = Boolean(columns.names.time);
-    const cells = (/** @type {(number|null)[]} */ row, /** @type {number} */ i) => h('tr', {}, h('th', { scope: 'row' }, String(preview.first_row + i)), row.map((v) => h('td', {}, v === null ? '–' : significant(v, 5))));
-    this.head.replaceChildren(h('table', { class: 'compare-table', 'data-testid': 'recording-preview' }, h('thead', {}, h('tr', {}, h('th', { scope: 'col' }, 'Row'), preview.columns.map((/** @type {string} */ name) => h('th', { scope: 'col', translate: 'no' }, name)))), h('tbody', {}, preview.preview.map(cells))));
   }
 
   /** @param {any} found */

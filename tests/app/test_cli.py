@@ -18,6 +18,7 @@ from app.cli import main
 from app.cli.fields import ALL, body, flag_of
 from app.cli.group import COMMANDS, heli2dof
 from app.cli.values import Poles
+from app.recording_models import IdentifyRequest, OverlayRequest
 from app.requests import RgaRequest, StepRequest
 from tests.children import ROOT, environment, python
 from tests.patience import PATIENCE
@@ -200,7 +201,9 @@ def test_an_export_is_a_file_and_is_not_written_over(tmp_path, monkeypatch):
 
 
 def test_every_option_names_a_field_that_exists():
-    schemas = StepRequest.model_json_schema(), RgaRequest.model_json_schema()
+    requests = StepRequest, RgaRequest, OverlayRequest, IdentifyRequest
+    schemas = [request.model_json_schema() for request in requests]
+    schemas.append({"properties": {name: {} for name in ("separator", "decimal")}})  # of the query
     for option in ALL:
         found = False
         for schema in schemas:
@@ -235,6 +238,31 @@ def test_the_request_is_made_of_what_is_given_alone():
 )
 def test_poles_as_people_write_them(text, expected):
     assert Poles().convert(text, None, None) == expected
+
+
+def test_recordings_are_read_overlaid_and_identified(tmp_path):
+    """Columns and units by the file; what the options say goes before; refusals name the option."""
+    made = run("export", "csv", "--theta", "0.1", "--duration", "4", "-o", "-").stdout_bytes
+    path = tmp_path / "run.csv"
+    path.write_bytes(made)
+    table = run("read", str(path)).stdout
+    assert "theta_nonlinear [rad]" in table and "501 rows" in table
+    preview = json.loads(run("read", str(path), "--json").stdout)
+    assert preview["guess"]["columns"]["theta"] == "theta_nonlinear [rad]"
+    reply = json.loads(run("overlay", str(path), "--json").stdout)
+    assert min(reply["fit"].values()) > 98
+    assert "fit (%)" in run("overlay", str(path), "--driver", "voltages").stdout
+    wrong = json.loads(
+        run("overlay", str(path), "--json", "--sign", "theta=-1", "--column", "psi=psi_linear [rad]").stdout
+    )
+    assert wrong["fit"]["theta"] < 50
+    found = json.loads(run("identify", str(path), "--free", "K_pp,K_yy", "--segment", "2", "--json").stdout)
+    assert [e["name"] for e in found["estimates"]] == ["K_pp", "K_yy"]
+    assert "K_pp" in run("identify", str(path), "--free", "K_pp").stdout
+    refused = run("overlay", str(path), "--time-unit", "us", status=2).stderr
+    assert "--time-unit (columns.time_unit)" in refused and "Choose its unit" in refused
+    assert "--separator" in run("read", str(path), "--separator", "slash", status=2).stderr
+    assert "cannot read" in run("read", str(tmp_path / "none.csv"), status=2).stderr
 
 
 @pytest.mark.parametrize("name", COMMANDS)

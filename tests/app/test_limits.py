@@ -20,6 +20,7 @@ from app.recording_store import RecordingStore
 from app.settings import Settings
 from heli2dof_core.errors import RecordingError
 from heli2dof_core.recordings import Table
+from tests.loops import run
 from tests.patience import PATIENCE, until
 from tests.whole_server import serving
 
@@ -277,7 +278,7 @@ def test_a_class_behind_one_address_meets_no_limit():
         end.set()
         await asyncio.gather(*open_sockets)
 
-    asyncio.run(scenario())
+    run(scenario())
     assert sent == []
     queue = FairQueue(usual.slow_waiting, usual.slow_each)
     store = RecordingStore(usual.recordings, usual.recordings_bytes)

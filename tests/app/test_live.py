@@ -12,6 +12,7 @@ import pytest
 from app import models
 from app.encoding import ARRAY_KEY, BINARY_SUBPROTOCOL, binary_frame
 from app.live import Newest
+from tests.loops import run
 from tests.patience import until
 
 
@@ -47,7 +48,7 @@ def test_mailbox_keeps_the_newest():
         newest.put("next")
         return first, await waiting
 
-    assert asyncio.run(scene()) == ("new", "next")
+    assert run(scene()) == ("new", "next")
 
 
 def decode(frame: bytes):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from typing import Any
 
@@ -65,10 +66,11 @@ def test_every_body_has_an_example():
 )
 def test_examples_are_answered(client, path, name, example):
     assert example["summary"]
-    if "{key}" in path:
+    value = example["value"]
+    if "{key}" in path or "{key}" in str(value):
         recording = client.post("/api/v1/recordings/sample", json={"length": 5}).content
-        path = path.replace(
-            "{key}", client.post("/api/v1/recordings?name=a.csv", content=recording).json()["id"]
-        )
-    reply = client.post(path.replace("{name}", "csv").replace("{format}", "csv"), json=example["value"])
+        key = client.post("/api/v1/recordings?name=a.csv", content=recording).json()["id"]
+        path = path.replace("{key}", key)
+        value = json.loads(json.dumps(value).replace("{key}", key))
+    reply = client.post(path.replace("{name}", "csv").replace("{format}", "csv"), json=value)
     assert reply.status_code == 200, reply.text

@@ -7,7 +7,14 @@ import re
 import shlex
 from pathlib import Path
 
+import numpy as np
 import pytest
+from scipy.io import savemat
+
+from heli2dof_core import Spec, close_loop, place, preset
+from heli2dof_core.recording_files import write_csv
+from heli2dof_core.sample_recordings import deviating_rig, sample_recording
+from heli2dof_core.spec import Digital
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -36,7 +43,17 @@ def ask(client, command: str):
     if "-d" not in words:
         return client.get(path)
     headers = dict([words[words.index("-H") + 1].split(": ")])
-    return client.post(path, content=words[words.index("-d") + 1], headers=headers)
+    body = words[words.index("-d") + 1]
+    for name in re.findall("ID_OF_([A-Z]+)", body):  # of files that were sent before
+        body = body.replace(
+            f"ID_OF_{name}", client.post("/api/v1/recordings", content=signal(name)).json()["id"]
+        )
+    return client.post(path, content=body, headers=headers)
+
+
+def signal(name: str) -> str:
+    """A file with one signal over time."""
+    return f"time,{name.lower()}\n" + "".join(f"{0.01 * k:.2f},{0.001 * k:.3f}\n" for k in range(20))
 
 
 @pytest.mark.parametrize("command", [*curls(README), *curls(API)])
@@ -65,12 +82,27 @@ def test_python_example_runs(capsys, monkeypatch):
     plt.close("all")
 
 
+def save_recordings():
+    """A rig's run as the files that the README names."""
+    spec = Spec.from_preset(preset())
+    loop, digital = close_loop(place(spec), spec.outer), Digital()
+    rig = deviating_rig(spec.parameters, 0.1, 1)
+    made = sample_recording(loop, spec.limits, digital, rig=rig, duration=4.0, size=(0.1, 0.2))
+    signals = dict(zip(("pitch", "yaw", "Vp", "Vy"), (*made.measured.T, *made.voltages.T), strict=True))
+    Path("run.csv").write_bytes(write_csv({"time": made.t, **signals}))
+    degrees = {name: np.degrees(v) if name in ("pitch", "yaw") else v for name, v in signals.items()}
+    savemat("run.mat", {"t": made.t, **degrees})
+    for name, values in signals.items():
+        Path(f"{name}.csv").write_bytes(write_csv({"time": made.t, name: values}))
+
+
 def test_command_lines_run(tmp_path, monkeypatch):
     from click.testing import CliRunner
 
     from app.cli.group import heli2dof
 
     monkeypatch.chdir(tmp_path)
+    save_recordings()
     lines = [
         line for block in blocks(README, "sh") for line in block.split("\n") if line.startswith("heli2dof ")
     ]

@@ -40,7 +40,15 @@ def test_a_sample_is_previewed_with_a_guess(client, sample):
     Preview.model_validate(reply)
     assert sorted(reply["columns"]) == sorted(ROLES)
     assert reply["rows"] == 1200
-    assert reply["guess"] == {"columns": COLUMNS, "unit": "rad"}
+    units = {
+        "unit": "rad",
+        "units": {},
+        "time_unit": "s",
+        "voltage_unit": "V",
+        "sample_time": pytest.approx(0.005),
+    }
+    assert reply["guess"] == {"columns": COLUMNS, **units}
+    assert (reply["dialect"], reply["findings"]) == ({"separator": "comma", "decimal": "point"}, [])
     assert len(reply["preview"]) == 5
     again = client.post("/api/v1/recordings/sample", json=SHORT).content
     assert again == sample
@@ -127,6 +135,127 @@ def test_refused_identifications(client, sent, body, field):
         assert socket.receive_json()["field"] == field
         socket.send_text("{")
         assert socket.receive_json()["code"] == "invalid_json"
+
+
+def rows(time, volts=1.0, count=40):
+    k = np.arange(count)
+    table = [
+        time,
+        0.1 * np.sin(0.1 * k),
+        0.2 * np.cos(0.1 * k),
+        volts * (12.5 + np.sin(k)),
+        volts * np.cos(k),
+    ]
+    lines = [",".join(f"{v:.16g}" for v in row) for row in zip(*table, strict=True)]
+    return "\n".join(["time,theta,psi,V_p,V_y", *lines]).encode()
+
+
+K = np.arange(40)
+FOUR = {role: role for role in ROLES[:5]}
+
+
+@pytest.mark.parametrize("driver", ["voltages", "segments"])
+@pytest.mark.parametrize(
+    ("time", "volts", "columns", "field"),
+    [
+        (1714564800000 + 10 * K, 1, {}, "columns.time_unit"),
+        (10_000 * K, 1, {}, "columns.time_unit"),
+        (10_000 * K, 1, {"time_unit": "ms"}, "columns.time_unit"),
+        (np.where(K > 0, 1714564800 + 0.01 * K, 0), 1, {}, "columns.time"),
+        (0.01 * K, 900, {}, "columns.V_p"),
+        (np.where(K > 20, 0.01 * K - 3, 0.01 * K), 1, {}, "columns.time"),
+        (0.01 * K, 1, {"time_unit": "h"}, "columns.time_unit"),
+        (0.01 * K, 1, {"decimate": 30}, "columns.decimate"),
+    ],
+)
+def test_implausible_recordings_are_refused_before_anything_is_simulated(
+    client, driver, time, volts, columns, field
+):
+    sent = upload(client, rows(time, volts))["id"]
+    body = {"columns": {**FOUR, **columns}, "driver": driver}
+    problem = post(client, f"recordings/{sent}/overlay", body, status=422)
+    assert problem["field"] == field
+    assert problem["hint"]
+    if field.startswith("columns.time"):
+        assert "'time'" in problem["detail"] and ("unit" in problem["detail"] or "row" in problem["detail"])
+
+
+@pytest.mark.parametrize("driver", ["voltages", "segments"])
+@pytest.mark.parametrize("volts", [30.0, 75.0])
+def test_no_recording_makes_the_server_fail(client, driver, volts):
+    """Voltages in another unit: refused, or shown as far as the model goes."""
+    sent = upload(client, rows(0.5 * K, volts))["id"]
+    reply = client.post(f"/api/v1/recordings/{sent}/overlay", json={"columns": FOUR, "driver": driver})
+    assert reply.status_code in (200, 422)
+    if reply.status_code == 422:
+        assert any(words in reply.json()["detail"] for words in ("runs away", "beyond ±1000 V"))
+        assert reply.json()["hint"]
+
+
+@pytest.mark.parametrize(("unit", "factor"), [("ms", 1e3), ("us", 1e6), ("s", 1.0)])
+def test_a_unit_of_time_is_guessed_shown_and_taken(client, unit, factor):
+    preview = upload(client, rows(1.7e9 * factor + 0.01 * factor * K))
+    assert preview["guess"]["time_unit"] == unit
+    assert preview["guess"]["sample_time"] == pytest.approx(0.01, rel=1e-3)
+    body = {"columns": {**FOUR, "time_unit": unit}}
+    reply = post(client, f"recordings/{preview['id']}/overlay", body)
+    assert reply["sample_time"] == pytest.approx(0.01, rel=1e-3)
+
+
+def test_what_the_file_states_is_taken_where_nothing_is_said(client):
+    content = rows(10.0 * K).replace(b"time,", b"time (ms),", 1)
+    sent = upload(client, content)["id"]
+    reply = post(client, f"recordings/{sent}/overlay", {"columns": {**FOUR, "time": "time (ms)"}})
+    assert reply["duration"] == pytest.approx(0.39)
+
+
+def test_the_separator_may_be_said(client):
+    content = rows(0.01 * K).replace(b",", b"; ")
+    assert upload(client, content)["dialect"]["separator"] == "semicolon"
+    ask = {"name": "run.csv", "separator": "blank"}
+    reply = client.post("/api/v1/recordings", params=ask, content=content)
+    assert reply.status_code == 422
+    assert (
+        client.post("/api/v1/recordings", params={"separator": "slash"}, content=content).json()["field"]
+        == "separator"
+    )
+
+
+def test_one_signal_per_file_is_joined(client):
+    lines = [line.split(",") for line in rows(0.01 * K).decode().splitlines()[1:]]
+    keys = []
+    for j, name in enumerate(("pitch", "yaw", "Vp", "Vy"), 1):
+        content = "\n".join(["time,value", *(f"{line[0]},{line[j]}" for line in lines)]).encode()
+        keys.append(upload(client, content, f"{name}.csv")["id"])
+    reply = post(client, "recordings/join", {"recordings": keys})
+    Preview.model_validate(reply)
+    assert reply["guess"]["columns"] == {
+        "time": "time",
+        "theta": "pitch",
+        "psi": "yaw",
+        "V_p": "Vp",
+        "V_y": "Vy",
+    }
+    assert (
+        post(client, f"recordings/{reply['id']}/overlay", {"columns": reply["guess"]["columns"]})["samples"]
+        == 40
+    )
+    assert (
+        post(client, "recordings/join", {"recordings": [keys[0], "gone"]}, status=422)["field"] == "recording"
+    )
+
+
+def test_our_own_exports_open(client):
+    for name in ("csv", "mat", "json"):
+        file = client.post(f"/api/v1/export/{name}", json={"scenario": {"reference": {"theta": 0.1}}})
+        preview = upload(client, file.content, f"run.{name}")
+        columns = preview["guess"]["columns"]
+        assert set(FOUR) <= set(columns), name
+        reply = post(client, f"recordings/{preview['id']}/overlay", {"columns": columns})
+        assert min(reply["fit"].values()) > 98, name  # the model under its own voltages
+    for name in ("python", "matlab", "c-source", "report"):
+        file = client.post(f"/api/v1/export/{name}", json={})
+        assert "csv" in upload(client, file.content, name, status=422)["hint"]
 
 
 def test_the_store_forgets_the_longest_unused():

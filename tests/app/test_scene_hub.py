@@ -18,6 +18,7 @@ from websockets.sync.connection import Connection
 from app.scene.hub import LARGEST_SHOWN, MOST_WINDOWS, Room, Transport, Window, read_shown
 from app.scene.panel import gain_table
 from tests.app.test_scene_relay import CAMERA, encode, messages, replay, session_id, watch
+from tests.loops import run
 from tests.patience import until
 from tests.scene_server import SceneServer, serving
 
@@ -295,7 +296,7 @@ def test_of_what_waits_only_the_newest_stays():
                     await asyncio.sleep(0)
             sending.cancel()
 
-    asyncio.run(scenario())
+    run(scenario())
     frames = [message for message in sent if isinstance(message, bytes)]
     assert [read_shown(f).after for f in frames] == [999]
     panel = [json.loads(m) for m in sent if isinstance(m, str) and json.loads(m)["type"] == "panel"]

@@ -83,6 +83,7 @@ RULES: dict[str, dict[str, str]] = {
         "invalid_input (groups|input_order|triangle|shift)": "belong to full-rank placement alone",
     },
     "POST /api/v1/recordings": {"unusable_recording file": "a table in the file's bytes"},
+    "POST /api/v1/recordings/join": {"unusable_recording recording": "the keys of recordings that are there"},
     "POST /api/v1/recordings/{key}/overlay": EXPERIMENT
     | {"unusable_recording (recording|columns.*)": "the key of a recording that is there, and its columns"},
     "GET /api/v1/symbolic": {"invalid_input shifted": "the axis-decoupled structure has no shift"},

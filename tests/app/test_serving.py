@@ -6,7 +6,6 @@ import asyncio
 import gzip
 import os
 import socket
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -16,6 +15,7 @@ from fastapi.testclient import TestClient
 from app.cli.serving import listener
 from app.kept_files import KeptFiles
 from app.settings import Settings
+from tests.loops import run
 
 SCRIPT = "export const answer = 42; // what it is for\n" * 40
 
@@ -39,8 +39,7 @@ def test_accepted_connections_send_at_once(host: str):
             writer.close()
             return found
 
-    with ThreadPoolExecutor(1) as pool:  # a browser's loop may hold this thread
-        assert pool.submit(lambda: asyncio.run(accepted())).result() != 0
+    assert run(accepted()) != 0
 
 
 @pytest.fixture

@@ -87,6 +87,23 @@ def test_an_error_that_stays_without_integral_action_is_told_with_its_remedy():
     assert "close the PI loops" in message and "yaw" not in message
 
 
+def test_who_is_within_the_band_at_the_end_and_leaves_it_again_has_not_settled():
+    """A slowly dying oscillation, at ends all around its period: one finding, as the metrics say."""
+    spec, told_so = (
+        Spec.from_preset(poles=[-0.3 + 5j, -0.3 - 5j, -8, -9], outer="none", reference=(0.005, None)),
+        0,
+    )
+    for duration in (*np.linspace(8.0, 9.3, 9), 30.0):
+        report = evaluate(spec.changed(duration=float(duration)))
+        own = report.step["nonlinear"].metrics.axes["theta"]
+        messages = [f.message for f in report.findings if "settled" in f.code]
+        assert len(messages) == (not own.settled)
+        within = abs(own.steady_state_error) <= 0.02 * 0.005
+        assert all(("does not stay there" in message) == within for message in messages)
+        told_so += not own.settled and within
+    assert own.settled and told_so > 0
+
+
 def test_what_is_explained_otherwise_is_not_told_twice():
     assert "pi_unstable" in codes(slow := Spec.from_preset(poles=[-3, -2, -3, -2]))
     assert not codes(slow) & OURS

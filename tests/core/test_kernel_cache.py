@@ -31,6 +31,9 @@ class Process:
 @pytest.fixture
 def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Process]:
     """Starts as a new process does; with a factor, after the source has changed."""
+    monkeypatch.setattr(
+        sys, "dont_write_bytecode", True
+    )  # Python knows a source by its second and its length alone
     path = tmp_path / "tiny_kernels.py"
     path.write_text(SOURCE.format(factor=2))
 

@@ -131,7 +131,7 @@ def test_voltages_keep_their_limits_and_the_share_is_told(design):
     response = simulate_nonlinear(close_loop(design), LIMITS, Scenario(theta=0.6, psi=1.5))
     assert np.all(np.abs(response.voltages[0]) <= 24) and np.all(np.abs(response.voltages[1]) <= 15)
     share = np.mean(np.abs(response.voltages) >= [[24 * (1 - 1e-9)], [15 * (1 - 1e-9)]], axis=1)
-    assert response.saturated == tuple(share)
+    assert response.saturated == pytest.approx(share, abs=2 / 501)  # the samples' share is coarser
     assert {"saturation_V_p", "saturation_V_y"} <= {f.code for f in response.findings}
     free = simulate_nonlinear(close_loop(design), LIMITS, Scenario(theta=0.6, psi=1.5, saturation=False))
     assert np.max(np.abs(free.voltages[0])) > 24
@@ -305,5 +305,5 @@ def test_interpreted_and_compiled_kernels_agree_to_the_last_digit(design):
 def test_a_budget_of_steps_ends_what_is_too_fast(spec):
     loop = close_loop(design(plant(spec.parameters), PoleSet([-1e5, -9e4, -9.0, -8.0])))
     response = simulate_nonlinear(loop, FREE, Scenario(theta=0.1, duration=60.0))
-    assert "integration_stopped" in {f.code for f in response.findings}
+    assert [f.code for f in response.findings] == ["integration_stopped"]  # and not that it grows
     assert np.all(np.isfinite(response.angles))

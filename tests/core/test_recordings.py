@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +13,8 @@ from scipy.io import savemat
 
 from heli2dof_core.errors import Heli2DofError, InvalidInputError, RecordingError
 from heli2dof_core.recording_files import read_table, write_csv
-from heli2dof_core.recordings import Columns, Table, guess_columns, recording_of
+from heli2dof_core.recording_guess import guess_columns
+from heli2dof_core.recordings import Columns, Recording, Table, decimated, recording_of
 
 T = 0.002 * np.arange(50)
 DATA = {
@@ -25,6 +27,7 @@ DATA = {
     "psi_ref": np.zeros(50),
 }
 ROLES = {name: name for name in DATA}
+GUESSED = Columns(ROLES, time_unit="s")
 
 
 def csv_of(separator=",", comma=False, header=True):
@@ -47,12 +50,13 @@ def csv_of(separator=",", comma=False, header=True):
         csv_of().replace("time", '"time"').encode(),
         "\n".join(line + "," for line in csv_of().splitlines()).replace("psi_ref,", "psi_ref", 1).encode(),
     ],
+    ids=("comma", "semicolon", "decimal comma", "tab", "blanks", "comments", "quoted", "trailing comma"),
 )
 def test_csv_in_its_dialects(data):
     table = read_table(data, "run.csv")
     assert table.names == tuple(DATA)
     np.testing.assert_array_equal(table.values, np.column_stack(list(DATA.values())))
-    assert guess_columns(table) == Columns(ROLES)
+    assert guess_columns(table) == GUESSED
 
 
 def test_csv_without_names():
@@ -78,9 +82,10 @@ def mat_of(content, **how):
 def test_mat_with_vectors_structs_and_matrices(compressed):
     columns = {name: values[:, None] for name, values in DATA.items()}
     table = read_table(mat_of(columns, do_compression=compressed))
-    assert guess_columns(table) == Columns(ROLES)
+    assert guess_columns(table) == GUESSED
     table = read_table(mat_of({"log": np.array(list(DATA.values())), "gain": 3.0}, do_compression=compressed))
     assert table.names == tuple(f"log({i})" for i in range(1, 8))
+    assert table.time == "log(1)"
     signals = [{"values": DATA["theta"], "label": "theta"}, {"values": DATA["psi"], "label": "psi"}]
     table = read_table(mat_of({"out": {"time": T, "signals": signals}}, do_compression=compressed))
     assert table.names == ("out.time", "theta", "psi")
@@ -93,10 +98,10 @@ def test_mat_with_vectors_structs_and_matrices(compressed):
         (b"", "empty"),
         (b"\n# nothing\n", "no rows"),
         (csv_of().replace("0.1,0.0", "0.1,abc", 1).encode(), "row 2, column 'psi_ref' holds 'abc'"),
-        ((csv_of() + "\n1,2,3").encode(), "row 52 has 3 cells"),
-        (b"\0\1\2\3" * 20, "no text"),
-        (b"a,b\n" * 3 + b"1,2\n", "row 2, column 'a' holds 'a'"),
-        (b"\x89HDF\r\n" + bytes(100), "7.3"),
+        ((csv_of() + "\n1,2,3").encode(), "row 52 has 3 values, the header 7"),
+        (b"\0\1\2\3" * 20, "kind of file is not known"),
+        (b"a,b\n1,2\n3,4\na,b\n5,6\n", "row 4, column 'a' holds 'a'"),
+        (b"\x89HDF\r\n\x1a\n" + bytes(100), "HDF5 file is damaged"),
         (b"MATLAB 5.0 MAT-file" + bytes(400), "damaged"),
         (mat_of({"x": DATA["theta"]})[:300], "damaged"),
         (mat_of({"name": "a text"}), "no columns"),
@@ -144,7 +149,7 @@ def test_units_signs_and_offsets():
     ("changes", "field", "words"),
     [
         ({"theta": np.where(T[7] == T, np.nan, 0.1)}, "columns.theta", "row 9, column 'theta'"),
-        ({"time": np.where(T[30] == T, 0.0, T)}, "columns.time", "row 32, column 'time' does not come after"),
+        ({"time": np.where(T[30] == T, 0.0, T)}, "columns.time", "row 32, column 'time' lies 0.058 s before"),
         ({"V_p": np.where(T[0] == T, 1e9, 0.0)}, "columns.V_p", "row 2, column 'V_p' is beyond"),
     ],
 )
@@ -174,9 +179,136 @@ def test_bad_mappings_are_named():
 
 
 def test_oddities_are_told():
-    jumpy = T + np.where(np.arange(50) > 20, 0.05, 0.0)
+    jumpy = T + np.where(np.arange(50) > 20, 0.0009, 0.0)
     codes = {f.code for f in recording_of(table_of(time=jumpy, V_y=np.zeros(50)), Columns(ROLES)).findings}
     assert codes == {"irregular_samples", "yaw_not_excited"}
+
+
+def readings(changes, **columns):
+    return recording_of(table_of(**changes), replace(GUESSED, **columns))
+
+
+@pytest.mark.parametrize(
+    ("unit", "factor"), [("ms", 1e3), ("us", 1e6), ("ns", 1e9), ("min", 1 / 60), ("h", 1 / 3600)]
+)
+def test_time_has_a_unit_and_an_epoch_does_not_matter(unit, factor):
+    own = readings({"time": 1000 * 3600 * factor + T * factor}, time_unit=unit)
+    np.testing.assert_allclose(own.t, T, atol=1e-6)
+    assert own.findings == ()
+
+
+@pytest.mark.parametrize(
+    ("name", "time", "unit"),
+    [
+        ("time", 1.7e12 + 10 * np.arange(50), "ms"),
+        ("time", 1.7e15 + 2000 * np.arange(50), "us"),
+        ("t", 1.7e9 + T, "s"),
+        ("Time (ms)", T, "ms"),
+        ("time_us", 1e6 * T, "us"),
+        ("time", 7.3e5 + T / 86400, "d"),
+    ],
+)
+def test_the_unit_of_time_is_guessed(name, time, unit):
+    columns = {name: time, **{k: v for k, v in DATA.items() if k != "time"}}
+    guess = guess_columns(Table(tuple(columns), np.column_stack(list(columns.values()))))
+    assert (guess.names["time"], guess.time_unit) == (name, unit)
+
+
+@pytest.mark.parametrize(
+    ("time", "unit", "field", "words", "hint"),
+    [
+        (1e6 * T, "s", "columns.time_unit", "column 'time' with the unit s, rows lie 2e.03 s apart", "in us"),
+        (1e3 * T, "s", "columns.time_unit", "rows lie 2 s apart", "in ms"),
+        (T, "ns", "columns.time_unit", "rows lie 2e-12 s apart", "in s"),
+        (
+            np.where(T[3] <= T, T + 1.7e9, T),
+            "s",
+            "columns.time",
+            "row 5, column 'time' lies 1.7e.09 s after",
+            "clock",
+        ),
+        (500 * T, "s", "columns.time_unit", "rows lie 1 s apart|1 s", ""),
+        (
+            np.where(T[20] <= T, T - 0.01, T),
+            "s",
+            "columns.time",
+            "lies 0.008 s before the row above",
+            "sample time",
+        ),
+        (np.round(T, 2), "s", "columns.time", "repeats the time before", "more digits"),
+        (np.zeros(50), "s", "columns.time", "repeats the time before", "sample time"),
+    ],
+    ids=range(8),
+)
+def test_times_that_cannot_be_are_refused_with_a_way_out(time, unit, field, words, hint):
+    if field == "columns.time_unit" and words.startswith("rows lie 1 s"):
+        assert readings({"time": time}, time_unit=unit).sample_time == pytest.approx(1.0)
+        return
+    with pytest.raises(RecordingError, match=words) as caught:
+        readings({"time": time}, time_unit=unit)
+    assert caught.value.field == field
+    assert hint in caught.value.hint
+
+
+def test_repeated_times_and_counters_are_mended_and_told():
+    twice = readings({"time": np.where(T[7] == T, T[6], T)})
+    assert (len(twice.t), [f.code for f in twice.findings]) == (49, ["repeated_times", "missing_rows"])
+    micros = np.mod(2**32 - 40_000 + np.round(1e6 * T), 2**32)
+    wrapped = readings({"time": micros}, time_unit="us")
+    np.testing.assert_allclose(wrapped.t, T, atol=1e-9)
+    assert [f.code for f in wrapped.findings] == ["clock_unwrapped"]
+
+
+@pytest.mark.parametrize("unit", ["rad", "deg"])
+@pytest.mark.parametrize("low", [-180.0, 0.0], ids=["half turns", "whole turns"])
+def test_whole_turns_are_taken_out(unit, low):
+    """An encoder modulo 360°: the same recording but for a constant number of turns, references alike."""
+    turn = 360.0 if unit == "deg" else 2 * np.pi
+    yaw, wish = 170.0 + 40 * np.sin(60 * T), np.where(T > 0.04, 200.0, 170.0)
+    pitch = 5 * np.cos(30 * T)
+    modulo = {
+        name: np.mod(values - low, 360.0) + low
+        for name, values in {"psi": yaw, "psi_ref": wish, "theta": pitch, "theta_ref": pitch}.items()
+    }
+    own = readings({name: values * turn / 360 for name, values in modulo.items()}, unit=unit)
+    whole = np.round(np.degrees(own.angles[0, 1] - np.radians(yaw[0])) / 360) * 360
+    np.testing.assert_allclose(np.degrees(own.angles[:, 1]), yaw + whole, atol=1e-9)
+    np.testing.assert_allclose(np.degrees(own.references[:, 1]), wish + whole, atol=1e-9)
+    np.testing.assert_allclose(np.degrees(own.angles[:, 0]), pitch, atol=1e-9)
+    assert [f.code for f in own.findings] == ["yaw_unwrapped" if low else "pitch_unwrapped"]
+
+
+def test_a_jump_that_is_no_turn_is_told_and_left():
+    yaw = np.where(T > 0.05, 4.0, 0.0)
+    own = readings({"psi": yaw})
+    np.testing.assert_array_equal(own.angles[:, 1], yaw)
+    assert [f.code for f in own.findings] == ["yaw_jumps"]
+
+
+def test_each_angle_and_the_voltages_have_units():
+    mixed = {"psi": np.degrees(DATA["psi"]), "psi_ref": np.degrees(DATA["psi_ref"]), "V_p": 1e3 * DATA["V_p"]}
+    own = readings({**mixed, "V_y": 1e3 * DATA["V_y"]}, units={"psi": "deg"}, voltage_unit="mV")
+    np.testing.assert_allclose(own.angles[:, 1], DATA["psi"])
+    np.testing.assert_allclose(own.references[:, 1], DATA["psi_ref"])
+    np.testing.assert_allclose(own.voltages[:, 0], DATA["V_p"])
+    stated = Table(("t", "theta (deg)", "psi (rad)", "V_p", "V_y"), np.random.default_rng(0).random((30, 5)))
+    guess = guess_columns(stated)
+    assert (guess.unit, guess.units) == ("deg", {"psi": "rad"})
+    contradicted = replace(guess, names={**guess.names, "time": ""}, sample_time=0.01, unit="rad")
+    assert "units_differ" in {f.code for f in recording_of(stated, contradicted).findings}
+
+
+def test_decimation_averages_the_voltages():
+    """Each kept voltage is the mean over the rows that it stands for; a gap is not averaged over."""
+    t = np.concatenate([T, T + 1.0])
+    volts = np.column_stack([np.arange(100.0), np.arange(100.0) ** 2])
+    own = decimated(Recording(t, volts.copy(), volts), 10)
+    np.testing.assert_allclose(own.voltages[:, 0], np.arange(100.0).reshape(10, 10).mean(axis=1))
+    np.testing.assert_array_equal(own.angles[:, 0], np.arange(0.0, 100.0, 10))
+    assert [f.code for f in own.findings] == ["decimated"]
+    assert decimated(own, 1) is own
+    with pytest.raises(RecordingError, match="left"):
+        readings({}, decimate=10)
 
 
 @pytest.mark.parametrize(
@@ -189,6 +321,7 @@ def test_oddities_are_told():
 )
 def test_columns_are_guessed(names, unit):
     values = np.full((30, 7), 20.0 if unit == "deg" else 0.3)
+    values[:, 0] = 0.01 * np.arange(30)
     guess = guess_columns(Table(names, values))
     assert guess.names == dict(zip(ROLES, names, strict=True))
     assert guess.unit == unit

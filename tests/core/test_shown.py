@@ -97,8 +97,8 @@ def test_figures_of_merit_name_their_units_where_they_have_one(results):
     """Voltages in V, effort in V²·s, a share in nothing."""
     metrics = next(result for result in results if isinstance(result, heli.StepMetrics))
     axes, motors = metrics.tables()
-    units = {"rise time": "s", "settling time": "s", "overshoot": "%", "peak": "rad", "peak time": "s"}
-    units |= {"steady-state error": "rad", "IAE": "rad·s", "ITAE": "rad·s²"}
+    units = {"rise time": "s", "settling time": "s", "overshoot": "%", "undershoot": "%"}
+    units |= {"peak": "rad", "peak time": "s", "steady-state error": "rad", "IAE": "rad·s", "ITAE": "rad·s²"}
     named = [row[0] for row in axes.rows]
     assert named[: len(units)] == [f"{name} ({unit})" for name, unit in units.items()]
     assert [row[0] for row in motors.rows] == [

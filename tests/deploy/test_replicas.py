@@ -6,7 +6,6 @@ import asyncio
 import signal
 from collections import Counter
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from time import perf_counter
 
 import httpx2
@@ -15,6 +14,7 @@ import pytest
 
 from tests.deploy.clients import Client
 from tests.deploy.farm import Farm, Replica
+from tests.loops import run
 from tests.patience import PATIENCE, until
 
 CLIENTS, BEFORE, AFTER = 8, 3, 5
@@ -68,9 +68,7 @@ def test_clients_come_back_on_another_replica(
         Client(f"ws://127.0.0.1:{farm.port}/api/v1/live?session={name}", [-12.0 - 0.1 * k, -10.0, -9.0, -8.0])
         for k, name in enumerate(names)
     ]
-    with ThreadPoolExecutor(1) as pool:  # a browser's loop may hold this thread
-        running = pool.submit(lambda: asyncio.run(under_load(farm, clients, names, lambda: end(victim))))
-        ended, statuses = running.result()
+    ended, statuses = run(under_load(farm, clients, names, victim, end))
     moved = [client for client, home in zip(clients, homes, strict=True) if home is victim]
     stayed = [client for client, home in zip(clients, homes, strict=True) if home is not victim]
     gaps = sorted(1e3 * client.gap(ended) for client in moved)
@@ -85,7 +83,7 @@ def test_clients_come_back_on_another_replica(
     assert all(not client.lost for client in stayed)
     assert sum(client.refused for client in clients) == 0  # nginx finds another replica at once
     for client in clients:
-        assert len(client.gains) == BEFORE + AFTER
+        assert len(client.gains) >= BEFORE + AFTER
         assert all(gains == client.gains[0] for gains in client.gains)
     assert set(statuses) == {200}
     assert statuses[200] > 40
@@ -95,7 +93,7 @@ def test_clients_come_back_on_another_replica(
 
 
 async def under_load(
-    farm: Farm, clients: list[Client], names: list[str], end: Callable[[], None]
+    farm: Farm, clients: list[Client], names: list[str], victim: Replica, end: Callable[[Replica], None]
 ) -> tuple[float, Counter[int]]:
     """Runs the clients and REST calls beside them; returns when the end came, and what REST answered."""
     statuses: Counter[int] = Counter()
@@ -117,7 +115,9 @@ async def under_load(
         posting = [asyncio.create_task(post(name)) for name in names[:: CLIENTS // 2]]
         await rounds(BEFORE)
         ended = perf_counter()
-        end()
+        end(victim)
+        while victim.process.poll() is None:
+            await rounds(1)
         await rounds(AFTER)
         over = True
         await asyncio.gather(*posting)

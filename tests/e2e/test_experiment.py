@@ -12,7 +12,7 @@ from tests.e2e.conftest import App
 from tests.e2e.test_page import PLOTS, TRACES
 
 ESSENTIAL = ("rise", "settling", "overshoot", "error", "coupling", "V_p", "V_y", "margin", "delay")
-MORE = ("iae", "itae", "effort-V_p", "effort-V_y")
+MORE = ("undershoot", "iae", "itae", "effort-V_p", "effort-V_y")
 
 
 def scenario(page: Page) -> dict:

@@ -75,7 +75,7 @@ for (const [what, columns, simulated] of [["all columns", names, true], ["no yaw
     const store = new Store();
     store.set({ presets: [preset] });
     store.load(designOf(preset));
-    await new RecordingFeed(store, () => assert.fail("no search was asked for")).send(new Blob(["t"]), "run.csv");
+    await new RecordingFeed(store, () => assert.fail("no search was asked for")).send([{ file: new Blob(["t"]), name: "run.csv" }]);
     assert.deepEqual(asked, ["/api/v1/recordings", ...(simulated ? ["/api/v1/recordings/x/overlay"] : [])]);
     const { overlay, busy, problem, columns: kept } = store.state.recorded;
     assert.deepEqual([overlay, busy, problem], [simulated ? { samples: 1 } : null, "", null]);

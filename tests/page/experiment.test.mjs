@@ -5,7 +5,7 @@ import { cloudRequest, cloudWords } from '../../static/cloud.js';
 import { cloudCaveat, cloudScenario, experimentWords, isStandard, scenarioBody, standard, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../../static/experiment.js';
 import { differs } from '../../static/format.js';
 import { findingsOf } from '../../static/panels/findings.js';
-import { linearPeak, motorText } from '../../static/panels/metrics.js';
+import { linearPeak, motorText, notSettled } from '../../static/panels/metrics.js';
 import { NONE } from '../../static/requirements.js';
 import { designOf, requestOf } from '../../static/store.js';
 
@@ -93,6 +93,11 @@ test('the linear model’s peak has the trim, and a limit its share of time', ()
   assert.equal(linearPeak(undefined, 'V_p'), undefined);
   assert.equal(motorText({ V_p: { peak: 24, saturated: 0.004 } }, 'V_p'), 'at limit 0.4 %');
   assert.equal(motorText({ V_p: { peak: 12.34, saturated: 0 } }, 'V_p'), '12.3 V');
+});
+
+test('what has not settled is said in words, and only that', () => {
+  assert.equal(notSettled({ theta: { settled: false } }, 'theta'), 'not settled');
+  for (const m of [{ theta: { settled: true, settling_time: 1 } }, {}, undefined]) assert.equal(notSettled(m, 'theta'), undefined);
 });
 
 test('what explains others, or says what limits cost, comes first among warnings, errors before all', () => {

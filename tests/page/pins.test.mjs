@@ -34,6 +34,12 @@ test("differences are those to the present design, less is better but for margin
   assert.equal(column(table, "V_p")[0].text, "12.0 V"); // the harder of both steps
 });
 
+test("what has not settled within the window says so, and is never the best", () => {
+  const of = (own) => ({ ...reply(100, 0.3), axis_steps: { theta: { nonlinear: { metrics: { theta: own } } } } });
+  const cells = column(differenceTable([of({ settled: false }), of({ settled: true, settling_time: 2.5 }), of({ settled: true, settling_time: 1.5 })]), "settling-theta");
+  assert.deepEqual(cells.map((c) => [c.text, c.shift, c.best]), [["not settled", "", false], ["2.50 s", "", false], ["1.50 s", "", true]]);
+});
+
 test("an unstable design has no figures of its step, and figures that read the same do not differ", () => {
   const table = differenceTable([reply(100, 0.3), reply(100.001, 0.3, undefined, false)]);
   assert.equal(column(table, "rise-theta")[1].text, "–");

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { RecordingFeed } from '../../static/recording_feed.js';
-import { adopted, columnsBody, curves, estimateRows, fitText, freeAtFirst, guessed, isMapped, nothing, overlayWords, rangeOfCurves } from '../../static/recordings.js';
+import { adopted, columnsBody, curves, estimateRows, fitText, freeAtFirst, guessed, isMapped, nothing, missingWords, overlayWords, previewWords, rangeOfCurves } from '../../static/recordings.js';
 import { designOf, Store } from '../../static/store.js';
 
 const preset = {
@@ -10,16 +10,21 @@ const preset = {
   loops: { pitch: { kp: 1, ti: 1 }, yaw: { kp: 1, ti: 1 } }, scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 3 },
 };
 const names = { time: 't', theta: 'a', psi: 'b', V_p: 'c', V_y: 'd' };
-const preview = { id: 'x', name: 'run.csv', columns: Object.values(names), rows: 9, first_row: 2, preview: [], guess: { columns: names, unit: 'deg' } };
+const preview = { id: 'x', name: 'run.csv', columns: Object.values(names), rows: 9, first_row: 2, preview: [], units: {}, dialect: { separator: 'comma', decimal: 'point' }, findings: [], guess: { columns: names, unit: 'deg', units: { psi: 'rad' }, time_unit: 'ms', voltage_unit: 'V', sample_time: 0.002 } };
 const found = { done: true, evaluations: 3, seconds: 1, findings: [], estimates: [{ name: 'K_pp', unit: 'N·m/V', before: 1, value: 1.25, low: 1.2, high: 1.3, plain: 0.02, adopted: 1.25 }] };
 
 test('columns are asked for as the server takes them', () => {
   const columns = guessed(preview);
   assert.ok(isMapped(columns));
-  assert.deepEqual(columnsBody(columns), { ...names, unit: 'deg', signs: { theta: 1, psi: 1 }, offsets: { theta: 0, psi: 0 } });
+  const told = { ...names, unit: 'deg', units: { psi: 'rad' }, voltage_unit: 'V', signs: { theta: 1, psi: 1 }, offsets: { theta: 0, psi: 0 }, decimate: 1 };
+  assert.deepEqual(columnsBody(columns), { ...told, time_unit: 'ms' });
   const timeless = { ...columns, names: { ...names, time: '' } };
-  assert.equal(columnsBody(timeless).sample_time, 0.002);
-  assert.ok(!('time' in columnsBody(timeless)));
+  assert.ok(!isMapped(timeless), 'without a time nothing is simulated');
+  assert.match(missingWords(timeless), /sample time/);
+  const sampled = { ...timeless, sample_time: 0.01 };
+  assert.ok(isMapped(sampled) && missingWords(sampled) === '');
+  assert.equal(columnsBody(sampled).sample_time, 0.01);
+  assert.ok(!('time' in columnsBody(sampled)) && !('time_unit' in columnsBody(sampled)));
   assert.ok(!isMapped({ ...columns, names: { ...names, V_y: '' } }));
   assert.ok(!isMapped(null));
 });
@@ -38,7 +43,8 @@ test('words', () => {
   assert.equal(fitText(98.76), 'fit 98.8 %');
   assert.equal(fitText(-500), 'fit below −100 %');
   assert.match(fitText(null), /never moves/);
-  assert.match(overlayWords({ samples: 100, duration: 2, segments: 3 }), /100 samples in 2\.0 s, 3 segments/);
+  assert.match(overlayWords({ samples: 100, duration: 2, sample_time: 0.02, segments: 3 }), /100 samples in 2\.0 s, 20\.0 ms apart, 3 segments/);
+  assert.equal(previewWords(preview), 'run.csv: 9 rows, 5 columns, 2.00 ms apart');
   assert.deepEqual(estimateRows(found)[0], { name: 'K_pp', unit: 'N·m/V', before: '1', value: '1.250', width: '± 0.050', interval: '1.200 … 1.300' });
   assert.ok(!freeAtFirst(preset.parameters).includes('K_s'));
   assert.ok(freeAtFirst({ K_s: 1 }).includes('K_s'));
@@ -84,4 +90,30 @@ test('cancelled, nothing that still comes is shown; a lost connection is told', 
   feed.identify(['K_pp']);
   sockets[2].onclose();
   assert.match(store.state.recorded.problem.detail, /cannot be reached/);
+});
+
+test('several files become one recording, and text is read again as the user says', async () => {
+  const { store, feed } = rigged();
+  const asked = [];
+  const before = globalThis.fetch;
+  globalThis.document ??= { baseURI: 'http://127.0.0.1/' };
+  globalThis.fetch = async (address, options) => {
+    asked.push([String(address).replace(/^.*api\/v1\/|&?session=[^&]*|\?session=[^&]*$/g, ''), options.method, typeof options.body === 'string' ? JSON.parse(options.body) : null]);
+    if (String(address).includes('semicolon')) return new Response(JSON.stringify({ detail: 'No.', field: 'file' }), { status: 422 });
+    return new Response(JSON.stringify({ ...preview, id: `id${asked.length}`, guess: { ...preview.guess, columns: {} } }), { headers: { 'Content-Type': 'application/json' } });
+  };
+  try {
+    await feed.send([{ file: new Blob(['1']), name: 'pitch.csv' }, { file: new Blob(['2']), name: 'yaw.csv' }]);
+    assert.deepEqual(asked.map(([path]) => path), ['recordings?name=pitch.csv', 'recordings?name=yaw.csv', asked[2][0]]);
+    assert.match(asked[2][0], /recordings\/join/);
+    assert.deepEqual(asked[2][2], { recordings: ['id1', 'id2'] });
+    assert.equal(store.state.recorded.preview.id, 'id3');
+    await feed.send([{ file: new Blob(['1']), name: 'run.csv' }]);
+    assert.deepEqual(feed.dialect(store.state.recorded), preview.dialect);
+    await feed.reread({ separator: 'semicolon' });
+    assert.match(asked.at(-1)[0], /name=run\.csv&separator=semicolon/);
+    assert.deepEqual(feed.dialect(store.state.recorded), { separator: 'semicolon', decimal: '' }, 'still to be chosen where nothing was read');
+  } finally {
+    globalThis.fetch = before;
+  }
 });

@@ -1,0 +1,75 @@
+"""What a recording says about a rig: estimates with their intervals, progress on the way there, remarks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .findings import Finding
+from .parameters import PARAMETER_INFO, Parameters
+from .signals import Floats
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """One parameter.
+
+    Attributes:
+        name, unit: of the parameter.
+        before, value: as it was, and as found.
+        low, high: its 95 % interval, correlated residuals considered.
+        plain: half width of the interval that takes the residuals for white.
+    """
+
+    name: str
+    unit: str
+    before: float
+    value: float
+    low: float
+    high: float
+    plain: float
+
+    @property
+    def allowed(self) -> float:
+        """The value within the range that the parameter may have."""
+        info = PARAMETER_INFO[self.name]
+        return min(max(self.value, info["low"]), info["high"])
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far the search is: simulations so far, and the residuals' root mean square of θ and ψ, rad."""
+
+    evaluations: int
+    rms: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Identification:
+    """What a recording says about a rig.
+
+    Attributes:
+        estimates: of the free parameters.
+        parameters: the rig with them, each within its range.
+        rms_before, rms: of the residuals of θ and ψ, rad; starting states are fitted in both. Before: None where
+            the rig as it was thought to be runs away.
+        residuals: measured minus simulated, (n, 2), rad; 0 where nothing was simulated.
+        segments: (count, 2), first sample and last + 1.
+        lags: over which the residuals' correlation was taken into account, samples.
+        evaluations: simulations of the recording.
+        seconds: that it took.
+        findings: remarks.
+    """
+
+    estimates: tuple[Estimate, ...]
+    parameters: Parameters
+    rms_before: tuple[float, float] | None
+    rms: tuple[float, float]
+    residuals: Floats
+    segments: NDArray[np.int64]
+    lags: float
+    evaluations: int
+    seconds: float
+    findings: tuple[Finding, ...]

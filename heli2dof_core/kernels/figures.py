@@ -1,0 +1,321 @@
+"""Figures of merit of a course, piece by piece, while it is computed: no sample decides them.
+
+A piece is a polynomial of degree 4 over x = 0 … 1 in the form of the integrator's continuous output,
+p₀ + x (p₁ + z (p₂ + x (p₃ + z p₄))) with z = 1 − x. Its Bernstein ordinates bound it, which is all that most pieces
+need; extrema and crossings are located on the others. Source of the bounds: Farouki, Comput. Aided Geom. Design
+29 (2012) 379. The definitions stand in `metrics`.
+"""
+
+from __future__ import annotations
+
+from math import nan, sqrt
+
+from ..layout import (
+    AREA,
+    AT_HIGH,
+    AT_LIMIT,
+    AT_LOW,
+    BAND,
+    BOTTOM,
+    BOTTOM_AT,
+    BY,
+    CALM,
+    DEVIATION,
+    EFFORT,
+    FROM,
+    IAE,
+    ITAE,
+    MOMENT,
+    OVERSHOOT,
+    PEAK,
+    PEAK_TIME,
+    PEAK_VOLTAGE,
+    RISE_TIME,
+    RISEN,
+    SETTLED,
+    SETTLING_TIME,
+    SHARE,
+    SINCE,
+    STEADY_STATE_ERROR,
+    STEPPED,
+    TOP,
+    TOP_AT,
+    UNDERSHOOT,
+    WITHIN,
+)
+from .jit import kernel
+
+LOW, HIGH = 0.1, 0.9
+
+
+@kernel
+def begin(f, start, reference, rest, pitch, yaw, t):
+    """Nothing is known yet of a course that is at these angles at t; `start` is what its steps count from."""
+    for i in range(2):
+        a, step = f[i], reference[i] - start[i]
+        a[FROM], a[STEPPED] = start[i], 1.0 if step != 0.0 else 0.0
+        a[BY] = 1.0 / step if step != 0.0 else 1.0
+        share = ((pitch if i == 0 else yaw) - start[i]) * a[BY]
+        a[TOP] = a[BOTTOM] = share
+        a[TOP_AT] = a[BOTTOM_AT] = a[AT_LOW] = a[AT_HIGH] = a[SINCE] = t
+        a[RISEN] = (1.0 if share >= LOW else 0.0) + (1.0 if share >= HIGH else 0.0)
+        a[WITHIN] = 1.0 if abs(share - 1.0) <= BAND else 0.0
+        a[AREA] = a[MOMENT] = 0.0
+        b = f[2 + i]
+        b[PEAK_VOLTAGE] = b[EFFORT] = b[AT_LIMIT] = 0.0
+        b[CALM] = rest[i]
+
+
+@kernel
+def value(p0, p1, p2, p3, p4, x):
+    """The piece at x."""
+    z = 1.0 - x
+    return p0 + x * (p1 + z * (p2 + x * (p3 + z * p4)))
+
+
+@kernel
+def rate(p1, p2, p3, p4, x):
+    """Its derivative by x."""
+    return p1 + p2 + x * (2.0 * (p3 + p4 - p2) - x * (3.0 * (p3 + 2.0 * p4) - 4.0 * x * p4))
+
+
+@kernel
+def reach(p0, p1, p2, p3, p4, level, low, high):
+    """Where a piece that is monotone between low and high has the value: Newton's method, bisecting if it leaves."""
+    first, last = value(p0, p1, p2, p3, p4, low), value(p0, p1, p2, p3, p4, high)
+    if first == last:
+        return low
+    rising = last > first
+    x = low + (high - low) * min(max((level - first) / (last - first), 0.0), 1.0)
+    for _ in range(100):
+        off, slope = value(p0, p1, p2, p3, p4, x) - level, rate(p1, p2, p3, p4, x)
+        if off == 0.0:
+            return x
+        if (off > 0.0) == rising:
+            high = x
+        else:
+            low = x
+        following = x - off / slope if slope != 0.0 else low
+        if not low < following < high:
+            following = 0.5 * (low + high)
+        if abs(following - x) <= 4e-16:
+            return following
+        x = following
+    return x
+
+
+@kernel
+def turn(p1, p2, p3, p4, low, high):
+    """The first x between low and high where the piece turns back; high if there is none.
+
+    Between the zeros of its second derivative the first one is monotone.
+    """
+    a, b, c = 6.0 * p4, -3.0 * (p3 + 2.0 * p4), p3 + p4 - p2
+    one = other = high
+    square = b * b - 4.0 * a * c
+    if square > 0.0:
+        q = -0.5 * (b + (sqrt(square) if b >= 0.0 else -sqrt(square)))
+        if a != 0.0:
+            one = q / a
+        if q != 0.0:
+            other = c / q
+        if one > other:
+            one, other = other, one
+    left, before = low, rate(p1, p2, p3, p4, low)
+    for part in range(3):
+        right = min(max(one if part == 0 else other if part == 1 else high, low), high)
+        after = rate(p1, p2, p3, p4, right)
+        if before * after < 0.0:
+            for _ in range(60):
+                middle = 0.5 * (left + right)
+                if not left < middle < right:
+                    break
+                if rate(p1, p2, p3, p4, middle) * before > 0.0:
+                    left = middle
+                else:
+                    right = middle
+            return right
+        left, before = right, after
+    return high
+
+
+@kernel
+def follow(a, p0, p1, p2, p3, p4, t, h, end, integrals):
+    """One axis, a row of f, along a piece of its angle from x = 0 to `end`, at t + h x; with integrals or without."""
+    by = a[BY]
+    p0, p1, p2, p3, p4 = (p0 - a[FROM]) * by, p1 * by, p2 * by, p3 * by, p4 * by
+    b1, b3, b4 = p0 + 0.25 * (p1 + p2), p0 + 0.75 * p1 + 0.25 * (p2 + p3), p0 + p1
+    b2 = p0 + 0.5 * p1 + (p2 + 0.5 * (p3 + p4)) / 3.0
+    low, high = min(p0, b1, b2, b3, b4), max(p0, b1, b2, b3, b4)
+    if a[STEPPED] == 0.0:
+        integrals = False
+        if low >= a[BOTTOM] and high <= a[TOP]:
+            return
+    elif integrals and end == 1.0 and (low >= 1.0 or high <= 1.0):
+        integrals = False
+        mean = (p0 + b1 + b2 + b3 + b4) / 5.0
+        weighted = (p0 + 2.0 * b1 + 3.0 * b2 + 4.0 * b3 + 5.0 * b4) / 30.0
+        a[AREA] += h * abs(1.0 - mean)
+        a[MOMENT] += h * abs(t * (1.0 - mean) + h * (0.5 - weighted))
+    if (p0 <= b1 <= b2 <= b3 <= b4) or (p0 >= b1 >= b2 >= b3 >= b4):
+        stretch(a, p0, p1, p2, p3, p4, t, h, 0.0, end, integrals)
+        return
+    known = not integrals and low >= a[BOTTOM] and high <= a[TOP] and a[RISEN] == 2.0
+    if known and a[WITHIN] != 0.0 and low >= 1.0 - BAND and high <= 1.0 + BAND:
+        return
+    x = 0.0
+    for _ in range(4):
+        following = turn(p1, p2, p3, p4, x + 1e-9 if x > 0.0 else 0.0, end)
+        stretch(a, p0, p1, p2, p3, p4, t, h, x, following, integrals)
+        x = following
+        if x >= end:
+            return
+
+
+@kernel
+def stretch(a, p0, p1, p2, p3, p4, t, h, low, high, integrals):
+    """The same along a part of a piece, in shares of the step, that is monotone."""
+    first, last = value(p0, p1, p2, p3, p4, low), value(p0, p1, p2, p3, p4, high)
+    if last > a[TOP]:
+        a[TOP], a[TOP_AT] = last, t + h * high
+    if last < a[BOTTOM]:
+        a[BOTTOM], a[BOTTOM_AT] = last, t + h * high
+    if a[STEPPED] == 0.0:
+        return
+    if a[RISEN] == 0.0 and last >= LOW:
+        a[RISEN], a[AT_LOW] = 1.0, t + h * reach(p0, p1, p2, p3, p4, LOW, low, high)
+    if a[RISEN] == 1.0 and last >= HIGH:
+        a[RISEN], a[AT_HIGH] = 2.0, t + h * reach(p0, p1, p2, p3, p4, HIGH, low, high)
+    inside = abs(last - 1.0) <= BAND
+    if inside and a[WITHIN] == 0.0:
+        edge = 1.0 - BAND if first < 1.0 else 1.0 + BAND
+        a[WITHIN], a[SINCE] = 1.0, t + h * reach(p0, p1, p2, p3, p4, edge, low, high)
+    elif not inside:
+        a[WITHIN] = 0.0
+    if integrals:
+        at = high
+        if (first - 1.0) * (last - 1.0) < 0.0:
+            at = reach(p0, p1, p2, p3, p4, 1.0, low, high)
+            errors(a, p0, p1, p2, p3, p4, t, h, at, high)
+        errors(a, p0, p1, p2, p3, p4, t, h, low, at)
+
+
+@kernel
+def errors(a, p0, p1, p2, p3, p4, t, h, low, high):
+    """∫ |1 − share| dt, also weighted with t, where its sign stays: three points of Gauss, exact to degree 5."""
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    off = half * sqrt(0.6)
+    area = moment = 0.0
+    for part in range(-1, 2):
+        x = middle + part * off
+        weight = (8.0 if part == 0 else 5.0) / 9.0 * (1.0 - value(p0, p1, p2, p3, p4, x))
+        area += weight
+        moment += weight * (t + h * x)
+    a[AREA] += abs(h * half * area)
+    a[MOMENT] += abs(h * half * moment)
+
+
+@kernel
+def hold_voltage(b, voltage, limit, span):
+    """A motor, a row of f, whose voltage stays for a time."""
+    b[PEAK_VOLTAGE] = max(b[PEAK_VOLTAGE], abs(voltage))
+    b[EFFORT] += (voltage - b[CALM]) ** 2 * span
+    if abs(voltage) >= limit:
+        b[AT_LIMIT] += span
+
+
+@kernel
+def drive(b, p0, p1, p2, p3, p4, h, end):
+    """A motor, a row of f, along a piece of its voltage from x = 0 to `end`."""
+    b1, b3, b4 = p0 + 0.25 * (p1 + p2), p0 + 0.75 * p1 + 0.25 * (p2 + p3), p0 + p1
+    b2 = p0 + 0.5 * p1 + (p2 + 0.5 * (p3 + p4)) / 3.0
+    peak, rest = b[PEAK_VOLTAGE], b[CALM]
+    if max(abs(p0), abs(b1), abs(b2), abs(b3), abs(b4)) > peak:
+        b[PEAK_VOLTAGE] = max(peak, largest(p0, p1, p2, p3, p4, end))
+    if end < 1.0:
+        b[EFFORT] += h * end * squares(p0 - rest, p1, p2, p3, p4, end)
+        return
+    a0, a1, a2, a3, a4 = p0 - rest, b1 - rest, b2 - rest, b3 - rest, b4 - rest
+    total = a0 * a0 + a0 * a1 + a3 * a4 + a4 * a4
+    total += (3.0 * (a0 * a2 + a2 * a4) + 4.0 * (a1 * a1 + a3 * a3)) / 7.0
+    total += (a0 * a3 + a1 * a4 + 6.0 * (a1 * a2 + a2 * a3)) / 7.0
+    b[EFFORT] += h * (total + (a0 * a4 + 16.0 * a1 * a3 + 18.0 * a2 * a2) / 35.0) / 9.0
+
+
+@kernel
+def largest(p0, p1, p2, p3, p4, end):
+    """The largest size of a piece from x = 0 to `end`."""
+    found, x = abs(p0), 0.0
+    for _ in range(4):
+        x = turn(p1, p2, p3, p4, x + 1e-9 if x > 0.0 else 0.0, end)
+        found = max(found, abs(value(p0, p1, p2, p3, p4, x)))
+        if x >= end:
+            break
+    return found
+
+
+@kernel
+def squares(p0, p1, p2, p3, p4, end):
+    """The mean square of a piece from x = 0 to `end`: five points of Gauss, exact to degree 9."""
+    outer, inner = sqrt(5.0 + 2.0 * sqrt(10.0 / 7.0)) / 3.0, sqrt(5.0 - 2.0 * sqrt(10.0 / 7.0)) / 3.0
+    total = 128.0 / 225.0 * value(p0, p1, p2, p3, p4, 0.5 * end) ** 2
+    for sign in range(-1, 2, 2):
+        far, near = 0.5 * end * (1.0 + sign * outer), 0.5 * end * (1.0 + sign * inner)
+        total += (322.0 - 13.0 * sqrt(70.0)) / 900.0 * value(p0, p1, p2, p3, p4, far) ** 2
+        total += (322.0 + 13.0 * sqrt(70.0)) / 900.0 * value(p0, p1, p2, p3, p4, near) ** 2
+    return 0.5 * total
+
+
+@kernel
+def doubtful(f, end, dwell):
+    """Until when a course must be looked at to know whether its axes have settled; `end` where that is known."""
+    until = end
+    for i in range(2):
+        if f[i, STEPPED] != 0.0 and f[i, WITHIN] != 0.0:
+            until = max(until, f[i, SINCE] + dwell)
+    return until
+
+
+@kernel
+def keep(f, ahead):
+    """A copy of f in `ahead`, to look beyond the end."""
+    for i in range(4):
+        for j in range(f.shape[1]):
+            ahead[i, j] = f[i, j]
+
+
+@kernel
+def confirm(f, ahead, whole):
+    """Axes that left the settling band beyond the end, or of which that is not known, have not settled."""
+    for i in range(2):
+        if not whole or ahead[i, WITHIN] == 0.0 or ahead[i, SINCE] != f[i, SINCE]:
+            f[i, WITHIN] = 0.0
+
+
+@kernel
+def conclude(f, reference, pitch, yaw, end, floor, axes, motors, course):
+    """Figures of what was followed until `end`, where the axes are at these angles; nan is what did not happen.
+
+    Into `axes`, (2, AXIS_METRICS), for each axis that is stepped, and `motors`, (2, MOTOR_METRICS); deviations and
+    shares of time into `course`. An overshoot below `floor`, a share of the step, is no more than rounding.
+    """
+    for i in range(2):
+        a, b, out = f[i], f[2 + i], axes[i]
+        step = 1.0 / a[BY]
+        course[DEVIATION + i] = abs(step) * max(a[TOP], -a[BOTTOM])
+        course[SHARE + i] = min(b[AT_LIMIT] / end, 1.0) if end > 0.0 else 0.0
+        motors[i, PEAK_VOLTAGE], motors[i, EFFORT] = b[PEAK_VOLTAGE], b[EFFORT]
+        if a[STEPPED] == 0.0:
+            continue
+        out[RISE_TIME] = a[AT_HIGH] - a[AT_LOW] if a[RISEN] == 2.0 else nan
+        out[SETTLED] = a[WITHIN]
+        out[SETTLING_TIME] = a[SINCE] if a[WITHIN] != 0.0 else nan
+        over, under = a[TOP] - 1.0, -a[BOTTOM]
+        out[OVERSHOOT] = 100.0 * over if over > floor else 0.0
+        out[UNDERSHOOT] = 100.0 * under if under > floor else 0.0
+        below = -a[BOTTOM] > a[TOP]
+        out[PEAK] = a[FROM] + step * (a[BOTTOM] if below else a[TOP])
+        at = a[BOTTOM_AT] if below else a[TOP_AT]
+        out[PEAK_TIME] = at if (under if below else over) > floor and at < end * (1.0 - 1e-9) else nan
+        out[STEADY_STATE_ERROR] = reference[i] - (pitch if i == 0 else yaw)
+        out[IAE], out[ITAE] = abs(step) * a[AREA], abs(step) * a[MOMENT]
