@@ -22,7 +22,7 @@ EASED = 0.8
 FACTORS = np.geomspace(0.01, 4.0, 22)
 """Factors on each axis' own kp that are tried, for both axes independently."""
 GENTLE = np.geomspace(1e-5, 0.01, 16)
-"""Tried besides where none of those complies: the smaller the gains, the nearer the loop's poles are to the placed."""
+"""Tried besides where none of those complies: with small gains the loop's poles are near the placed."""
 
 RULE = (
     "Each integral time cancels the slower pole of its pair (2ζ/ωₙ of a complex pair); the two gains are "
