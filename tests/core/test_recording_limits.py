@@ -5,10 +5,10 @@ from __future__ import annotations
 import gzip
 import io
 import struct
-import time
 import tracemalloc
 import zipfile
 import zlib
+from functools import cache
 
 import h5py
 import numpy as np
@@ -21,7 +21,6 @@ from heli2dof_core.recording_files import MOST_BYTES, read_table
 
 HEAD = b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM"
 OCTAVE = b"# Created by Octave\n# name: t\n# type: "
-ZEROS = zlib.compress(bytes(300 * 2**20))
 
 
 def mat(content, **how):
@@ -55,8 +54,8 @@ def zipped(parts):
 
 
 def outside(out):
-    out.create_dataset("x", (100,), "u1", external=[("/etc/hostname", 0, 100)])
-    out["y"] = h5py.ExternalLink("/etc/hostname", "/")
+    out.create_dataset("x", (100,), "u1", external=[("others.bin", 0, 100)])
+    out["y"] = h5py.ExternalLink("others.h5", "/")
     out["z"] = h5py.SoftLink("/x")
 
 
@@ -65,62 +64,71 @@ def circle(out):
     out["a/b/c"] = out["a"]
 
 
-BOMBS = {
-    "compressed .mat": HEAD + element(15, ZEROS)[: 8 + len(ZEROS)],
-    "compressed .mat with other words in its head": b"MAT-file v.5".ljust(124)
-    + HEAD[124:]
-    + struct.pack("<II", 15, len(ZEROS))
-    + ZEROS,
-    "compressed .mat of a real matrix": mat({"x": np.zeros(20_000_000)}, do_compression=True),
-    "a matrix that claims much": HEAD + matrix(6, (30000, 30000), element(9, bytes(64))),
-    "cells without end": HEAD + matrix(1, (2**11, 2**11)),
-    "structures without fields": HEAD
-    + matrix(2, (2**11, 2**11), element(5, struct.pack("<i", 32)) + element(1, b"")),
-    "nested without end": HEAD + element(14, b"".join(struct.pack("<II", 14, 2**20) for _ in range(1000))),
-    "more numbers than claimed": HEAD + matrix(6, (1, 1), element(2, bytes(2**20))),
-    "dimensions without end": HEAD + matrix(6, (1,) * 100_000, element(9, bytes(8))),
-    "fields without end": HEAD
-    + matrix(2, (1, 1), element(5, struct.pack("<i", 1)) + element(1, b"a" * 100_000)),
-    "variables without end": (struct.pack("<5i", 0, 1, 1, 0, 2) + b"x\0" + bytes(8)) * 20_000,
-    "version 4 that claims much": struct.pack("<5i", 0, 20000, 20000, 0, 2) + b"x\0" + bytes(100),
-    "HDF5 that claims much": hdf5(
+@cache
+def zeros():
+    return zlib.compress(bytes(300 * 2**20))
+
+
+LARGE = {
+    "compressed .mat": lambda: HEAD + element(15, zeros())[: 8 + len(zeros())],
+    "compressed .mat with other words in its head": lambda: (
+        b"MAT-file v.5".ljust(124) + HEAD[124:] + struct.pack("<II", 15, len(zeros())) + zeros()
+    ),
+    "compressed .mat of a real matrix": lambda: mat({"x": np.zeros(20_000_000)}, do_compression=True),
+    "a matrix that claims much": lambda: HEAD + matrix(6, (30000, 30000), element(9, bytes(64))),
+    "cells without end": lambda: HEAD + matrix(1, (2**11, 2**11)),
+    "structures without fields": lambda: (
+        HEAD + matrix(2, (2**11, 2**11), element(5, struct.pack("<i", 32)) + element(1, b""))
+    ),
+    "nested without end": lambda: (
+        HEAD + element(14, b"".join(struct.pack("<II", 14, 2**20) for _ in range(1000)))
+    ),
+    "more numbers than claimed": lambda: HEAD + matrix(6, (1, 1), element(2, bytes(2**20))),
+    "dimensions without end": lambda: HEAD + matrix(6, (1,) * 100_000, element(9, bytes(8))),
+    "fields without end": lambda: (
+        HEAD + matrix(2, (1, 1), element(5, struct.pack("<i", 1)) + element(1, b"a" * 100_000))
+    ),
+    "variables without end": lambda: (struct.pack("<5i", 0, 1, 1, 0, 2) + b"x\0" + bytes(8)) * 20_000,
+    "version 4 that claims much": lambda: struct.pack("<5i", 0, 20000, 20000, 0, 2) + b"x\0" + bytes(100),
+    "HDF5 that claims much": lambda: hdf5(
         lambda out: out.create_dataset("x", (20000, 20000), "f8", chunks=True, compression="gzip")
     ),
-    "HDF5 of another file's bytes": hdf5(outside),
-    "HDF5 in a circle": hdf5(circle),
-    "Octave's range without end": OCTAVE + b"range\n# base, limit, increment\n0 1e15 1\n",
-    "Octave's many ranges": (OCTAVE + b"range\n# base, limit, increment\n0 9e5 1\n") * 30,
-    "Octave's lines without end": OCTAVE + b"matrix\n" + b"1\n" * 2_100_000,
-    "HDF5 whose least part claims much": hdf5(
+    "HDF5 of another file's bytes": lambda: hdf5(outside),
+    "HDF5 in a circle": lambda: hdf5(circle),
+    "Octave's range without end": lambda: OCTAVE + b"range\n# base, limit, increment\n0 1e15 1\n",
+    "Octave's many ranges": lambda: (OCTAVE + b"range\n# base, limit, increment\n0 9e5 1\n") * 30,
+    "Octave's lines without end": lambda: OCTAVE + b"matrix\n" + b"1\n" * 2_100_000,
+    "HDF5 whose least part claims much": lambda: hdf5(
         lambda out: out.create_dataset(
             "x", (10,), "f8", maxshape=(None,), chunks=(2**26,), compression="gzip"
         )
     ),
-    "Octave's matrix without rows": OCTAVE + b"matrix\n# rows: 100000000\n# columns: 9\n 1\n",
-    "spreadsheet": zipped({"xl/workbook.xml": bytes(200 * 2**20)}),
-    "spreadsheet with entities": zipped({"xl/workbook.xml": '<!DOCTYPE a [<!ENTITY b "bb">]><a>&b;</a>'}),
-    "another archive": zipped({"run.csv": "1,2"}),
-    "packed twice": gzip.compress(gzip.compress(b"1,2\n3,4\n")),
-    "packed": gzip.compress(bytes(40 * 2**20)),
-    "a file that is too large": bytes(MOST_BYTES + 1),
-    "JSON nested without end": b"[{" + b'"a":[' * 100_000,
-    "many columns": ",".join(["1"] * 5000).encode(),
+    "Octave's matrix without rows": lambda: OCTAVE + b"matrix\n# rows: 100000000\n# columns: 9\n 1\n",
+    "spreadsheet": lambda: zipped({"xl/workbook.xml": bytes(200 * 2**20)}),
+    "spreadsheet with entities": lambda: zipped(
+        {"xl/workbook.xml": '<!DOCTYPE a [<!ENTITY b "bb">]><a>&b;</a>'}
+    ),
+    "another archive": lambda: zipped({"run.csv": "1,2"}),
+    "packed twice": lambda: gzip.compress(gzip.compress(b"1,2\n3,4\n")),
+    "packed": lambda: gzip.compress(bytes(40 * 2**20)),
+    "a file that is too large": lambda: bytes(MOST_BYTES + 1),
+    "JSON nested without end": lambda: b"[{" + b'"a":[' * 100_000,
+    "many columns": lambda: ",".join(["1"] * 5000).encode(),
 }
 
 
-@pytest.mark.parametrize("name", BOMBS)
+@pytest.mark.parametrize("name", LARGE)
 def test_what_would_fill_the_memory_is_refused_at_once(name):
+    file = LARGE[name]()
     tracemalloc.start()
-    began = time.process_time()
     try:
         with pytest.raises(RecordingError) as caught:
-            read_table(BOMBS[name], "run.mat" if "mat" in name else "run")
+            read_table(file, "run.mat" if "mat" in name else "run")
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
     assert caught.value.hint
     assert peak < 300 * 2**20
-    assert time.process_time() - began < 20
 
 
 def test_no_bytes_of_other_files_are_told():
@@ -137,9 +145,8 @@ def test_a_spreadsheets_lone_far_cell_costs_little():
     book.active["XFD40"] = 1
     file = io.BytesIO()
     book.save(file)
-    began = time.process_time()
-    assert read_table(file.getvalue()).values.shape[0] >= 30
-    assert time.process_time() - began < 10
+    rows, columns = read_table(file.getvalue()).values.shape
+    assert rows >= 30 and columns <= 64  # not the 16,384 that the sheet spans
 
 
 REAL = {
