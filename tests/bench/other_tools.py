@@ -174,7 +174,7 @@ def steps(loops: list[Case], octave: Answers) -> str:
         window = float(control.step_response(system).time[-1])
         theirs = [(i["RiseTime"], i["SettlingTime"], i["Overshoot"]) for i in (default, gridded)]
         scenario = case.spec.scenario
-        own = step_metrics(simulate_linear(case.loop, scenario), np.zeros(2)).axes["theta"]
+        own = step_metrics(simulate_linear(case.loop, scenario)).axes["theta"]
         ours = [v if v is not None else np.nan for v in (own.rise_time, own.settling_time, own.overshoot)]
         end = octave.get(f"window{k}", "not run").split(", ")
         rows.append(
