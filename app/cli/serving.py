@@ -32,6 +32,8 @@ _log = logging.getLogger(__name__)
 _LARGEST_MESSAGE = 1 << 20
 _FOR_SOCKETS, _FOR_REQUESTS = 0.63, 0.84
 """Shares of the settings' `grace` by which sockets are closed, and requests are answered or given up."""
+_FOR_THE_LOCK = 2.0
+"""Seconds more after which the process ends even where Python's lock is held."""
 
 
 class Server(uvicorn.Server):
@@ -67,8 +69,9 @@ class Server(uvicorn.Server):
         self.should_exit = True
         self._until = monotonic() + self._drain
         threading.Thread(target=self._end, name="end", daemon=True).start()
-        # Should something hold Python's lock, that thread never runs; this one needs none.
-        faulthandler.dump_traceback_later(self._drain + self._grace + 0.3, exit=True)
+        # Should something hold Python's lock, that thread never runs; this one needs none. It looks into threads that
+        # run, which may end in a crash, so it comes well after the other, also on a busy machine.
+        faulthandler.dump_traceback_later(self._drain + self._grace + _FOR_THE_LOCK, exit=True)
         # Once all threads have ended, what is left is Python's own tidying up, and the end a good one.
         atexit.register(faulthandler.cancel_dump_traceback_later)
 
