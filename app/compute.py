@@ -67,8 +67,11 @@ class _Pool:
     def __init__(self, name: str, threads: int, queue: FairQueue, seconds: float, *, nice: bool) -> None:
         self.queue, self.seconds, self._nice = queue, seconds, nice
         self.running = 0
-        for i in range(threads):
-            threading.Thread(target=self._serve, name=f"{name}-{i}", daemon=True).start()
+        self.threads = [
+            threading.Thread(target=self._serve, name=f"{name}-{i}", daemon=True) for i in range(threads)
+        ]
+        for thread in self.threads:
+            thread.start()
 
     def _serve(self) -> None:
         if self._nice and sys.platform == "linux":  # where a thread has a niceness of its own
@@ -128,6 +131,7 @@ class Compute:
         self._kernels = KernelCompiler()
         self._settled = False
         self._once: dict[Any, asyncio.Task[Any]] = {}
+        self._derivation: threading.Thread | None = None
 
     @property
     def ready(self) -> bool:
@@ -157,7 +161,8 @@ class Compute:
         """
         threadpool_limits(limits=1, user_api="blas")
         sys.setswitchinterval(SWITCH)
-        threading.Thread(target=self._warm_up, name="derivation", daemon=True).start()
+        self._derivation = threading.Thread(target=self._warm_up, name="derivation", daemon=True)
+        self._derivation.start()
 
     async def run(self, function: Callable[..., T], *args: object) -> T:
         """`function(*args)` in a thread, after the derivation.
@@ -227,6 +232,12 @@ class Compute:
             for job in pool.queue.close():
                 job.called_off.set()
                 job.future.cancel()
+
+    def join(self) -> None:
+        """Waits, after `close`, until no thread computes any more."""
+        for thread in (*self._quick.threads, *self._slow.threads, self._derivation):
+            if thread is not None:
+                thread.join()
 
     def _warm_up(self) -> None:
         began = perf_counter()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import atexit
 import errno
-import faulthandler
 import logging
 import math
 import os
@@ -68,12 +67,13 @@ class Server(uvicorn.Server):
         # Not kept in uvicorn's list of signals, which it would raise again: this is a good end, with status 0.
         self.should_exit = True
         self._until = monotonic() + self._drain
+        # Should something hold Python's lock, the thread below never runs. The system's alarm needs none: unhandled,
+        # it ends the process.
+        if hasattr(signal, "setitimer"):
+            signal.setitimer(signal.ITIMER_REAL, self._drain + self._grace + _FOR_THE_LOCK)
+            # Once all threads have ended, what is left is Python's own tidying up, and the end a good one.
+            atexit.register(signal.setitimer, signal.ITIMER_REAL, 0)
         threading.Thread(target=self._end, name="end", daemon=True).start()
-        # Should something hold Python's lock, that thread never runs; this one needs none. It looks into threads that
-        # run, which may end in a crash, so it comes well after the other, also on a busy machine.
-        faulthandler.dump_traceback_later(self._drain + self._grace + _FOR_THE_LOCK, exit=True)
-        # Once all threads have ended, what is left is Python's own tidying up, and the end a good one.
-        atexit.register(faulthandler.cancel_dump_traceback_later)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Says goodbye to sockets before uvicorn, which would cut them off, sees to the rest."""
@@ -83,7 +83,7 @@ class Server(uvicorn.Server):
         await asyncio.sleep(max(began - monotonic(), 0.0))
         for server in self.servers:
             server.close()
-        await self._visits.farewell(_FOR_SOCKETS * self._grace)
+        await self._visits.farewell(max(began + _FOR_SOCKETS * self._grace - monotonic(), 0.0))
         left = began + _FOR_REQUESTS * self._grace - monotonic()
         self.config.timeout_graceful_shutdown = max(math.ceil(left), 1)
         await super().shutdown(sockets)
@@ -109,6 +109,9 @@ def listen(settings: Settings) -> int:
         return 1
     app = create_app(settings)
     Server(server_config(app, settings), app.state.visits, settings).run([bound])
+    # Python's own end waits for no daemon; who then still computes in LAPACK crashes, as it is unloaded under them.
+    app.state.compute.close()  # once more where the start has failed
+    app.state.compute.join()
     return 0
 
 

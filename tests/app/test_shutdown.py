@@ -11,6 +11,7 @@ import fcntl
 import json
 import signal
 import socket as sockets_module
+import sys
 import termios
 import threading
 from pathlib import Path
@@ -22,7 +23,7 @@ from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 
 from tests.app.test_limits import STIFF
-from tests.children import Server, served
+from tests.children import ROOT, Server, served
 from tests.patience import PATIENCE, until
 from tests.scene_client import VISER, session_id
 
@@ -149,6 +150,28 @@ def test_peer_that_reads_nothing_does_not_hold_the_end_up(tmp_path: Path):
         assert server.process.wait(PATIENCE) == 0
         assert "sockets closed: 1, of which" in server.log.read_text()
         small.close()
+
+
+GREEDY = """
+import sys, threading, time
+sys.path.insert(0, ROOT)
+from app.cli import main
+
+def hold():
+    while "end" not in {thread.name for thread in threading.enumerate()}:
+        time.sleep(0.01)
+    sum(range(10**15))  # days, in which no other thread runs
+
+threading.Thread(target=hold, daemon=True).start()
+main(["serve", "--port", "0"])
+"""
+
+
+def test_who_holds_pythons_lock_does_not_hold_the_end_up(tmp_path: Path):
+    program = GREEDY.replace("ROOT", repr(str(ROOT)))
+    with served(tmp_path, (sys.executable, "-c", program), drain=0.5, grace=1) as server:
+        server.process.send_signal(signal.SIGTERM)
+        assert server.process.wait(PATIENCE) == -signal.SIGALRM
 
 
 def unread(socket: sockets_module.socket) -> int:
