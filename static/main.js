@@ -2,34 +2,34 @@
  * Wires only: state to views, views to state, and the design to the server. What each part does is written in its module.
  * @typedef {import('./types.js').State} State
  */
-import { Address } from './address.js';
-import { getMethods, getPresets, Live } from './api.js';
-import { CloudFeed } from './cloud.js';
-import { byId } from './dom.js';
-import { isolated } from './isolated.js';
-import { LockedControls } from './locked_controls.js';
-import { recall, remember } from './memory.js';
-import { PinKeeper } from './pin_keeper.js';
-import { Turns } from './pace.js';
-import { Plots } from './plots.js';
-import { Projector } from './projector.js';
-import { SceneSharing } from './scene_sharing.js';
-import { SceneView } from './scene_view.js';
-import { SPlane } from './splane.js';
-import { Stats } from './stats.js';
-import { requestOf, Store } from './store.js';
-import { watched } from './watch.js';
-import { languageOf, loadWords, say, translatePage } from './words.js';
+import { Address } from './link/address.js';
+import { getMethods, getPresets, Live } from './net/api.js';
+import { CloudFeed } from './splane/cloud_feed.js';
+import { byId } from './ui/dom.js';
+import { isolated } from './ui/isolated.js';
+import { LockedControls } from './link/locked_controls.js';
+import { recall, remember } from './ui/memory.js';
+import { PinKeeper } from './link/pin_keeper.js';
+import { Turns } from './ui/pace.js';
+import { Plots } from './plots/plots.js';
+import { Projector } from './ui/projector.js';
+import { SceneSharing } from './scene/sharing.js';
+import { SceneView } from './scene/view.js';
+import { SPlane } from './splane/splane.js';
+import { Stats } from './ui/stats.js';
+import { requestOf, Store } from './model/store.js';
+import { watched } from './ui/watch.js';
+import { languageOf, loadWords, say, translatePage } from './text/words.js';
 import { ExperimentPanel } from './panels/experiment.js';
 import { FieldProblems } from './panels/problems.js';
 import { FindingsPanel } from './panels/findings.js';
-import { FormulasPanel } from './panels/formulas.js';
+import { FormulasPanel } from './paper/formulas.js';
 import { HeaderPanel } from './panels/header.js';
 import { LoopsPanel } from './panels/loops.js';
 import { MetricsPanel } from './panels/metrics.js';
 import { Notice } from './panels/notice.js';
 import { NumbersPanel } from './panels/numbers.js';
-import { PaperPanel } from './panels/paper.js';
+import { PaperPanel } from './paper/panel.js';
 import { PinBar } from './panels/pin_bar.js';
 import { PinsPanel } from './panels/pins.js';
 import { PolesPanel } from './panels/poles.js';
@@ -149,7 +149,7 @@ function welcome() {
 
 /** Panels that the first view does not need, fetched when it is there. */
 async function furtherDown() {
-  const [{ ComparePanel }, { RecordingsPanel }] = await Promise.all([import('./panels/compare.js'), import('./panels/recordings.js')]);
+  const [{ ComparePanel }, { RecordingsPanel }] = await Promise.all([import('./compare/panel.js'), import('./recordings/panel.js')]);
   views.figures.unshift(viewOf(new ComparePanel(byId('compare'), store)), viewOf(new RecordingsPanel(byId('recordings'), store)));
   schedule();
 }

@@ -17,7 +17,7 @@ from .login_form import login_form
 from .refusals import refuse
 
 COOKIE = "heli2dof-access"
-_OPEN = frozenset(("/livez", "/healthz", "/favicon.ico", "/static/favicon.svg", "/static/login.css"))
+_OPEN = frozenset(("/livez", "/healthz", "/favicon.ico", "/static/favicon.svg", "/static/css/login.css"))
 _LONGEST_FORM = 4096
 _LIFE = 180 * 24 * 3600
 """Seconds that a browser keeps the cookie: a term."""

@@ -12,7 +12,7 @@ _FORM = """<!doctype html>
   <meta name="viewport" content="width=device-width, initial-scale=1">
   <meta name="color-scheme" content="light dark">
   <link rel="icon" href="{static}favicon.svg" type="image/svg+xml">
-  <link rel="stylesheet" href="{static}login.css">
+  <link rel="stylesheet" href="{static}css/login.css">
 </head>
 <body>
   <main>

@@ -20,7 +20,7 @@ _SMEAR = ((0.16, 0.13), (0.34, 0.10), (0.56, 0.07), (0.80, 0.05))
 """Half-angles in radians and opacities of the fans that make up a blurred blade."""
 
 SHAFT_RADIUS, HEAD_RADIUS, HEAD_LENGTH = 0.0052, 0.0125, 0.026
-"""Of a thrust arrow, in metres; static/scene_pose.js knows HEAD_LENGTH too."""
+"""Of a thrust arrow, in metres; static/scene/pose.js knows HEAD_LENGTH too."""
 
 
 def yaw_radius(rig: RigGeometry) -> float:

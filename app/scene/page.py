@@ -43,7 +43,7 @@ html[data-place=frame] :is([data-floating-window], [data-dock-region], .mantine-
 _INJECTED = (
     "<title>heli2dof: the rig</title>\n"
     f"<style>{_GROUND}{_NOTES}{_BARE}</style>\n"
-    '<script src="../../static/scene_shim.js"></script>'
+    '<script src="../../static/scene/shim.js"></script>'
 )
 
 

@@ -1,7 +1,7 @@
 """Viser's own panel beside the rig, for a window of its own: poles, PI values, playing and K.
 
 The panel decides nothing. What is set there goes to the session's leading window, which has the design,
-and comes back with the next design shown; static/scene_panel.js knows the same names.
+and comes back with the next design shown; static/scene/panel.js knows the same names.
 """
 
 from __future__ import annotations

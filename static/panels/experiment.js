@@ -1,7 +1,7 @@
 /** How the experiment is run: where it starts, what limits it, which controller, what disturbs it. Folded away; one line says what differs from the standard. */
-import { h, setAttr, setText } from '../dom.js';
-import { experimentWords, isStandard, standard } from '../experiment.js';
-import { presetOf } from '../store.js';
+import { h, setAttr, setText } from '../ui/dom.js';
+import { experimentWords, isStandard, standard } from '../model/experiment.js';
+import { presetOf } from '../model/store.js';
 import { AccuracyPart, DigitalPart, DisturbancePart, LimitsPart, ScenarioFields, StartPart } from './experiment_parts.js';
 
 /** Findings that are told at the fields that they speak of, too. */
@@ -9,7 +9,7 @@ const TOLD_HERE = ['slow_sampling', 'fast_tracking'];
 const CONCERNED = /^scenario\.(?!reference|duration|samples)/;
 
 export class ExperimentPanel {
-  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
     this.store = store;
     const fields = new ScenarioFields(store);

@@ -1,8 +1,8 @@
 /** The parts of the experiment's options, each with its fields and what they change. */
-import { h, setText, symbol } from '../dom.js';
-import { DIGITAL, STANDARD, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../experiment.js';
-import { Choice, NumberField } from '../fields.js';
-import { DEGREE, inField } from '../format.js';
+import { h, setText, symbol } from '../ui/dom.js';
+import { DIGITAL, STANDARD, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../model/experiment.js';
+import { Choice, NumberField } from '../ui/fields.js';
+import { DEGREE, inField } from '../text/format.js';
 
 /**
  * @typedef {import('../types.js').Scenario} Scenario
@@ -21,7 +21,7 @@ const tidy = (v) => Number(v.toPrecision(10));
 
 /** Makes fields that change the scenario. */
 export class ScenarioFields {
-  /** @param {import('../store.js').Store} store */
+  /** @param {import('../model/store.js').Store} store */
   constructor(store) {
     this.store = store;
   }

@@ -1,10 +1,10 @@
 /** The verdict on the whole loop, and what else is to be said of the design, worst first, in a place that is always kept free for it. */
-import { h, setText } from '../dom.js';
-import { fixed } from '../format.js';
-import { placeOf } from '../finding_places.js';
-import { leadTo } from '../lead.js';
-import { AXES, verdictOf } from '../requirements.js';
-import { say, t } from '../words.js';
+import { h, setText } from '../ui/dom.js';
+import { fixed } from '../text/format.js';
+import { placeOf } from '../model/finding_places.js';
+import { leadTo } from './lead.js';
+import { AXES, verdictOf } from '../model/requirements.js';
+import { say, t } from '../text/words.js';
 
 const ICON = { error: '✕', warning: '▲', info: 'i' };
 const WORD = { error: 'Error', warning: 'Warning', info: 'Note' };
@@ -33,7 +33,7 @@ export function findingsOf(state) {
 export class FindingsPanel {
   #key = '';
 
-  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
     this.store = store;
     this.icon = h('span', { class: 'icon', 'aria-hidden': 'true' });

@@ -1,16 +1,16 @@
 /** The top line: which rig, where its numbers come from, what of them is changed, one step back or forth, pin and link, and whether the server is there. */
-import { h, setAttr, setText } from '../dom.js';
-import { exportMenu } from '../export_menu.js';
-import { lockNames } from '../locks.js';
-import { designOf, presetOf } from '../store.js';
-import { say } from '../words.js';
+import { h, setAttr, setText } from '../ui/dom.js';
+import { exportMenu } from './export_menu.js';
+import { lockNames } from '../model/locks.js';
+import { designOf, presetOf } from '../model/store.js';
+import { say } from '../text/words.js';
 import { RigPanel } from './rig.js';
 import { ShareButtons } from './share.js';
 
 const STATUS = { connecting: 'connecting…', open: 'live', lost: 'connection lost' };
 
 export class HeaderPanel {
-  /** @param {HTMLElement} root @param {import('../store.js').Store} store @param {import('../address.js').Address} address @param {{tour: (from: HTMLElement) => void, projector: import('../projector.js').Projector}} aids */
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store @param {import('../link/address.js').Address} address @param {{tour: (from: HTMLElement) => void, projector: import('../ui/projector.js').Projector}} aids */
   constructor(root, store, address, { tour, projector }) {
     this.store = store;
     this.select = h('select', { 'data-testid': 'preset', 'aria-label': 'Rig and parameter set', onchange: () => this.#choose() });

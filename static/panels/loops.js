@@ -1,9 +1,9 @@
 /** The outer loops: on or off, their PI values, how they are paired; and the method that makes the inner loop's gain. */
-import { h, setText, symbol } from '../dom.js';
-import { Choice, NumberField } from '../fields.js';
-import { suggestLoops } from '../api.js';
-import { FULL_RANK, keyOf, nameOf, partOf, STRUCTURES } from '../methods.js';
-import { bodyOf } from '../store.js';
+import { h, setText, symbol } from '../ui/dom.js';
+import { Choice, NumberField } from '../ui/fields.js';
+import { suggestLoops } from '../net/api.js';
+import { FULL_RANK, keyOf, nameOf, partOf, STRUCTURES } from '../model/methods.js';
+import { bodyOf } from '../model/store.js';
 
 /** @typedef {'pitch'|'yaw'} Axis */
 const AXES = /** @type {Axis[]} */ (['pitch', 'yaw']);
@@ -23,7 +23,7 @@ export class LoopsPanel {
   /** @type {import('../types.js').Design|null} */ #told = null;
   /** @type {import('../types.js').Method[]|null} */ #methods = null;
 
-  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
     this.store = store;
     this.outer = new Choice({ label: 'Outer loop', testid: 'outer', onChange: (v) => this.#set({ outer: /** @type {any} */ (v) }),

@@ -1,9 +1,9 @@
 /** How well it does, in figures: one column for the step of each axis, from the nonlinear rig; the linear model's in parentheses where they differ. */
-import { h, setAttr, setText, symbol } from '../dom.js';
-import { brief, decibel, DEGREE, degrees, differs, fixed, percent, seconds, significant } from '../format.js';
-import { recall, remember } from '../memory.js';
-import { AXES, verdictOf } from '../requirements.js';
-import { say, t } from '../words.js';
+import { h, setAttr, setText, symbol } from '../ui/dom.js';
+import { brief, decibel, DEGREE, degrees, differs, fixed, percent, seconds, significant } from '../text/format.js';
+import { recall, remember } from '../ui/memory.js';
+import { AXES, verdictOf } from '../model/requirements.js';
+import { say, t } from '../text/words.js';
 
 /** @typedef {import('../types.js').Reply} Reply */
 /** @typedef {'theta'|'psi'} Axis */

@@ -2,7 +2,7 @@
  * Three quiet words at the lower edge: what could not be taken from a link, until it is dismissed or the design changes; that a part of the page fails,
  * until it is dismissed; and that what is shown is an older design's while the server is away.
  */
-import { h, setText } from '../dom.js';
+import { h, setText } from '../ui/dom.js';
 
 /** A line that can be dismissed. */
 class Line {
@@ -23,7 +23,7 @@ export class Notice {
   /** @type {string|null} */ #told = null;
   /** @type {unknown} */ #design = null;
 
-  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
     this.store = store;
     this.root = root;

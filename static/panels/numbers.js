@@ -1,9 +1,9 @@
 /** K and the RGA as matrices, what the RGA says, in words, and the one step that heeds it. */
-import { suggestLoops } from '../api.js';
-import { h, setAttr, setText } from '../dom.js';
-import { fixed, significant } from '../format.js';
-import { GAIN, gainMatrix, relativeGains } from '../matrix.js';
-import { bodyOf } from '../store.js';
+import { suggestLoops } from '../net/api.js';
+import { h, setAttr, setText } from '../ui/dom.js';
+import { fixed, significant } from '../text/format.js';
+import { GAIN, gainMatrix, relativeGains } from '../ui/matrix.js';
+import { bodyOf } from '../model/store.js';
 
 /** @typedef {'diagonal'|'cross'} Pairing */
 
@@ -27,11 +27,11 @@ export function pairingWords(reply, pairing) {
   return { level: advised === pairing ? 'good' : 'warning', text: `${verdict}: ${rga.reason ?? ''}${index}` };
 }
 
-/** What of the present design can be copied. @param {import('../types.js').State} state @returns {import('../copy_formats.js').Item[]} */
+/** What of the present design can be copied. @param {import('../types.js').State} state @returns {import('../ui/copy_formats.js').Item[]} */
 export function copied({ reply, design }) {
   if (!reply || !design) return [];
   const { K, A, B } = reply.gains;
-  /** @type {import('../copy_formats.js').Item[]} */ const items = [{ ...GAIN, matrix: K }];
+  /** @type {import('../ui/copy_formats.js').Item[]} */ const items = [{ ...GAIN, matrix: K }];
   if (reply.rga?.rga) items.push({ name: 'RGA', note: 'relative gain array at s = 0, rows theta, psi, columns v_p, v_y', matrix: reply.rga.rga });
   if (A && B) items.push({ name: 'A', note: 'dx/dt = A x + B u, x = [theta, psi, theta_dot, psi_dot]', matrix: A }, { name: 'B', note: 'u = [V_p, V_y], deviations from trim in V', matrix: B });
   items.push({ name: 'poles', note: 'of A - B K, rad/s', poles: reply.gains.closed_loop_poles }, { name: 'loop_poles', note: 'of the whole loop, rad/s', poles: reply.loop_poles });
@@ -41,7 +41,7 @@ export function copied({ reply, design }) {
 export class NumbersPanel {
   /** @type {import('../types.js').Design|null} */ #told = null;
 
-  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
     this.store = store;
     this.k = gainMatrix('k-matrix', () => copied(store.state));

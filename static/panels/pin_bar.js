@@ -1,6 +1,6 @@
 /** The pinned designs over the plots: what each letter means, and back to one of them by one press. */
-import { h, setAttr } from '../dom.js';
-import { colorOf, letterOf } from '../pins.js';
+import { h, setAttr } from '../ui/dom.js';
+import { colorOf, letterOf } from '../model/pins.js';
 
 /** The letter in its pin's colour. @param {number} index */
 export const badge = (index) => h('span', { class: `badge ${colorOf(index)}`, 'aria-hidden': 'true' }, letterOf(index));
@@ -9,7 +9,7 @@ export class PinBar {
   /** @type {import('../types.js').Pin[]} */ #pins = [];
   /** @type {HTMLElement[]} */ #chips = [];
 
-  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
     this.root = root;
     this.store = store;

@@ -1,8 +1,8 @@
 /** The table of the pinned designs: their figures, how far each is from the present design's, and the best of each column. */
-import { h, setAttr, setText, symbol } from '../dom.js';
-import { complex } from '../format.js';
-import { nameOf } from '../methods.js';
-import { differenceTable, FIGURES } from '../pins.js';
+import { h, setAttr, setText, symbol } from '../ui/dom.js';
+import { complex } from '../text/format.js';
+import { nameOf } from '../model/methods.js';
+import { differenceTable, FIGURES } from '../model/pins.js';
 import { badge } from './pin_bar.js';
 
 /** @typedef {import('../types.js').Pin} Pin @typedef {import('../types.js').Design} Design */
@@ -11,7 +11,7 @@ const PAIRS = { theta: 'pitch', psi: 'yaw' };
 /** @param {Design} design */
 const described = (design) => [design.poles.filter((p) => p.im >= 0).map((p) => complex(p).replace('+', '±')).join(', '), nameOf(design), design.outer === 'pi' ? 'PI' : 'inner loop alone'].join(' · ');
 
-/** @param {import('../pins.js').Figure} f */
+/** @param {import('../model/pins.js').Figure} f */
 const heading = (f) => (f.sub ? f.name === '‖K‖' ? h('span', { class: 'sym' }, '‖', h('i', {}, 'K'), '‖', h('sub', {}, f.sub)) : h('span', {}, symbol(f.name, f.sub), ' peak') : f.name);
 
 /** A figure and its difference, written in place while a pole moves. */
@@ -48,14 +48,14 @@ export class PinsPanel {
   #visible = false;
   /** @type {number|null} */ #naming = null;
 
-  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
     this.root = root;
     this.store = store;
     this.rows = h('tbody');
     this.unstable = h('b', { class: 'unstable-word' });
     const group = (/** @type {'theta'|'psi'} */ axis) => h('th', { scope: 'colgroup', colspan: FIGURES.filter((f) => f.axis === axis).length, class: 'group' }, h('span', { class: `shape ${PAIRS[axis]}`, 'aria-hidden': 'true' }), ` ${PAIRS[axis]} step`);
-    const cell = (/** @type {import('../pins.js').Figure} */ f) => h('th', { scope: 'col', title: f.title, rowspan: f.axis ? 1 : 2 }, heading(f));
+    const cell = (/** @type {import('../model/pins.js').Figure} */ f) => h('th', { scope: 'col', title: f.title, rowspan: f.axis ? 1 : 2 }, heading(f));
     const [first, last] = [FIGURES.findIndex((f) => f.axis), FIGURES.findLastIndex((f) => f.axis)];
     const table = h('table', { class: 'compare-table pins-table', 'data-testid': 'pins-table' }, h('thead', {},
       h('tr', {}, h('th', { scope: 'col', rowspan: 2, class: 'method-name' }, 'Design'), FIGURES.slice(0, first).map(cell), group('theta'), group('psi'), FIGURES.slice(last + 1).map(cell)),

@@ -1,16 +1,16 @@
 /** The two pairs as numbers: real or complex, two values each, with sliders. */
-import { h, setAttr, setText } from '../dom.js';
-import { Choice, NumberField } from '../fields.js';
-import { isComplex, LIMIT, setComplex, setMode, setReal } from '../poles.js';
-import { AXES, verdictOf } from '../requirements.js';
-import { placesPoles } from '../methods.js';
-import { niceStep } from '../splane_math.js';
-import { say } from '../words.js';
+import { h, setAttr, setText } from '../ui/dom.js';
+import { Choice, NumberField } from '../ui/fields.js';
+import { isComplex, LIMIT, setComplex, setMode, setReal } from '../model/poles.js';
+import { AXES, verdictOf } from '../model/requirements.js';
+import { placesPoles } from '../model/methods.js';
+import { niceStep } from '../splane/math.js';
+import { say } from '../text/words.js';
 
 const NAMES = ['pitch', 'yaw'];
 
 class PairEditor {
-  /** @param {0|1} pair @param {import('../store.js').Store} store */
+  /** @param {0|1} pair @param {import('../model/store.js').Store} store */
   constructor(pair, store) {
     this.pair = pair;
     const name = NAMES[pair];
@@ -23,7 +23,7 @@ class PairEditor {
     this.marks = this.fields.map((f) => /** @type {HTMLElement} */ (f.node.querySelector('.mark')));
   }
 
-  /** @param {number} k @param {import('../store.js').Store} store */
+  /** @param {number} k @param {import('../model/store.js').Store} store */
   #field(k, store) {
     const index = 2 * this.pair + k;
     return new NumberField({
@@ -43,7 +43,7 @@ class PairEditor {
     return setComplex(poles, index, k === 0 ? { re: v, im } : { re, im: sign * Math.max(Math.abs(v), 1e-3) });
   }
 
-  /** @param {import('../types.js').Poles} poles @param {number} reach @param {import('../requirements.js').Verdict|null} verdict on its axis' step */
+  /** @param {import('../types.js').Poles} poles @param {number} reach @param {import('../model/requirements.js').Verdict|null} verdict on its axis' step */
   render(poles, reach, verdict) {
     const complex = isComplex(poles, this.pair);
     const [a, b] = [poles[2 * this.pair], poles[2 * this.pair + 1]];
@@ -67,7 +67,7 @@ class PairEditor {
 export class PolesPanel {
   #reach = 0;
 
-  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
     this.root = root;
     this.pairs = [new PairEditor(0, store), new PairEditor(1, store)];

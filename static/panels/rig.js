@@ -1,10 +1,10 @@
 /** The rig's parameters and limits as fields, each beside what the preset says. Folded away; the header's line says how many differ. */
-import { h, setAttr, setText, symbol } from '../dom.js';
-import { NumberField } from '../fields.js';
-import { inField } from '../format.js';
-import { asProposed, changedWords, isChanged, proposedShown, quantities, valueOf, without, withValue } from '../rig.js';
-import { presetOf } from '../store.js';
-import { say } from '../words.js';
+import { h, setAttr, setText, symbol } from '../ui/dom.js';
+import { NumberField } from '../ui/fields.js';
+import { inField } from '../text/format.js';
+import { asProposed, changedWords, isChanged, proposedShown, quantities, valueOf, without, withValue } from '../model/rig.js';
+import { presetOf } from '../model/store.js';
+import { say } from '../text/words.js';
 
 const CONCERNED = /^(parameters|limits)(\.|$)/;
 
@@ -15,7 +15,7 @@ const symbolOf = (name) => (name === 'theta' ? symbol('θ', 'max') : symbol(name
 const words = (v) => (Number.isNaN(v) ? 'free' : inField(v));
 
 class Row {
-  /** @param {import('../rig.js').Quantity} q @param {RigPanel} panel */
+  /** @param {import('../model/rig.js').Quantity} q @param {RigPanel} panel */
   constructor(q, panel) {
     this.q = q;
     const { store } = panel;
@@ -50,7 +50,7 @@ export class RigPanel {
   /** @type {import('../types.js').Preset|undefined} */ preset;
   /** @type {Row[]} */ rows = [];
 
-  /** @param {import('../store.js').Store} store */
+  /** @param {import('../model/store.js').Store} store */
   constructor(store) {
     this.store = store;
     this.name = h('span');

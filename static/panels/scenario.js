@@ -1,12 +1,12 @@
 /** What is asked of the rig: where it rests, how far it steps and how long one watches; and what the plots' lines mean. */
-import { h, symbol } from '../dom.js';
-import { NumberField } from '../fields.js';
-import { DEGREE } from '../format.js';
+import { h, symbol } from '../ui/dom.js';
+import { NumberField } from '../ui/fields.js';
+import { DEGREE } from '../text/format.js';
 
 /** @typedef {'theta'|'psi'} Axis */
 
 export class ScenarioPanel {
-  /** @param {HTMLElement} root @param {import('../store.js').Store} store */
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
     this.store = store;
     this.theta = this.#step('theta', 'pitch step', 'θ');

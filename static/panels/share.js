@@ -1,16 +1,16 @@
 /** "Copy link", and the small panel that makes a link with locks for a class. */
-import { copyText } from '../clipboard.js';
-import { h, setText } from '../dom.js';
-import { LOCKS } from '../locks.js';
-import { MOST } from '../permalink.js';
-import { popupButton } from '../popup.js';
+import { copyText } from '../ui/clipboard.js';
+import { h, setText } from '../ui/dom.js';
+import { LOCKS } from '../model/locks.js';
+import { MOST } from '../link/permalink.js';
+import { popupButton } from '../ui/popup.js';
 
 const SHOWN_MS = 1600;
 
 export class ShareButtons {
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
 
-  /** @param {import('../store.js').Store} store @param {import('../address.js').Address} address */
+  /** @param {import('../model/store.js').Store} store @param {import('../link/address.js').Address} address */
   constructor(store, address) {
     this.store = store;
     this.address = address;

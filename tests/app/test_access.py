@@ -38,7 +38,7 @@ def test_without_the_token_tools_get_a_problem_and_people_a_form(guarded: TestCl
     assert policy["form-action"] == {"'self'"} and "script-src" not in policy
 
 
-@pytest.mark.parametrize("path", ["/livez", "/favicon.ico", "/static/login.css", "/static/favicon.svg"])
+@pytest.mark.parametrize("path", ["/livez", "/favicon.ico", "/static/css/login.css", "/static/favicon.svg"])
 def test_health_and_the_forms_own_files_are_open(guarded: TestClient, path: str):
     assert guarded.get(path).status_code == 200
 
@@ -48,7 +48,7 @@ def test_readiness_is_open(guarded: TestClient):
 
 
 @pytest.mark.parametrize(
-    "path", ["/static/../api/v1/presets", "/livez/", "//livez", "/static/login.css/../main.js"]
+    "path", ["/static/../api/v1/presets", "/livez/", "//livez", "/static/css/login.css/../main.js"]
 )
 def test_open_addresses_open_no_others(guarded: TestClient, path: str):
     guarded.headers["Accept"] = "*/*"

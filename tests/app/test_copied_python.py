@@ -17,7 +17,7 @@ from starlette.testclient import TestClient
 ROOT = Path(__file__).parents[2]
 
 SCRIPT = """
-import { allOf, textOf } from "./static/copy_formats.js";
+import { allOf, textOf } from "./static/ui/copy_formats.js";
 const { items, all } = JSON.parse(await new Response(process.stdin).text());
 console.log(JSON.stringify({ each: items.map((item) => textOf(item, "Python")), all: allOf(all, "Python") }));
 """

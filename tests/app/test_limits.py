@@ -91,7 +91,7 @@ def test_too_many_requests_are_told_when_to_come_back(http):
     refused(late, 429, "too_many_requests")
     assert int(late.headers["Retry-After"]) >= 1
     # The page's own files and the health check are not counted.
-    assert http.get("/healthz").status_code == http.get("/static/style.css").status_code == 200
+    assert http.get("/healthz").status_code == http.get("/static/css/style.css").status_code == 200
 
 
 def test_too_many_sockets_are_closed_with_1013(server):

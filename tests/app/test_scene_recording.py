@@ -19,7 +19,7 @@ from app.scene.recording import MOST_FRAMES, REST, frame_times, record
 
 ROOT = Path(__file__).parents[2]
 ASKED = """
-import { poseMessages, rotorAngles } from "./static/scene_pose.js";
+import { poseMessages, rotorAngles } from "./static/scene/pose.js";
 let text = "";
 for await (const part of process.stdin) text += part;
 const { trajectory, limits } = JSON.parse(text);

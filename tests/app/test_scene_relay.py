@@ -39,10 +39,10 @@ def server() -> Iterator[SceneServer]:
 def test_page_runs_the_shim_before_visers_own_script(server: SceneServer):
     with urllib.request.urlopen(f"{server.http}/scene/{session_id('page')}/") as response:
         page = response.read().decode()
-    shim = page.index('<script src="../../static/scene_shim.js">')
+    shim = page.index('<script src="../../static/scene/shim.js">')
     assert shim < page.index("<script data-p=")
     assert "[data-floating-window]" in page
-    assert answer(f"{server.http}/static/scene_shim.js")[0] == 200
+    assert answer(f"{server.http}/static/scene/shim.js")[0] == 200
 
 
 def test_page_is_compressed_and_not_sent_twice(server: SceneServer):

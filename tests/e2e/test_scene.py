@@ -16,7 +16,7 @@ from tests.scene_server import SceneServer, serving
 HOST_PAGE = """<!doctype html><title>host</title>
 <style>body { margin: 0 } iframe { border: 0; width: 300px; height: 230px }</style>
 <script type="module">
-import { ScenePlayer } from "./static/scene.js";
+import { ScenePlayer } from "./static/scene/player.js";
 window.players = {};
 window.states = {};
 window.open_scene = (name, query) => {

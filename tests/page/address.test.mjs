@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
-import { Address, Budget } from "../../static/address.js";
-import { Store } from "../../static/store.js";
+import { Address, Budget } from "../../static/link/address.js";
+import { Store } from "../../static/model/store.js";
 import { KNOWN, PRESETS } from "./presets.mjs";
 
 /** A browser's history, with a clock that tests move. */

@@ -2,10 +2,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { placeOf, remarksOf } from '../../static/finding_places.js';
-import { isolated } from '../../static/isolated.js';
-import { projectorWanted, withoutProjector } from '../../static/projector.js';
-import { NONE } from '../../static/requirements.js';
+import { placeOf, remarksOf } from '../../static/model/finding_places.js';
+import { isolated } from '../../static/ui/isolated.js';
+import { projectorWanted, withoutProjector } from '../../static/ui/projector.js';
+import { NONE } from '../../static/model/requirements.js';
 
 test('a view that fails is told of once and tried again', () => {
   const told = [];

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { backoff } from '../../static/backoff.js';
+import { backoff } from '../../static/net/backoff.js';
 
 test('waits twice as long each time, up to a bound, a quarter more or less', () => {
   for (let attempt = 0; attempt < 12; attempt += 1) {

@@ -2,12 +2,12 @@
 import assert from "node:assert/strict";
 import { afterEach, test } from "node:test";
 
-import { marksOf, reaches, valueAt } from "../../static/characteristics.js";
-import pseudo from "../../static/languages/pseudo.js";
-import { DEGREE } from "../../static/format.js";
-import { scaleOf } from "../../static/picture_scale.js";
-import { limitOf, referenceOf, regionsOf, rulesOf } from "../../static/plot_rules.js";
-import { useWords } from "../../static/words.js";
+import { marksOf, reaches, valueAt } from "../../static/plots/characteristics.js";
+import pseudo from "../../static/text/languages/pseudo.js";
+import { DEGREE } from "../../static/text/format.js";
+import { scaleOf } from "../../static/ui/picture_scale.js";
+import { limitOf, referenceOf, regionsOf, rulesOf } from "../../static/plots/rules.js";
+import { useWords } from "../../static/text/words.js";
 
 afterEach(() => useWords(null));
 

@@ -1,8 +1,8 @@
 /** The feed of the cloud: few rigs at once, many at rest, one request at a time, nothing when it is off. */
 import assert from 'node:assert/strict';
 import { mock, test } from 'node:test';
-import { CloudFeed, cloudRequest, cloudWords } from '../../static/cloud.js';
-import { designOf, Store } from '../../static/store.js';
+import { CloudFeed, cloudRequest, cloudWords } from '../../static/splane/cloud_feed.js';
+import { designOf, Store } from '../../static/model/store.js';
 
 const preset = {
   name: 'rig', title: '', source: '', rig: 'helicopter', parameters: { K_pp: 1, g: 9.81 }, limits: { V_p: 24, V_y: 15 }, poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),

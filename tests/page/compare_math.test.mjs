@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { best, dominanceWords, hardest, inOrder, logSpaced, pairText, sameSplit, worseMargins } from "../../static/compare_math.js";
+import { best, dominanceWords, hardest, inOrder, logSpaced, pairText, sameSplit, worseMargins } from "../../static/model/compare_math.js";
 
 const real = (...values) => values.map((re) => ({ re, im: 0 }));
 const pair = (re, im) => [{ re, im }, { re, im: -im }];

@@ -2,9 +2,9 @@
 import assert from "node:assert/strict";
 import { afterEach, mock, test } from "node:test";
 
-import { Hub } from "../../static/hub.js";
-import { RecordingFeed } from "../../static/recording_feed.js";
-import { designOf, Store } from "../../static/store.js";
+import { Hub } from "../../static/scene/hub.js";
+import { RecordingFeed } from "../../static/recordings/feed.js";
+import { designOf, Store } from "../../static/model/store.js";
 
 afterEach(() => {
   mock.timers.reset();

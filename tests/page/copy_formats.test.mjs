@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { allOf, namesIn, textOf } from "../../static/copy_formats.js";
+import { allOf, namesIn, textOf } from "../../static/ui/copy_formats.js";
 
 const K = { name: "K", note: "V/rad", matrix: [[0.1 + 0.2, -3e-7], [1e21, 0]] };
 const POLES = { name: "poles", poles: [{ re: -3, im: 4.5 }, { re: -3, im: -4.5 }, { re: -10, im: 0 }] };

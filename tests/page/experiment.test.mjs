@@ -1,13 +1,13 @@
 /** The experiment's options: what is kept, what is sent, what is said. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { cloudRequest, cloudWords } from '../../static/cloud.js';
-import { cloudCaveat, cloudScenario, experimentWords, isStandard, scenarioBody, standard, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../../static/experiment.js';
-import { differs } from '../../static/format.js';
+import { cloudRequest, cloudWords } from '../../static/splane/cloud_feed.js';
+import { cloudCaveat, cloudScenario, experimentWords, isStandard, scenarioBody, standard, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../../static/model/experiment.js';
+import { differs } from '../../static/text/format.js';
 import { findingsOf } from '../../static/panels/findings.js';
 import { linearPeak, motorText, notSettled } from '../../static/panels/metrics.js';
-import { NONE } from '../../static/requirements.js';
-import { designOf, requestOf } from '../../static/store.js';
+import { NONE } from '../../static/model/requirements.js';
+import { designOf, requestOf } from '../../static/model/store.js';
 
 const STEPS = { reference: { theta: 0.1, psi: 0.2 }, duration: 3 };
 const RIG = { theta: 2880, psi: 4096 };

@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { brief, complex, decibel, degrees, fixed, forField, parseNumber, percent, poleText, seconds, significant } from "../../static/format.js";
-import { Stats } from "../../static/stats.js";
+import { brief, complex, decibel, degrees, fixed, forField, parseNumber, percent, poleText, seconds, significant } from "../../static/text/format.js";
+import { Stats } from "../../static/ui/stats.js";
 
 test("the minus is a minus, and zero has none", () => {
   assert.equal(fixed(-1.005, 1), "\u22121.0");

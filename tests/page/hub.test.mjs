@@ -1,9 +1,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Hub } from '../../static/hub.js';
-import { edited, shownOf, steer, trajectoryIn } from '../../static/scene_panel.js';
-import { InStep } from '../../static/scene_step.js';
-import { decodeFrame } from '../../static/wire.js';
+import { Hub } from '../../static/scene/hub.js';
+import { edited, shownOf, steer, trajectoryIn } from '../../static/scene/panel.js';
+import { InStep } from '../../static/scene/step.js';
+import { decodeFrame } from '../../static/net/wire.js';
 
 class FakeSocket {
   readyState = 1;

@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import { beforeEach, mock, test } from "node:test";
 
-import { Live } from "../../static/api.js";
-import { decodeFrame, encodeFrame } from "../../static/wire.js";
+import { Live } from "../../static/net/api.js";
+import { decodeFrame, encodeFrame } from "../../static/net/wire.js";
 
 class FakeSocket {
   readyState = 0;

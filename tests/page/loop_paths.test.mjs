@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
-import { loopPaths, polynomial } from "../../static/loop_paths.js";
+import { loopPaths, polynomial } from "../../static/splane/loop_paths.js";
 
 const { cases } = JSON.parse(readFileSync(new URL("fixtures/loop_paths.json", import.meta.url), "utf8"));
 const away = (p, q) => Math.hypot(p.re - q.re, p.im - q.im);

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { crossings, decibels, marginPlaces } from "../../static/margins_math.js";
+import { crossings, decibels, marginPlaces } from "../../static/compare/margins_math.js";
 
 const close = (a, b, relative = 2e-3) => assert.ok(Math.abs(a - b) <= relative * Math.abs(b), `${a} is not ${b}`);
 const w = Array.from({ length: 241 }, (_, i) => 0.1 * 10 ** (i / 60));

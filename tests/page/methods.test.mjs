@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { keyOf, nameOf, partOf, placesPoles, STRUCTURES } from "../../static/methods.js";
+import { keyOf, nameOf, partOf, placesPoles, STRUCTURES } from "../../static/model/methods.js";
 
 test("a structure's key gives back the structure", () => {
   for (const [key, name] of STRUCTURES) {

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { anchorOf, centreSteps, clean, countsOf, dampingRatio, digitsText, figure, groupBy, minus, polesText, shortOf, thrustSteps } from "../../static/paper_math.js";
+import { anchorOf, centreSteps, clean, countsOf, dampingRatio, digitsText, figure, groupBy, minus, polesText, shortOf, thrustSteps } from "../../static/paper/math.js";
 
 const COMPONENTS = { R_p: 0.83, R_y: 1.6, K_tp: 0.0182, K_ty: 0.0109, K_fp: 1.037, K_fy: 0.4278, r_p: 0.19685, r_y: 0.168275, m_p: 0.292, m_y: 0.128, m_shield: 0.167 };
 

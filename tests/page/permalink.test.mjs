@@ -3,11 +3,11 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
-import { linkOf, MOST, placeIn, readLink, troubleWords } from "../../static/permalink.js";
-import { differences, escaped, leafOf, leafText, leaves, polesLink, polesOf, setLeaf } from "../../static/link_values.js";
-import { LOCKS } from "../../static/locks.js";
-import { NONE } from "../../static/requirements.js";
-import { designOf, initialState } from "../../static/store.js";
+import { linkOf, MOST, placeIn, readLink, troubleWords } from "../../static/link/permalink.js";
+import { differences, escaped, leafOf, leafText, leaves, polesLink, polesOf, setLeaf } from "../../static/link/link_values.js";
+import { LOCKS } from "../../static/model/locks.js";
+import { NONE } from "../../static/model/requirements.js";
+import { designOf, initialState } from "../../static/model/store.js";
 import { KNOWN, PRESETS } from "./presets.mjs";
 
 /** Numbers from 0 to 1, the same at every run (mulberry32). */

@@ -2,12 +2,12 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
-import { guarded } from "../../static/locks.js";
-import { PinKeeper } from "../../static/pin_keeper.js";
-import { differenceTable, FIGURES, letterOf } from "../../static/pins.js";
-import { csvOf, linesOf } from "../../static/plot_export.js";
-import { designOf, Store } from "../../static/store.js";
-import { ProblemError } from "../../static/api.js";
+import { guarded } from "../../static/model/locks.js";
+import { PinKeeper } from "../../static/link/pin_keeper.js";
+import { differenceTable, FIGURES, letterOf } from "../../static/model/pins.js";
+import { csvOf, linesOf } from "../../static/plots/export.js";
+import { designOf, Store } from "../../static/model/store.js";
+import { ProblemError } from "../../static/net/api.js";
 import { PRESETS } from "./presets.mjs";
 
 const axis = (rise, overshoot, V) => ({ nonlinear: { t: [0, 0.5, 1], theta: [0, 0.1, rise], psi: [0, 0, 0], V_p: [1, V, 1], V_y: [0, 0, 0], metrics: { theta: { rise_time: rise, overshoot }, psi: { rise_time: rise }, V_p: { peak: V, saturated: 0 }, V_y: { peak: 1, saturated: 0 } } } });

@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { placeBeside, stepIn } from "../../static/popup.js";
-import { readoutPlace } from "../../static/splane_readout.js";
+import { placeBeside, stepIn } from "../../static/ui/popup.js";
+import { readoutPlace } from "../../static/splane/readout.js";
 
 let seed = 7;
 const drawn = (low, high) => low + (high - low) * ((seed = (seed * 16807) % 2147483647) / 2147483647);

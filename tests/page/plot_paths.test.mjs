@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { corners, plainPath } from '../../static/plot_paths.js';
+import { corners, plainPath } from '../../static/plots/paths.js';
 
 const TOLERANCE = 0.2;
 

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { character, drag, isComplex, nudge, setComplex, setMode, setReal } from "../../static/poles.js";
+import { character, drag, isComplex, nudge, setComplex, setMode, setReal } from "../../static/model/poles.js";
 
 const real = (...values) => values.map((re) => ({ re, im: 0 }));
 const START = real(-12, -10, -9.25, -8.76);

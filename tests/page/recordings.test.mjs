@@ -1,9 +1,9 @@
 /** Recordings: what is asked of the server, words and curves, and the feed: newest file, progress, cancel. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { RecordingFeed } from '../../static/recording_feed.js';
-import { adopted, columnsBody, curves, estimateRows, fitText, freeAtFirst, guessed, isMapped, nothing, missingWords, overlayWords, previewWords, rangeOfCurves } from '../../static/recordings.js';
-import { designOf, Store } from '../../static/store.js';
+import { RecordingFeed } from '../../static/recordings/feed.js';
+import { adopted, columnsBody, curves, estimateRows, fitText, freeAtFirst, guessed, isMapped, nothing, missingWords, overlayWords, previewWords, rangeOfCurves } from '../../static/recordings/recordings.js';
+import { designOf, Store } from '../../static/model/store.js';
 
 const preset = {
   name: 'rig', title: '', source: '', rig: 'helicopter', parameters: { K_pp: 1, K_s: 0 }, limits: { V_p: 24, V_y: 15 }, poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),

@@ -2,9 +2,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { forbidden, guideWords, leastDamping, missed, missing, NONE, verdictOf } from "../../static/requirements.js";
-import { readoutLines } from "../../static/splane_readout.js";
-import { Store } from "../../static/store.js";
+import { forbidden, guideWords, leastDamping, missed, missing, NONE, verdictOf } from "../../static/model/requirements.js";
+import { readoutLines } from "../../static/splane/readout.js";
+import { Store } from "../../static/model/store.js";
 
 const both = { settling: 1, overshoot: 5 };
 const pair = (re, im) => [{ re, im }, { re, im: -im }];

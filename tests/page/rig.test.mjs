@@ -2,9 +2,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { linkOf, readLink } from '../../static/permalink.js';
-import { asProposed, changedWords, isChanged, proposedShown, quantities, valueOf, without, withValue } from '../../static/rig.js';
-import { bodyOf, designOf, initialState } from '../../static/store.js';
+import { linkOf, readLink } from '../../static/link/permalink.js';
+import { asProposed, changedWords, isChanged, proposedShown, quantities, valueOf, without, withValue } from '../../static/model/rig.js';
+import { bodyOf, designOf, initialState } from '../../static/model/store.js';
 import { KNOWN, PRESETS } from './presets.mjs';
 
 const range = (meaning, unit, minimum, maximum = 1e6) => ({ meaning, unit, minimum, maximum });

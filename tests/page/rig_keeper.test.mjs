@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { RigKeeper } from '../../static/rig_keeper.js';
+import { RigKeeper } from '../../static/scene/rig_keeper.js';
 
 /** A keeper, what its server was told, and what waits for its time. The server answers when `answer` says so. */
 function keeper() {

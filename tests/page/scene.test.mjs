@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { afterEach, beforeEach, describe, test } from "node:test";
 
-import { ScenePlayer } from "../../static/scene.js";
-import { poseMessages, rotorAngles, sampleTrajectory } from "../../static/scene_pose.js";
+import { ScenePlayer } from "../../static/scene/player.js";
+import { poseMessages, rotorAngles, sampleTrajectory } from "../../static/scene/pose.js";
 
 const ramp = {
   t: [0, 1, 2],

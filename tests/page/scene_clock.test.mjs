@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { beforeEach, describe, test } from "node:test";
-import { REST, SceneClock, SPEEDS, nearestSpeed } from "../../static/scene_clock.js";
+import { REST, SceneClock, SPEEDS, nearestSpeed } from "../../static/scene/clock.js";
 
 const near = (a, b) => assert.ok(Math.abs(a - b) < 1e-12, `${a} is not ${b}`);
 

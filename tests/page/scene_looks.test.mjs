@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { cameraMessages, cameraNamed, cameraPose, CAMERAS } from "../../static/scene_cameras.js";
-import { flightsOf, ghostMessages, rgb, SLOTS } from "../../static/scene_ghosts.js";
-import { poseMessages, slotOf, themeMessages, THRUST_SCALE } from "../../static/scene_pose.js";
+import { cameraMessages, cameraNamed, cameraPose, CAMERAS } from "../../static/scene/cameras.js";
+import { flightsOf, ghostMessages, rgb, SLOTS } from "../../static/scene/ghosts.js";
+import { poseMessages, slotOf, themeMessages, THRUST_SCALE } from "../../static/scene/pose.js";
 
 const BODY = "/rig/yoke/body";
 const rest = { t: 0, theta: 0, psi: 0, V_p: 0, V_y: 0 };

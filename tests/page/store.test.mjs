@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
-import { bodyOf, designOf, requestOf, Store } from "../../static/store.js";
+import { bodyOf, designOf, requestOf, Store } from "../../static/model/store.js";
 
 const PRESET = {
   name: "rig", title: "Rig", source: "a manual", rig: "helicopter", parameters: { m: 1 }, limits: { V_p: 24, V_y: 15 },

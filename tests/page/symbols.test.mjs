@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { inverseOf, mixingOf } from "../../static/loop_values.js";
-import { Glossary, signOf, symbolsIn, worthOf } from "../../static/symbols.js";
+import { inverseOf, mixingOf } from "../../static/model/loop_values.js";
+import { Glossary, signOf, symbolsIn, worthOf } from "../../static/paper/symbols.js";
 
 /** A little of an element: what the server's MathML needs. @param {string} source */
 function parsed(source) {

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { extent, indexAt, rangeOf, trace, tracesOf } from "../../static/traces.js";
+import { extent, indexAt, rangeOf, trace, tracesOf } from "../../static/model/traces.js";
 
 const step = (value) => ({
   t: [0, 1, 2], theta: [0, value, value], psi: [0, 0, 0], V_p: [value, 0, 0], V_y: [0, 0, 0],

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { watched } from "../../static/watch.js";
+import { watched } from "../../static/ui/watch.js";
 
 const START = { design: { a: 1 }, reply: null, dragging: false, cloud: null };
 

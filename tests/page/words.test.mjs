@@ -2,8 +2,8 @@
 import assert from 'node:assert/strict';
 import { afterEach, test } from 'node:test';
 
-import pseudo from '../../static/languages/pseudo.js';
-import { count, languageOf, loadWords, say, t, useWords } from '../../static/words.js';
+import pseudo from '../../static/text/languages/pseudo.js';
+import { count, languageOf, loadWords, say, t, useWords } from '../../static/text/words.js';
 
 afterEach(() => useWords(null));
 

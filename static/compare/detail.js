@@ -1,0 +1,25 @@
+/** What an opened row of the comparison shows: K as a matrix, the loop's poles, and what is to be said of it. */
+import { h } from '../ui/dom.js';
+import { complex, significant } from '../text/format.js';
+import { GAIN, gainMatrix, integralMatrix } from '../ui/matrix.js';
+
+/** @param {string} name @param {import('../types.js').Complex[]} poles */
+function poles(name, poles) {
+  const shown = poles.filter((p) => p.im >= 0).map((p) => (p.im ? complex(p).replace('+', '±') : complex(p)));
+  return h('p', {}, h('span', { class: 'aside' }, `${name}, rad/s: `), shown.join(',\u2002'));
+}
+
+/** @param {any} row @param {string} key @param {string} title */
+export function rowDetail(row, key, title) {
+  const k = gainMatrix(`compare-k-${key}`, GAIN);
+  k.render(row.K, (v) => significant(v, 4));
+  const matrices = [k.node];
+  if (row.integral) {
+    const integral = integralMatrix(`compare-ki-${key}`);
+    integral.render(row.integral, (v) => significant(v, 4));
+    matrices.push(integral.node);
+  }
+  return h('div', { class: 'inside' }, h('div', { class: 'matrices' }, matrices), h('div', { class: 'said' },
+    poles('Poles of A − BK', row.closed_loop_poles), poles('Poles of the whole loop', row.loop_poles),
+    (row.findings ?? []).map((/** @type {any} */ f) => h('p', { class: f.severity }, f.message)), h('p', { class: 'aside' }, title.replace('\n', ': '))));
+}

@@ -1,0 +1,175 @@
+/**
+ * Keeps the address in step with the state, so that it can be mailed, reloaded, and walked through with the browser's Back and Forward: an entry of the
+ * history for every step of undo, rewritten while the gesture goes on. Browsers allow about a hundred such calls in half a minute.
+ * @typedef {import('../types.js').State} State
+ * @typedef {import('./permalink.js').Known} Known
+ */
+import { linkOf, placeIn, readLink, troubleWords } from './permalink.js';
+
+const WITHIN_MS = 1000; // between two writes of one gesture
+const BURST = 20; // calls that may follow each other at once
+const REFILL_MS = 400; // for each call after these: at most 20 + 75 in half a minute
+
+/** Allows so many calls at once, and one more every so often. */
+export class Budget {
+  #tokens = BURST;
+  #since;
+
+  /** @param {number} now ms */
+  constructor(now) {
+    this.#since = now;
+  }
+
+  /** @param {number} now ms @returns {boolean} whether a call may be made; then it counts */
+  take(now) {
+    const refilled = Math.floor((now - this.#since) / REFILL_MS);
+    this.#tokens = Math.min(BURST, this.#tokens + refilled);
+    this.#since += refilled * REFILL_MS;
+    if (this.#tokens < 1) return false;
+    this.#tokens -= 1;
+    return true;
+  }
+}
+
+/** What of the state a link holds. @param {State} s */
+const held = (s) => [s.design, s.motion, s.showLinear, s.showMarks, s.spread, s.requirements, s.locks, pinKey(s.pins)];
+/** Their replies are no part of it. @param {State['pins']} pins */
+const pinKey = (pins) => pins.map((p) => `${p.id} ${p.index} ${p.name}`).join('\n');
+
+/** @typedef {{hash: () => string, push: (hash: string) => void, replace: (hash: string) => void, now: () => number, later: (f: () => void, ms: number) => any, cancel: (id: any) => void}} Browser */
+/** @type {() => Browser} */
+const browser = () => ({
+  hash: () => location.hash,
+  push: (hash) => history.pushState(null, '', hash),
+  replace: (hash) => history.replaceState(null, '', hash),
+  now: () => performance.now(),
+  later: (f, ms) => setTimeout(f, ms),
+  cancel: (id) => clearTimeout(id),
+});
+
+export class Address {
+  #shown = '';
+  #step = -1;
+  /** @type {string|null} */ #place = null;
+  /** @type {any[]} */ #seen = [];
+  /** @type {{state: State, step: number}|null} */ #pending = null;
+  /** @type {any} */ #timer = null;
+  #wrote = -Infinity;
+
+  /** @param {import('../model/store.js').Store} store @param {Browser} [of] */
+  constructor(store, of = browser()) {
+    this.store = store;
+    this.of = of;
+    this.budget = new Budget(of.now());
+  }
+
+  /** @returns {Known} */
+  get #known() {
+    const { presets, methods } = this.store.state;
+    return { presets, methods };
+  }
+
+  /** The present link, with its #. */
+  get link() {
+    return linkOf(this.store.state, this.#known);
+  }
+
+  /** The present design with other locks. @param {string[]} locks */
+  linkWith(locks) {
+    return linkOf({ ...this.store.state, locks }, this.#known);
+  }
+
+  /** Fills the store from the address; called once, when the presets are known. @returns {string|null} the place to which it leads */
+  open() {
+    const link = readLink(this.of.hash(), this.#known);
+    const { design } = readLink('#v1', this.#known);
+    if (link.shown) this.store.set(link.shown);
+    this.store.load(/** @type {any} */ (link.design ?? design));
+    if (link.pins?.length) this.store.addPins(link.pins.map((pin) => ({ ...pin, reply: null })));
+    this.store.set({ notice: troubleWords(link.trouble) });
+    this.#place = link.place ?? null;
+    this.#step = this.store.step;
+    if (!link.trouble.length) this.#write(this.store.state, this.#step); // a link that was not understood stays to be read
+    return this.#place;
+  }
+
+  /** After Back, Forward, a jump within the page, or a link put into the address bar. */
+  navigated() {
+    const hash = this.of.hash();
+    if (hash === this.#shown || !this.store.state.design) return;
+    const link = readLink(hash, this.#known);
+    if (!link.design && !link.trouble.length) { // a jump within the page: the design goes along
+      this.flush();
+      this.#place = placeIn(hash) ?? null;
+      this.#replace(linkOf(this.store.state, this.#known, this.#place));
+      return;
+    }
+    this.#cancel();
+    this.store.set({ ...link.shown, notice: troubleWords(link.trouble) });
+    if (!link.design) return;
+    this.#place = link.place ?? null;
+    this.#shown = hash;
+    const known = new Set(this.store.state.pins.map((p) => p.name));
+    this.store.addPins((link.pins ?? []).filter((p) => !known.has(p.name)).map((pin) => ({ ...pin, reply: null }))); // going back takes no pin away
+    this.store.restore(link.design);
+    this.#step = this.store.step;
+    this.#seen = held(this.store.state);
+  }
+
+  /** @param {State} state */
+  render(state) {
+    if (!state.design || this.#step < 0) return;
+    const now = held(state);
+    if (now.every((v, i) => v === this.#seen[i])) return;
+    this.#seen = now;
+    if (this.#pending && this.#pending.step !== this.store.step) this.flush();
+    this.#pending = { state, step: this.store.step };
+    if (this.#timer !== null) return;
+    this.#timer = this.of.later(() => this.flush(), this.store.busy ? Math.max(0, WITHIN_MS - (this.of.now() - this.#wrote)) : 0);
+  }
+
+  /** Writes what waits. */
+  flush() {
+    const pending = this.#pending;
+    this.#cancel();
+    if (!pending) return;
+    if (this.#write(pending.state, pending.step)) return;
+    this.#pending = pending;
+    this.#timer = this.of.later(() => this.flush(), REFILL_MS);
+  }
+
+  #cancel() {
+    if (this.#timer !== null) this.of.cancel(this.#timer);
+    this.#timer = null;
+    this.#pending = null;
+  }
+
+  /** @param {State} state @param {number} step @returns {boolean} whether the address is right now */
+  #write(state, step) {
+    const fresh = step !== this.#step;
+    const link = linkOf(state, this.#known, fresh ? null : this.#place);
+    if (link === this.#shown) return true;
+    if (!this.budget.take(this.of.now())) return false;
+    this.#wrote = this.of.now();
+    if (!fresh) return this.#replace(link);
+    this.#place = null;
+    this.#step = step;
+    return this.#attempt(() => this.of.push(link), link);
+  }
+
+  /** @param {string} link */
+  #replace(link) {
+    return this.#attempt(() => this.of.replace(link), link);
+  }
+
+  /** A browser may refuse all the same; then the next change writes. @param {() => void} call @param {string} link */
+  #attempt(call, link) {
+    try {
+      call();
+      this.#shown = this.of.hash();
+    } catch {
+      this.#shown = link;
+    }
+    return true;
+  }
+}

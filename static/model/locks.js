@@ -1,0 +1,27 @@
+/**
+ * What a link can lock, for a class: parts of the design that keep the values with which the link opened. Pure.
+ * @typedef {import('../types.js').Design} Design
+ * @typedef {{name: string, keys: (keyof Design)[], controls: string}} Lock  controls: where the page changes them, as a selector
+ */
+
+/** @type {Record<string, Lock>} */
+export const LOCKS = {
+  preset: { name: 'rig', keys: ['preset', 'parameters', 'limits'], controls: '[data-testid=preset], #header :is([data-field], [data-testid^=rig-reset])' },
+  point: { name: 'operating point', keys: ['theta0'], controls: '[data-field^="operating_point"]' },
+  poles: { name: 'poles', keys: ['poles'], controls: '.pole, #poles input, [data-testid^="use-split"]' },
+  method: { name: 'method', keys: ['method', 'coupling', 'lead'], controls: '[data-field=method], [data-testid^="use-"]' },
+  loops: { name: 'outer loops', keys: ['outer', 'pairing', 'decoupler', 'loops'], controls: '#loops [data-testid^=outer-], #loops .pis input, [data-field=pairing], [data-field=decoupler], [data-testid=suggest-pi], [data-testid=pair-advised]' },
+  scenario: { name: 'steps', keys: ['scenario'], controls: '#scenario [data-field^=scenario]' },
+};
+
+/** The change, but for what is locked; the design itself where nothing is left of the change. @param {Design} before @param {Design} after @param {string[]} locks @returns {Design} */
+export function guarded(before, after, locks) {
+  if (!locks.length || after === before) return after;
+  /** @type {any} */ const kept = { ...after };
+  for (const lock of locks) for (const key of LOCKS[lock]?.keys ?? []) kept[key] = before[key];
+  const same = Object.keys({ ...before, ...kept }).every((key) => kept[key] === /** @type {any} */ (before)[key]);
+  return same ? before : kept;
+}
+
+/** @param {string[]} locks */
+export const lockNames = (locks) => locks.map((lock) => LOCKS[lock]?.name ?? lock).join(', ');

@@ -1,0 +1,200 @@
+/**
+ * The page's one state, and the only place that changes it. Knows no DOM and no network.
+ *
+ * `edit` changes the design (what the user chose) and can be undone; `set` changes everything else. Views listen to `change` and read; whoever
+ * sends the design listens to `design`.
+ * @typedef {import('../types.js').State} State
+ * @typedef {import('../types.js').Design} Design
+ * @typedef {import('../types.js').Preset} Preset
+ * @typedef {import('../types.js').Pin} Pin
+ */
+import { scenarioBody } from './experiment.js';
+import { guarded } from './locks.js';
+import { letterOf } from './pins.js';
+import { fromWire } from './poles.js';
+import { NONE } from './requirements.js';
+
+const DEPTH = 200;
+
+/** @returns {State} */
+export const initialState = () => ({
+  presets: [], methods: [], design: null, reply: null, answered: null, problem: null, connection: 'connecting', motion: 'both', showLinear: true, showMarks: true, dragging: false, spread: 0, cloud: null,
+  requirements: NONE, canUndo: false, canRedo: false, pins: [], locks: [], notice: null, fault: null,
+  recorded: { preview: null, columns: null, driver: 'segments', busy: '', problem: null, overlay: null, overlaid: null, progress: null, found: null, foundFor: null },
+});
+
+/** What a preset proposes. @param {Preset} preset @param {Partial<Design>} [keep] @returns {Design} */
+export function designOf(preset, keep = {}) {
+  return {
+    preset: preset.name,
+    parameters: {},
+    limits: {},
+    theta0: preset.operating_point?.theta ?? 0,
+    poles: fromWire(preset.poles),
+    method: 'full-rank',
+    coupling: /** @type {Design['coupling']} */ (preset.coupling ?? 'triangular'),
+    lead: preset.lead ?? 'pitch',
+    outer: /** @type {Design['outer']} */ (preset.outer ?? 'pi'),
+    pairing: /** @type {Design['pairing']} */ (preset.pairing ?? 'diagonal'),
+    decoupler: preset.decoupler ?? false,
+    loops: { pitch: { ...preset.loops.pitch }, yaw: { ...preset.loops.yaw } },
+    scenario: {
+      reference: { theta: preset.scenario?.reference?.theta ?? 0.2, psi: preset.scenario?.reference?.psi ?? 0.5 },
+      duration: preset.scenario?.duration ?? 5,
+    },
+    ...keep,
+  };
+}
+
+/** A design as the server's calls take it. @param {Design} design */
+export function bodyOf(design) {
+  return {
+    preset: design.preset,
+    parameters: design.parameters,
+    limits: design.limits,
+    operating_point: { theta: design.theta0 },
+    poles: design.poles,
+    method: design.method,
+    coupling: design.coupling,
+    lead: design.lead,
+    outer: design.outer,
+    pairing: design.pairing,
+    decoupler: design.decoupler,
+    loops: design.loops,
+  };
+}
+
+/** The experiment, sampled for the screen. @param {Design} design */
+export const scenarioOf = ({ scenario }) => ({ ...scenarioBody(scenario), samples: 501 });
+
+/** All that the page shows of a design, asked of the server. @param {Design} design */
+export const evaluationOf = (design) => ({ ...bodyOf(design), scenario: scenarioOf(design), each_axis: true });
+
+/** The message to the live socket. @param {Design} design @param {number} seq */
+export const requestOf = (design, seq) => ({ seq, ...evaluationOf(design) });
+
+/** @param {Pick<State, 'presets'|'design'>} state @returns {Preset|undefined} */
+export const presetOf = ({ presets, design }) => presets.find((p) => p.name === design?.preset);
+
+export class Store extends EventTarget {
+  /** @type {State} */ state = initialState();
+  /** @type {Design[]} */ #past = [];
+  /** @type {Design[]} */ #future = [];
+  /** @type {string|null} */ #gesture = null;
+  #pinned = 0;
+  /** Counts the steps of undo: the edits of one gesture share a number. */
+  step = 0;
+
+  /** Changes what is not the design. @param {Partial<State>} part */
+  set(part) {
+    this.state = { ...this.state, ...part };
+    this.dispatchEvent(new Event('change'));
+  }
+
+  /**
+   * Changes the design. Edits with the same gesture in a row are one step of undo.
+   * @param {(d: Design) => Design} change @param {{gesture?: string, stamp?: number}} [how] stamp: time of the input event
+   */
+  edit(change, { gesture, stamp } = {}) {
+    const before = this.state.design;
+    if (!before) return;
+    const after = guarded(before, change(before), this.state.locks);
+    if (after === before) return;
+    if (!gesture || gesture !== this.#gesture) {
+      this.step += 1;
+      this.#past.push(before);
+      if (this.#past.length > DEPTH) this.#past.shift();
+    }
+    this.#gesture = gesture ?? null;
+    this.#future = [];
+    this.#put(after, stamp);
+  }
+
+  /** Ends a gesture: the next edit is a new step of undo. */
+  commit() {
+    this.#gesture = null;
+  }
+
+  /** Whether a gesture goes on. */
+  get busy() {
+    return this.#gesture !== null || this.state.dragging;
+  }
+
+  /** Starts afresh, without history. @param {Design} design */
+  load(design) {
+    this.#past = [];
+    this.#future = [];
+    this.#gesture = null;
+    this.step += 1;
+    this.#put(design);
+  }
+
+  /** Takes a design as it is, whatever is locked; it can be undone. @param {Design} design */
+  restore(design) {
+    if (!this.state.design) return this.load(design);
+    this.#past.push(this.state.design);
+    this.#future = [];
+    this.#gesture = null;
+    this.step += 1;
+    return this.#put(design);
+  }
+
+  undo() {
+    this.#travel(this.#past, this.#future);
+  }
+
+  redo() {
+    this.#travel(this.#future, this.#past);
+  }
+
+  /** @param {Design[]} from @param {Design[]} to */
+  #travel(from, to) {
+    const design = from.pop();
+    if (!design || !this.state.design) return;
+    to.push(this.state.design);
+    this.#gesture = null;
+    this.step += 1;
+    this.#put(design);
+  }
+
+  /** @param {Design} design @param {number} [stamp] */
+  #put(design, stamp) {
+    this.state = { ...this.state, design, canUndo: this.#past.length > 0, canRedo: this.#future.length > 0 };
+    this.dispatchEvent(new CustomEvent('design', { detail: { stamp } }));
+    this.dispatchEvent(new Event('change'));
+  }
+
+  /** Keeps the present design beside those that follow. */
+  pin() {
+    const { design, reply, answered, pins } = this.state;
+    if (!design) return;
+    const index = [...pins.keys(), pins.length].find((i) => pins.every((p) => p.index !== i)) ?? pins.length;
+    this.addPins([{ index, name: `Design ${letterOf(index)}`, design, reply: answered === design ? reply : null }]);
+  }
+
+  /** @param {Omit<Pin, 'id'>[]} pins */
+  addPins(pins) {
+    if (pins.length) this.set({ pins: [...this.state.pins, ...pins.map((pin) => ({ ...pin, id: ++this.#pinned }))] });
+  }
+
+  /** @param {number} id @param {Partial<Pin>} part */
+  changePin(id, part) {
+    this.set({ pins: this.state.pins.map((p) => (p.id === id ? { ...p, ...part } : p)) });
+  }
+
+  /** @param {number} id */
+  unpin(id) {
+    this.set({ pins: this.state.pins.filter((p) => p.id !== id) });
+  }
+
+  /** Makes a pinned design the present one. @param {number} id */
+  usePin(id) {
+    const pin = this.state.pins.find((p) => p.id === id);
+    if (pin) this.edit(() => pin.design);
+  }
+
+  /** @returns {Preset|undefined} */
+  get preset() {
+    return presetOf(this.state);
+  }
+}

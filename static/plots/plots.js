@@ -1,0 +1,240 @@
+/**
+ * Four plots over one time axis: θ, ψ in degrees, V_p, V_y in volts. The pointer's cursor is shared; the scene's time is a line of its own, moved
+ * without redrawing anything.
+ * @typedef {import('../types.js').State} State
+ * @typedef {import('../model/traces.js').Signal} Signal
+ */
+import uPlot from '../vendor/uplot/uPlot.esm.js';
+import { marksOf } from './characteristics.js';
+import { h, setText, symbol } from '../ui/dom.js';
+import { fixed } from '../text/format.js';
+import { followsPage, pictureScale } from '../ui/picture_scale.js';
+import { COLORS, colorOf } from '../model/pins.js';
+import { PlotGhosts } from './ghosts.js';
+import { PlotMarks } from './marks.js';
+import { plotMenu } from './menu.js';
+import { plainPath } from './paths.js';
+import { drawBand, drawReference, drawRegions, drawShades, limitOf, referenceOf, regionsOf, rulesOf, rulesSeen } from './rules.js';
+import { PlotTexts } from './texts.js';
+import { extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from '../model/traces.js';
+import { say, t as word } from '../text/words.js';
+
+/** @type {Record<Signal, {base: string, sub?: string, title: string, unit: string}>} */
+const ABOUT = {
+  theta: { base: 'θ', title: 'pitch', unit: '°' },
+  psi: { base: 'ψ', title: 'yaw', unit: '°' },
+  V_p: { base: 'V', sub: 'p', title: 'pitch motor', unit: ' V' },
+  V_y: { base: 'V', sub: 'y', title: 'yaw motor', unit: ' V' },
+};
+const Chart = /** @type {any} */ (uPlot); // its types stay in its package
+const AXIS_WIDTH = 42;
+const PLAYED = { theta: 'pitch step', psi: 'yaw step', both: 'both steps' };
+
+export class Plots {
+  /** @type {Record<string, string>} */ #colors = {};
+  /** @type {Record<string, [number, number]|undefined>} */ #ranges = {};
+  /** @type {[number, number]} */ #time = [0, 5];
+  /** @type {[number, number]|null} */ #zoom = null;
+  /** @type {any[]} */ #seen = [];
+  /** @type {number|null} */ #hover = null;
+  #playhead = 0;
+  /** @type {import('../types.js').Cloud|null} */ #cloud = null;
+  /** @type {import('../types.js').Requirements|null} */ #asked = null;
+  /** @type {{t: import('../types.js').Series, plots: Record<Signal, any[]>}|null} */ #data = null;
+
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store @param {{onSeek: (t: number) => void, onPeek: (t: number|null) => void}} handlers */
+  constructor(root, store, { onSeek, onPeek }) {
+    this.store = store;
+    this.onSeek = onSeek;
+    this.onPeek = onPeek;
+    this.root = root;
+    this.at = h('span');
+    this.played = h('span', { class: 'played' });
+    this.when = h('span', { class: 'when', 'data-testid': 'plot-time' }, this.at, this.played);
+    this.unzoom = h('button', { type: 'button', class: 'unzoom', hidden: true, 'data-testid': 'unzoom', title: 'Show the whole time again (Escape)', onclick: () => this.#zoomTo(null) }, 'Whole time');
+    this.#readColors();
+    this.plots = SIGNALS.map((signal) => this.#build(signal));
+    for (const query of ['(prefers-color-scheme: dark)', '(prefers-contrast: more)']) {
+      matchMedia(query).addEventListener('change', () => {
+        this.#readColors();
+        for (const { chart } of this.plots) chart.redraw(false);
+      });
+    }
+  }
+
+  #readColors() {
+    const style = getComputedStyle(document.documentElement);
+    const pins = Array.from({ length: COLORS }, (_, i) => colorOf(i));
+    for (const name of ['panel', 'pitch', 'yaw', 'ink', 'muted', 'grid', 'halo', 'danger', 'warn', 'limit-fill', ...pins]) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
+  }
+
+  /** @param {Signal} signal */
+  #build(signal) {
+    const about = ABOUT[signal];
+    const values = ['theta', 'psi'].map((axis) => h('span', { class: `at ${axis === 'theta' ? 'pitch' : 'yaw'}`, title: `${axis === 'theta' ? 'pitch' : 'yaw'} step` }));
+    const body = h('div', { class: 'plot-body', tabindex: 0, role: 'group', 'aria-label': `${about.title}: left and right move the time, plus and minus zoom, Escape shows the whole time`, onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e) });
+    const first = signal === SIGNALS[0] ? [this.when, this.unzoom] : [];
+    const menu = plotMenu(this.store, signal, `${about.title} over time`, () => ({ x: this.#zoom ?? this.#time, y: this.#ranges[signal] ?? [0, 1], rules: rulesOf(this.store.state.reply, signal), regions: regions(), marks: this.#marks(signal) }));
+    const figure = h('figure', { class: `plot ${isVoltage(signal) ? 'volts' : 'angle'}`, 'data-testid': `plot-${signal}`, 'data-signal': signal },
+      h('figcaption', {}, symbol(about.base, about.sub), h('span', { class: 'what' }, `${about.title}, ${about.unit.trim() === '°' ? 'deg' : 'V'}`), first, h('span', { class: 'values' }, values), menu), body);
+    this.root.append(figure);
+    const color = (/** @type {string} */ name) => () => this.#colors[name];
+    const ink = (/** @type {string} */ name) => this.#colors[name];
+    const rules = () => rulesOf(this.store.state.reply, signal);
+    const regions = () => regionsOf(this.store.state.reply, signal, this.store.state.requirements);
+    const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({ stroke: color(name), width, dash, auto: false, paths: plainPath, points: { show: false } });
+    const last = () => signal === 'V_y' || (signal === 'V_p' && this.root.classList.contains('two-columns'));
+    /** @type {PlotGhosts|undefined} */ let ghosts;
+    /** @type {PlotMarks|undefined} */ let marks;
+    /** @type {PlotTexts|undefined} */ let texts;
+    // auto: false, as the ranges are ours: no trace is searched for its extremes a second time.
+    const chart = followsPage(new Chart({
+      width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [() => 6 * pictureScale().type, () => 12 * pictureScale().type, 2, 0],
+      series: [{}, { stroke: color('halo'), width: 7, auto: false, paths: plainPath, points: { show: false } }, line('pitch', 1.25, [7, 4]), line('yaw', 1.25, [2, 3]), line('yaw', 1.5), line('pitch', 2.4)],
+      scales: { x: { time: false, range: () => this.#zoom ?? this.#time }, y: { range: () => this.#ranges[signal] ?? [0, 1] } },
+      axes: [
+        { grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 4, space: () => 50 * pictureScale().type, size: () => (last() ? 22 * pictureScale().type : 4), values: () => [] },
+        { grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, size: () => AXIS_WIDTH * pictureScale().type, space: () => 26 * pictureScale().type, values: () => [] },
+      ],
+      cursor: { y: false, points: { show: false }, drag: { x: true, y: false, setScale: false },
+        sync: { key: 'heli2dof', filters: { pub: (/** @type {string} */ type) => type === 'mousemove' || type === 'mouseleave' } },
+        bind: { dblclick: () => () => this.#zoomTo(null) } },
+      hooks: {
+        drawAxes: [(/** @type {any} */ u) => drawShades(u, rules(), ink), (/** @type {any} */ u) => drawRegions(u, regions(), ink), (/** @type {any} */ u) => drawBand(u, signal, this.#cloud, ink)],
+        draw: [(/** @type {any} */ u) => drawReference(u, rules(), ink), (/** @type {any} */ u) => texts?.draw(rulesSeen(u, rules()), pictureScale().type), () => ghosts?.draw(ink), () => marks?.place()],
+        setCursor: [(/** @type {any} */ u) => this.#hovered(u)],
+        setSelect: [(/** @type {any} */ u) => this.#selected(u)],
+      },
+    }, [[0, 1], ...Array(5).fill([null, null])], body));
+    texts = new PlotTexts(chart, {
+      time: (v, end) => (last() ? `${Number(v.toFixed(3))}${end ? ' s' : ''}` : ''),
+      axis: (v) => String(Number(v.toPrecision(6))).replace('-', '\u2212'),
+    });
+    ghosts = new PlotGhosts(chart, signal);
+    marks = new PlotMarks(chart, this.onSeek);
+    const head = h('div', { class: 'playhead' });
+    chart.over.append(head);
+    chart.over.addEventListener('click', () => {
+      if (chart.cursor.left !== undefined && chart.cursor.left >= 0) this.onSeek(chart.posToVal(chart.cursor.left, 'x'));
+    });
+    new ResizeObserver(([entry]) => {
+      const { width, height } = entry.contentRect;
+      if (width > 60 && height > 40) chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
+      this.#movePlayhead();
+    }).observe(body);
+    return { signal, chart, values, head, ghosts, marks };
+  }
+
+  /** @param {State} state @returns {boolean} whether anything was drawn */
+  render(state) {
+    if (state.cloud !== this.#cloud || state.requirements !== this.#asked) {
+      this.#cloud = state.cloud;
+      this.#asked = state.requirements;
+      for (const { signal, chart } of this.plots) if (!isVoltage(signal)) chart.redraw(false);
+    }
+    const seen = [state.reply, state.motion, state.showLinear, state.showMarks, state.pins];
+    if (!state.reply || seen.every((v, i) => v === this.#seen[i])) return false;
+    this.#seen = seen;
+    const fresh = this.#data === null;
+    const data = (this.#data = tracesOf(state.reply, state.motion, state.showLinear));
+    const end = data.t[data.t.length - 1];
+    const whole = end !== this.#time[1];
+    this.#time = [0, end];
+    if (whole && this.#zoom) this.#zoomTo(null);
+    const empty = Array(data.t.length).fill(null);
+    for (const { signal, chart, ghosts, marks } of this.plots) {
+      ghosts.take(state.pins);
+      const [played, dashPitch, dashYaw, yaw, pitch] = data.plots[signal];
+      this.#ranges[signal] = rangeOf({
+        solid: extent([played, yaw, pitch]), dashed: extent([dashPitch, dashYaw, ghosts.extent]), include: [0, referenceOf(state.reply, signal) ?? 0],
+        limit: limitOf(state.reply, signal),
+        previous: fresh ? undefined : this.#ranges[signal],
+      });
+      const columns = /** @type {any} */ ([data.t, ...data.plots[signal].map((v) => v ?? empty)]);
+      chart.batch(() => chart.setData(columns));
+      marks.show(this.#marks(signal));
+    }
+    this.#movePlayhead();
+    return true;
+  }
+
+  /** The figures beside the plots, at the cursor or at the scene's time. @param {State} state */
+  renderValues({ reply, motion }) {
+    if (reply && this.#data) this.#showValues(motion);
+  }
+
+  /** @param {Signal} signal */
+  #marks(signal) {
+    const { reply, showMarks } = this.store.state;
+    return showMarks ? marksOf(reply, signal) : [];
+  }
+
+  /** @param {any} u */
+  #hovered(u) {
+    const { left } = u.cursor;
+    this.#hover = left === undefined || left < 0 ? null : u.posToVal(left, 'x');
+    this.onPeek(this.#hover);
+    this.#showValues();
+  }
+
+  /** @param {any} u */
+  #selected(u) {
+    if (u.select.width < 8) return;
+    this.#zoomTo([u.posToVal(u.select.left, 'x'), u.posToVal(u.select.left + u.select.width, 'x')]);
+    u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+  }
+
+  /** @param {[number, number]|null} range */
+  #zoomTo(range) {
+    this.#zoom = range;
+    const [min, max] = range ?? this.#time;
+    this.unzoom.hidden = !range;
+    for (const { chart } of this.plots) chart.setScale('x', { min, max });
+    this.#movePlayhead();
+  }
+
+  /** @param {KeyboardEvent} e */
+  #key(e) {
+    const [from, to] = this.#zoom ?? this.#time;
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[e.key];
+    const factor = { '+': 0.5, '=': 0.5, '-': 2 }[e.key];
+    if (e.ctrlKey || e.metaKey || e.altKey) return;
+    if (step) this.onSeek(Math.max(0, Math.min(this.#time[1], this.#playhead + (step * (to - from)) / (e.shiftKey ? 200 : 50))));
+    else if (factor) {
+      const width = Math.min(this.#time[1], factor * (to - from));
+      const left = Math.max(0, Math.min(this.#time[1] - width, this.#playhead - width / 2));
+      this.#zoomTo(width >= this.#time[1] ? null : [left, left + width]);
+    } else if (e.key === 'Escape' && this.#zoom) this.#zoomTo(null);
+    else return;
+    e.preventDefault();
+  }
+
+  /** The scene's time. @param {number} t */
+  setTime(t) {
+    this.#playhead = t;
+    this.#movePlayhead();
+    if (this.#hover === null) this.#showValues();
+  }
+
+  #movePlayhead() {
+    for (const { chart, head } of this.plots) {
+      const x = chart.valToPos(this.#playhead, 'x');
+      const inside = Number.isFinite(x) && x >= 0 && x <= chart.bbox.width / devicePixelRatio; // the element's own width would have the page laid out anew
+      head.hidden = !inside;
+      if (inside) head.style.transform = `translateX(${x.toFixed(1)}px)`;
+    }
+  }
+
+  #showValues(motion = this.store.state.motion) {
+    if (!this.#data) return;
+    const i = indexAt(this.#data.t, this.#hover ?? this.#playhead);
+    setText(this.at, say`at ${fixed(this.#data.t[i], 2)} s`);
+    setText(this.played, say`, ${word(PLAYED[motion])} in 3D`);
+    for (const { signal, values } of this.plots) {
+      ['theta', 'psi'].forEach((axis, k) => {
+        const v = this.#data?.plots[signal][k === 0 ? 4 : 3]?.[i];
+        setText(values[k], v === undefined ? '' : `${fixed(v, isVoltage(signal) ? 1 : 2)}${ABOUT[signal].unit}`);
+      });
+    }
+  }
+}

@@ -1,0 +1,159 @@
+/**
+ * The socket on which the windows of one session tell one another what is shown and how time runs. A page sends nothing while nobody else listens;
+ * of what is shown, the newest waits until the server has taken the last. Each window plays by itself: the server's clock says how long ago a
+ * snapshot was taken.
+ * @typedef {import('./clock.js').Snapshot} Snapshot
+ * @typedef {{others: number, leads: boolean, count: number}} Windows  count: of the panel's messages so far
+ */
+import { backoff } from '../net/backoff.js';
+import { decodeFrame, encodeFrame } from '../net/wire.js';
+
+const PINGS = 4; // at first, to find the shortest way
+const PING_MS = 20_000;
+const FIRST_RETRY_MS = 500;
+const LAST_RETRY_MS = 10_000;
+
+export class Hub {
+  /** @type {WebSocket|null} */ #socket = null;
+  #others = 0;
+  #busy = false;
+  /** @type {any} */ #waiting = null;
+  /** The server's clock less ours, and how well it is known; seconds. @type {{offset: number, trip: number}|null} */ #clock = null;
+  /** @type {(() => void)[]} What needs the server's time. */ #later = [];
+  #pings = 0;
+  #attempt = 0;
+  #closed = false;
+  /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
+
+  /**
+   * @param {object} how
+   * @param {() => WebSocket} how.open
+   * @param {boolean} [how.always]  send even if there is no other window: where the panel listens
+   * @param {(shown: any) => void} how.onShown  what another window shows
+   * @param {(snapshot: Snapshot, elapsed: number) => void} how.onTransport  how time ran so many seconds ago
+   * @param {(edits: Record<string, any>, count: number) => void} how.onEdits  what was set at the panel, for the window that leads
+   * @param {(windows: Windows) => void} how.onWindows  also after every new connection
+   * @param {() => number} [how.now]  seconds
+   */
+  constructor({ open, always = false, onShown, onTransport, onEdits, onWindows, now = () => performance.now() / 1000 }) {
+    this.open = open;
+    this.always = always;
+    this.onShown = onShown;
+    this.onTransport = onTransport;
+    this.onEdits = onEdits;
+    this.onWindows = onWindows;
+    this.now = now;
+    this.#connect();
+  }
+
+  /** How many other windows there are. */
+  get others() {
+    return this.#others;
+  }
+
+  get #heard() {
+    return this.#others > 0 || (this.always && this.#socket !== null);
+  }
+
+  /** Shows the others a design and its motion: float32 arrays in plain objects. @param {any} shown */
+  show(shown) {
+    if (!this.#heard) return;
+    this.#waiting = shown;
+    this.#pump();
+  }
+
+  /** Tells the others how time runs from now on. @param {Snapshot} snapshot */
+  run({ playing, time, speed, loop }) {
+    if (!this.#heard) return;
+    const since = this.now();
+    this.#timed((offset) => this.#send(JSON.stringify({ type: 'transport', playing, time, speed, loop, at: since + offset })));
+  }
+
+  close() {
+    this.#closed = true;
+    clearTimeout(this.#timer);
+    this.#socket?.close();
+  }
+
+  #connect() {
+    const socket = this.open();
+    socket.binaryType = 'arraybuffer';
+    this.#socket = socket;
+    socket.onopen = () => {
+      this.#attempt = 0;
+      this.#clock = null;
+      this.#pings = 0;
+      this.#ping();
+    };
+    socket.onmessage = (event) => this.#receive(event.data);
+    socket.onclose = () => this.#lost();
+  }
+
+  #lost() {
+    this.#socket = null;
+    this.#others = 0;
+    this.#busy = false;
+    this.#waiting = null;
+    this.#later = [];
+    clearTimeout(this.#timer);
+    if (this.#closed) return;
+    this.#timer = setTimeout(() => this.#connect(), backoff(this.#attempt++, FIRST_RETRY_MS, LAST_RETRY_MS));
+  }
+
+  /** @param {string|ArrayBuffer} message */
+  #send(message) {
+    if (this.#socket?.readyState === 1) this.#socket.send(message);
+  }
+
+  #pump() {
+    if (this.#busy || !this.#waiting) return;
+    this.#busy = true;
+    const shown = this.#waiting;
+    this.#waiting = null;
+    this.#send(encodeFrame(shown));
+  }
+
+  #ping() {
+    this.#pings += 1;
+    this.#send(JSON.stringify({ type: 'clock', sent: this.now() }));
+  }
+
+  /** @param {number} sent @param {number} server */
+  #pong(sent, server) {
+    const here = this.now();
+    const trip = here - sent;
+    // An old measurement is trusted ever less: clocks drift.
+    if (!this.#clock || trip <= this.#clock.trip * 1.2) this.#clock = { offset: server - (sent + here) / 2, trip };
+    else this.#clock.trip *= 1.2;
+    const waiting = this.#later;
+    this.#later = [];
+    for (const act of waiting) act();
+    if (this.#pings < PINGS) this.#ping();
+    else this.#timer = setTimeout(() => this.#ping(), PING_MS);
+  }
+
+  /** Does what needs the server's time, as soon as that is known. @param {(offset: number) => void} act */
+  #timed(act) {
+    if (this.#clock) act(this.#clock.offset);
+    else this.#later.push(() => act(this.#clock?.offset ?? 0));
+  }
+
+  /** @param {ArrayBuffer|string} data */
+  #receive(data) {
+    if (typeof data !== 'string') return this.onShown(decodeFrame(data));
+    const message = JSON.parse(data);
+    if (message.type === 'clock') this.#pong(message.sent, message.now);
+    else if (message.type === 'taken') {
+      this.#busy = false;
+      this.#pump();
+    } else if (message.type === 'transport') {
+      const { playing, time, speed, loop, at } = message;
+      this.#timed((offset) => this.onTransport({ playing, time, speed, loop }, Math.max(0, this.now() + offset - at)));
+    } else if (message.type === 'panel') this.onEdits(message.edits, message.count);
+    else if (message.type === 'windows') {
+      this.#others = message.others;
+      this.onWindows(message);
+    }
+    return undefined;
+  }
+}

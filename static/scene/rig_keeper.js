@@ -1,0 +1,51 @@
+/**
+ * Sees to it that the server shows the wanted rig. What a server forgets (it was started again, another one took over) and what it could not hear
+ * is told again; of several wishes only the newest is. Pure but for the clock that it is given.
+ */
+import { backoff } from '../net/backoff.js';
+
+const FIRST_RETRY_MS = 500;
+const LAST_RETRY_MS = 30_000;
+
+export class RigKeeper {
+  /** @type {string|null} */ #wanted = null;
+  #busy = false;
+  #stale = false;
+  #attempt = 0;
+  /** @type {any} */ #timer;
+
+  /** @param {(rig: string) => Promise<unknown>} put tells the server @param {(act: () => void, delay: number) => unknown} [later] */
+  constructor(put, later = (act, delay) => setTimeout(act, delay)) {
+    this.put = put;
+    this.later = later;
+  }
+
+  /** Resolves when the server has heard it, or could not. @param {string} rig */
+  want(rig) {
+    this.#wanted = rig;
+    return this.again();
+  }
+
+  /** Tells the server what is wanted: where that is shown already, nothing happens. */
+  async again() {
+    this.#stale = true;
+    clearTimeout(this.#timer);
+    if (this.#busy || this.#wanted === null) return; // who is telling tells the newest
+    this.#busy = true;
+    while (this.#stale) {
+      this.#stale = false;
+      await this.#tell(this.#wanted);
+    }
+    this.#busy = false;
+  }
+
+  /** @param {string} rig */
+  async #tell(rig) {
+    try {
+      await this.put(rig);
+      this.#attempt = 0;
+    } catch {
+      if (!this.#stale) this.#timer = this.later(() => this.again(), backoff(this.#attempt++, FIRST_RETRY_MS, LAST_RETRY_MS));
+    }
+  }
+}

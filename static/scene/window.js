@@ -1,0 +1,151 @@
+/**
+ * The rig in a window of its own: plays what the page shows, in step with it. While there is no page, the window that leads asks the server itself, so
+ * that the panel goes on working; with a session that nobody has used it starts from the first preset.
+ */
+import { Live } from '../net/api.js';
+import { h, setText } from '../ui/dom.js';
+import { degrees, fixed } from '../text/format.js';
+import { Hub } from './hub.js';
+import { ScenePlayer } from './player.js';
+import { edited, shownOf, steer, trajectoryIn } from './panel.js';
+import { ofSession } from '../net/session.js';
+import { InStep } from './step.js';
+import { designOf, evaluationOf } from '../model/store.js';
+import { motionOf } from '../model/traces.js';
+
+const APP = new URL('../../', location.href); // the page is served at …/scene/{session}/
+const SESSION = location.pathname.split('/').at(-2) ?? '';
+const PROTOCOL = 'heli2dof.v1+binary';
+
+/** @param {string|URL} path @param {URL} base */
+function socketAddress(path, base) {
+  const url = new URL(path, base);
+  url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
+  return url;
+}
+
+class SceneWindow {
+  /** @type {any} */ #shown = null;
+  /** @type {{design: any, after: number}|null} What is asked of the server. */ #asked = null;
+  /** @type {Live|null} */ #live = null;
+  #seq = 0;
+  #count = 0;
+  #alone = false;
+  /** @type {string|null} The rig that the camera was aimed at. */ #aimed = null;
+
+  constructor() {
+    this.words = h('p', { class: 'window-words', role: 'status', 'data-testid': 'window-words' }, 'Waiting for the page that this scene belongs to…');
+    this.time = h('output', { class: 'window-time', 'data-testid': 'window-time' });
+    document.body.append(h('div', { class: 'window-notes' }, this.words, this.time));
+    const frame = { contentWindow: window, get clientWidth() { return innerWidth; }, get clientHeight() { return innerHeight; } };
+    this.player = new ScenePlayer(/** @type {any} */ (frame), {
+      onFrame: ({ t, theta, psi }) => {
+        setText(this.time, `${fixed(t, 2)} s   θ ${degrees(theta)}   ψ ${degrees(psi)}`);
+        this.step.correct();
+      },
+      onTransport: (snapshot, cause) => this.#run(snapshot, cause),
+    });
+    this.step = new InStep(this.player);
+    this.hub = new Hub({
+      open: () => new WebSocket(socketAddress('hub', new URL('./', location.href))),
+      always: true,
+      onShown: (shown) => this.#show(shown),
+      onTransport: (snapshot, elapsed) => this.step.follow(snapshot, elapsed),
+      onEdits: (edits, count) => this.#edit(edits, count),
+      onWindows: (windows) => this.#windows(windows),
+    });
+    const dark = matchMedia('(prefers-color-scheme: dark)');
+    const tell = () => this.player.setTheme(dark.matches);
+    dark.addEventListener('change', tell);
+    tell();
+    document.addEventListener('visibilitychange', () => this.step.correct());
+  }
+
+  /** @param {import('./clock.js').Snapshot} snapshot @param {import('./player.js').Cause} cause */
+  #run(snapshot, cause) {
+    if (cause === 'load' && (!this.step || !this.#alone || this.step.expects(snapshot.time))) return;
+    this.step.keep(snapshot);
+    this.hub.run(snapshot);
+  }
+
+  /** @param {any} shown */
+  #show(shown) {
+    const trajectory = trajectoryIn(shown);
+    if (!trajectory) return;
+    this.#shown = shown;
+    this.#asked = null;
+    this.#load(trajectory);
+  }
+
+  /** @param {import('./pose.js').Trajectory} trajectory */
+  #load(trajectory) {
+    this.player.setLimits(this.#shown.limits ?? {});
+    this.player.load(trajectory, { keepTime: true });
+    this.words.hidden = true;
+    if (this.#shown.rig !== this.#aimed) this.#aim(this.#shown.rig);
+  }
+
+  /** Looks at the rig as the page does at first, in a window of any shape. @param {string} rig */
+  async #aim(rig) {
+    this.#aimed = rig;
+    const views = await (await fetch(new URL('scene/rigs', APP))).json();
+    if (rig !== this.#aimed || !Object.hasOwn(views, rig)) return;
+    this.player.setView(views[rig]);
+    this.player.resetCamera();
+  }
+
+  /** @param {import('./hub.js').Windows} windows */
+  async #windows({ leads, count }) {
+    this.#count = Math.max(this.#count, count);
+    this.#alone = leads;
+    if (!leads) return;
+    if (this.#shown) this.hub.show(this.#shown);
+    if (this.#shown) return this.#putRig(this.#shown.rig); // the server may have been started anew
+    const presets = await (await fetch(ofSession(new URL('api/v1/presets', APP), SESSION))).json();
+    if (!this.#shown && this.#alone && !this.#asked) this.#ask(evaluationOf(designOf(presets[0])));
+  }
+
+  /** @param {string} rig */
+  async #putRig(rig) {
+    await fetch(new URL('rig', location.href), { method: 'PUT', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ rig }) });
+  }
+
+  /** @param {Record<string, any>} edits @param {number} count */
+  #edit(edits, count) {
+    this.#count = count;
+    const design = this.#asked?.design ?? this.#shown?.design;
+    if (design) {
+      const next = edited(design, edits);
+      if (next !== design) this.#ask(next);
+    }
+    steer(this.player, edits);
+  }
+
+  /** @param {any} design */
+  #ask(design) {
+    this.#live ??= new Live({
+      onReply: (reply) => this.#answered(reply),
+      onProblem: () => {}, // the panel keeps what was refused until something else is set
+      onStatus: () => {},
+      open: () => new WebSocket(ofSession(socketAddress('api/v1/live', APP), SESSION), [PROTOCOL]),
+    });
+    this.#asked = { design, after: this.#count };
+    this.#seq += 1;
+    this.#live.send({ seq: this.#seq, ...design });
+  }
+
+  /** @param {import('../types.js').Reply} reply */
+  #answered(reply) {
+    if (!this.#asked || reply.seq !== this.#seq) return;
+    const { design, after } = this.#asked;
+    const { motion = 'both', rig = 'helicopter' } = this.#shown ?? {};
+    const step = (motionOf(reply, motion) ?? reply.step).nonlinear;
+    const first = this.#shown === null;
+    this.#shown = shownOf(design, reply, step, { motion, rig, after });
+    this.hub.show(this.#shown);
+    this.#load(this.#shown.trajectory);
+    if (!matchMedia('(prefers-reduced-motion: reduce)').matches || first) this.player.replay();
+  }
+}
+
+new SceneWindow();

@@ -1,0 +1,111 @@
+/**
+ * The cloud of uncertain rigs: the same controller on rigs whose parameters differ a little. A few rigs while something moves, many once the hand rests.
+ * @typedef {import('../types.js').State} State
+ * @typedef {import('../types.js').Design} Design
+ */
+import { cloudAddress } from '../net/api.js';
+import { cloudCaveat, cloudScenario } from '../model/experiment.js';
+import { bodyOf } from '../model/store.js';
+
+export const SPREADS = [0, 0.05, 0.1, 0.2];
+const FEW = 200;
+const MANY = 2000;
+const REST_MS = 500;
+
+/** What is asked of the server. @param {Design} design @param {number} spread @param {import('../types.js').Motion} motion @param {string[]} names of the parameters @param {number} samples */
+export function cloudRequest(design, spread, motion, names, samples) {
+  const scenario = cloudScenario(design.scenario);
+  const played = motion === 'both' ? scenario.reference : { [motion]: scenario.reference[motion] };
+  return { ...bodyOf(design), scenario: { ...scenario, reference: played }, uncertainty: Object.fromEntries(names.filter((n) => n !== 'g').map((n) => [n, spread])), samples };
+}
+
+/** The cloud in words. @param {import('../types.js').Cloud|null} cloud @param {import('../types.js').Scenario} [scenario] */
+export function cloudWords(cloud, scenario) {
+  if (!cloud) return '';
+  const percent = (/** @type {number} */ share) => `${Math.floor(100 * share)} %`; // 99.9 % is not all
+  const caveat = cloudCaveat(scenario);
+  return `${cloud.done} rigs${caveat && ` (${caveat})`}: ${percent(cloud.share_stable)} stable, ${percent(cloud.share_within_limits)} within limits`;
+}
+
+export class CloudFeed {
+  #key = '';
+  #busy = false;
+  /** @type {unknown} */ #waiting = null;
+  /** @type {WebSocket|null} */ #socket = null;
+  /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
+
+  /** @param {import('../model/store.js').Store} store @param {() => WebSocket} [open] */
+  constructor(store, open = () => new WebSocket(cloudAddress())) {
+    this.store = store;
+    this.open = open;
+  }
+
+  /** @param {State} state */
+  render({ design, spread, motion, dragging, connection, cloud }) {
+    if (!design || !spread) {
+      if (this.#socket || this.#key || cloud) this.#stop();
+      return;
+    }
+    if (connection === 'lost') {
+      this.#key = ''; // asked again when it is back
+      return;
+    }
+    const names = Object.keys(this.store.preset?.parameters ?? {});
+    const key = JSON.stringify([design, spread, motion]);
+    if (key !== this.#key) {
+      this.#key = key;
+      this.#ask(cloudRequest(design, spread, motion, names, FEW));
+    } else if (dragging || this.#timer) return;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      if (this.store.state.dragging) this.#timer = undefined; // asked when the hand lets go
+      else this.#ask(cloudRequest(design, spread, motion, names, MANY));
+    }, REST_MS);
+  }
+
+  #stop() {
+    clearTimeout(this.#timer);
+    this.#timer = undefined;
+    this.#key = '';
+    this.#waiting = null;
+    this.#busy = false;
+    this.#socket?.close();
+    this.#socket = null;
+    this.store.set({ cloud: null });
+  }
+
+  /** One request is computed at a time; meanwhile only the newest one waits. @param {unknown} request */
+  #ask(request) {
+    this.#waiting = request;
+    if (!this.#socket) this.#connect();
+    this.#pump();
+  }
+
+  #connect() {
+    const socket = this.open();
+    this.#socket = socket;
+    socket.onopen = () => this.#pump();
+    socket.onmessage = (event) => socket === this.#socket && this.#receive(JSON.parse(event.data));
+    socket.onclose = () => {
+      if (socket !== this.#socket) return;
+      this.#socket = null;
+      this.#busy = false;
+    };
+  }
+
+  #pump() {
+    if (this.#busy || !this.#waiting || this.#socket?.readyState !== 1) return;
+    this.#busy = true;
+    this.#socket.send(JSON.stringify(this.#waiting));
+    this.#waiting = null;
+  }
+
+  /** @param {any} message */
+  #receive(message) {
+    const refused = message.status !== undefined;
+    if (refused || message.done === message.samples) this.#busy = false;
+    // A few rigs of a larger cloud say less than the last whole one; they only tell that it is coming.
+    if (refused || message.done >= Math.min(FEW, message.samples)) this.store.set({ cloud: refused ? null : message });
+    this.#pump();
+  }
+}

@@ -1,0 +1,97 @@
+/** What one pole means, written beside it: place, damping, frequency, settling time and overshoot alone; where the PI loops take it; and how its axis' step settles. */
+import { h, setText } from '../ui/dom.js';
+import { fixed, seconds } from '../text/format.js';
+import { character, isComplex, pairOf, partner } from '../model/poles.js';
+import { AXES, guideWords, isAsked } from '../model/requirements.js';
+import { toPixel } from './math.js';
+import { say, t } from '../text/words.js';
+
+const NAMES = ['pitch', 'yaw'];
+
+/** @typedef {Pick<import('../types.js').State, 'design'|'reply'|'answered'|'requirements'>} Known */
+
+/** The figures of a motion in few words. @param {number|undefined} settling @param {number|undefined} overshoot */
+const figures = (settling, overshoot) => say`settles in ${seconds(settling)}${overshoot === undefined ? '' : say`, overshoot ${fixed(overshoot, 0)} %`}`;
+
+/**
+ * What a pole says by itself, and what becomes of it: where the PI loops take it, and how the axis' step settles then.
+ * @param {Known} known @param {number} index @param {import('../types.js').Complex} [to] where the PI loops take it @returns {string[]}
+ */
+export function readoutLines({ design, reply, requirements }, index, to) {
+  const poles = design?.poles ?? [];
+  const p = poles[index];
+  const pair = pairOf(index);
+  const { wn, zeta, settling, overshoot } = character(p);
+  const two = isComplex(poles, pair);
+  const first = Math.min(index, partner(index)) + 1;
+  const axis = AXES[pair];
+  const own = reply?.axis_steps?.[axis]?.nonlinear.metrics?.[axis];
+  const guide = isAsked(requirements) ? guideWords(p, requirements) : '';
+  const pi = design?.outer === 'pi';
+  const step = !own ? '' : own.settling_time === undefined ? say`not settled, overshoot ${fixed(own.overshoot, 0)} %` : figures(own.settling_time, own.overshoot);
+  return [
+    two ? say`${NAMES[pair]} poles ${first}, ${first + 1}` : say`${NAMES[pair]} pole ${index + 1}`,
+    two ? `${fixed(p.re)} \u00b1 ${fixed(Math.abs(p.im))}j rad/s` : `${fixed(p.re)} rad/s`,
+    `ζ ${fixed(zeta)}   ωₙ ${fixed(wn)} rad/s`,
+    settling === undefined ? t('alone: grows, unstable') : say`alone: ${figures(settling, overshoot)}`,
+    pi && to ? say`with PI: goes to ${pairText(to)} rad/s` : '',
+    step && (pi ? say`with PI: ${step}` : say`step: ${step}`),
+    guide && say`guide: alone ${guide} than asked`,
+  ];
+}
+
+/** One of a conjugate pair stands for both. @param {import('../types.js').Complex} p */
+const pairText = (p) => (Math.abs(p.im) > 1e-9 * Math.hypot(p.re, p.im) ? `${fixed(p.re)} \u00b1 ${fixed(Math.abs(p.im))}j` : fixed(p.re));
+
+/** @typedef {{x: number, y: number, width: number, height: number, unit: number}} At a pole in the plane, and the plane's size, CSS pixels; `unit`: those to one of the view's */
+
+/** Where the lines stand: above the pole, or below it where there is no room; all of them in the plane. @param {At} at @param {number} width of the lines @param {number} height */
+export function readoutPlace(at, width, height) {
+  const [above, below] = [at.y - 26 * at.unit - height, at.y + 26 * at.unit];
+  const top = above >= 2 ? above : below + height <= at.height - 2 ? below : 2; // beside the pole where neither has room
+  return { left: Math.max(4, Math.min(at.x + 24 * at.unit, at.width - width - 4)), top };
+}
+
+export class Readout {
+  #width = 190;
+  #height = 110;
+  /** @type {At|null} */ #at = null;
+  /** @type {number|null} whose lines they are */ #told = null;
+
+  constructor() {
+    this.lines = Array.from({ length: 7 }, () => h('div'));
+    this.node = h('div', { class: 'readout', hidden: true, 'data-testid': 'readout' }, this.lines);
+    new ResizeObserver(([entry]) => {
+      if (!entry.contentRect.width) return;
+      [this.#width, this.#height] = [entry.borderBoxSize[0].inlineSize, entry.borderBoxSize[0].blockSize];
+      this.#place();
+    }).observe(this.node);
+  }
+
+  /** @param {import('../types.js').State} state @param {number|null} index of the pole in question @param {import('./math.js').View} view @param {number} unit CSS pixels to one of the view's @param {import('../types.js').Complex} [to] */
+  draw(state, index, view, unit, to) {
+    const { design, dragging } = state;
+    this.node.hidden = index === null || !design;
+    if (index === null || !design) return;
+    if (!dragging || index !== this.#told) this.write(state, index, to);
+    const p = design.poles[index];
+    const [x, y] = toPixel(view, p).map((v) => v * unit);
+    this.#at = { x, y, width: view.width * unit, height: view.height * unit, unit };
+    this.#place();
+  }
+
+  #place() {
+    if (!this.#at) return;
+    const { left, top } = readoutPlace(this.#at, this.#width, this.#height);
+    this.node.style.transform = `translate(${left}px, ${top}px)`;
+  }
+
+  /** What is read, which changes oftener in a drag than it can be read. @param {Known} known @param {number|null} index @param {import('../types.js').Complex} [to] where the PI loops take the pole */
+  write(known, index, to) {
+    if (index === null || !known.design) return;
+    this.#told = index;
+    readoutLines(known, index, to).forEach((line, k) => setText(this.lines[k], line));
+    const name = `readout ${NAMES[pairOf(index)]}`;
+    if (this.node.className !== name) this.node.className = name;
+  }
+}

@@ -1,0 +1,56 @@
+/** The few lines that a page without a framework needs to make elements; static strings pass the words of the page's language here. */
+import { SPOKEN, t } from '../text/words.js';
+
+const SVG = 'http://www.w3.org/2000/svg';
+
+/** @param {Element} node @param {Record<string, any>} attributes @param {any[]} children */
+function dress(node, attributes, children) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === undefined || value === null || value === false) continue;
+    if (name.startsWith('on')) node.addEventListener(name.slice(2), value);
+    else node.setAttribute(name, value === true ? '' : SPOKEN.has(name) ? t(String(value)) : String(value));
+  }
+  const own = attributes.translate === 'no'; // symbols and units are the same in every language
+  node.append(...children.flat().filter((c) => c !== null && c !== undefined).map((c) => (typeof c === 'string' && !own ? t(c) : c)));
+  return node;
+}
+
+/**
+ * @template {keyof HTMLElementTagNameMap} T
+ * @param {T} tag @param {Record<string, any>} [attributes] `onclick` and the like add listeners @param {...any} children
+ * @returns {HTMLElementTagNameMap[T]}
+ */
+export function h(tag, attributes = {}, ...children) {
+  return /** @type {any} */ (dress(document.createElement(tag), attributes, children));
+}
+
+/**
+ * @template {keyof SVGElementTagNameMap} T
+ * @param {T} tag @param {Record<string, any>} [attributes] @param {...any} children
+ * @returns {SVGElementTagNameMap[T]}
+ */
+export function svg(tag, attributes = {}, ...children) {
+  return /** @type {any} */ (dress(document.createElementNS(SVG, tag), attributes, children));
+}
+
+/** Writes text only where it differs: most of the page stays as it is while one pole moves. @param {Node} node @param {string} text */
+export function setText(node, text) {
+  const said = t(text);
+  if (node.textContent !== said) node.textContent = said;
+}
+
+/** @param {Element} node @param {string} name @param {string|number} value */
+export function setAttr(node, name, value) {
+  const text = SPOKEN.has(name) ? t(String(value)) : String(value);
+  if (node.getAttribute(name) !== text) node.setAttribute(name, text);
+}
+
+/** @param {string} id @returns {HTMLElement} */
+export function byId(id) {
+  const node = document.getElementById(id);
+  if (!node) throw new Error(`the page has no element #${id}`);
+  return node;
+}
+
+/** A symbol with subscript, as in K_pp. @param {string} base @param {string} [sub] @returns {HTMLElement} */
+export const symbol = (base, sub) => h('span', { class: 'sym' }, h('i', { translate: 'no' }, base), ...(sub ? [h('sub', { translate: 'no' }, sub)] : []));
