@@ -2,39 +2,16 @@
  * Wires only: state to views, views to state, and the design to the server. What each part does is written in its module.
  * @typedef {import('./types.js').State} State
  */
-import { Address } from './link/address.js';
-import { getMethods, getPresets, Live } from './net/api.js';
-import { CloudFeed } from './splane/cloud_feed.js';
-import { byId } from './ui/dom.js';
-import { isolated } from './ui/isolated.js';
-import { LockedControls } from './link/locked_controls.js';
-import { recall, remember } from './ui/memory.js';
-import { PinKeeper } from './link/pin_keeper.js';
-import { Turns } from './ui/pace.js';
-import { Plots } from './plots/plots.js';
-import { Projector } from './ui/projector.js';
-import { SceneSharing } from './scene/sharing.js';
-import { SceneView } from './scene/view.js';
-import { SPlane } from './splane/splane.js';
-import { Stats } from './ui/stats.js';
-import { requestOf, Store } from './model/store.js';
-import { watched } from './ui/watch.js';
-import { languageOf, loadWords, say, translatePage } from './text/words.js';
-import { ExperimentPanel } from './panels/experiment.js';
-import { FieldProblems } from './panels/problems.js';
-import { FindingsPanel } from './panels/findings.js';
-import { FormulasPanel } from './paper/formulas.js';
-import { HeaderPanel } from './panels/header.js';
-import { LoopsPanel } from './panels/loops.js';
-import { MetricsPanel } from './panels/metrics.js';
-import { Notice } from './panels/notice.js';
-import { NumbersPanel } from './panels/numbers.js';
-import { PaperPanel } from './paper/panel.js';
-import { PinBar } from './panels/pin_bar.js';
-import { PinsPanel } from './panels/pins.js';
-import { PolesPanel } from './panels/poles.js';
-import { Remarks } from './panels/remarks.js';
-import { ScenarioPanel } from './panels/scenario.js';
+import { languageOf, loadWords, say, translatePage } from './text/index.js';
+import { requestOf, Store } from './model/index.js';
+import { getMethods, getPresets, Live } from './net/index.js';
+import { byId, isolated, Projector, recall, remember, Stats, Turns, watched } from './ui/index.js';
+import { Address, LockedControls, PinKeeper } from './link/index.js';
+import { Plots } from './plots/index.js';
+import { CloudFeed, SPlane } from './splane/index.js';
+import { SceneSharing, SceneView } from './scene/index.js';
+import { FormulasPanel, PaperPanel } from './paper/index.js';
+import { ExperimentPanel, FieldProblems, FindingsPanel, HeaderPanel, LoopsPanel, MetricsPanel, Notice, NumbersPanel, PinBar, PinsPanel, PolesPanel, Remarks, ScenarioPanel } from './panels/index.js';
 
 const language = languageOf(location.search, navigator.languages);
 if (await loadWords(language)) translatePage(document, language);

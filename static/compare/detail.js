@@ -1,7 +1,6 @@
 /** What an opened row of the comparison shows: K as a matrix, the loop's poles, and what is to be said of it. */
-import { h } from '../ui/dom.js';
-import { complex, significant } from '../text/format.js';
-import { GAIN, gainMatrix, integralMatrix } from '../ui/matrix.js';
+import { complex, significant } from '../text/index.js';
+import { GAIN, gainMatrix, h, integralMatrix } from '../ui/index.js';
 
 /** @param {string} name @param {import('../types.js').Complex[]} poles */
 function poles(name, poles) {

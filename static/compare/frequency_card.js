@@ -1,9 +1,8 @@
 /** Plots over frequency with a sentence below, asked for while their card is seen. */
-import { h, setText } from '../ui/dom.js';
-import { significant } from '../text/format.js';
-import { Lazy } from '../ui/lazy.js';
-import { subtitle } from '../plots/menu.js';
-import { bodyOf } from '../model/store.js';
+import { significant } from '../text/index.js';
+import { bodyOf } from '../model/index.js';
+import { h, Lazy, setText } from '../ui/index.js';
+import { subtitle } from '../plots/index.js';
 import { FrequencyPlot } from './frequency_plot.js';
 
 /**

@@ -1,11 +1,8 @@
 /** A plot of two lines over frequency, its values under the pointer or by the arrow keys, to be saved as picture and numbers. */
 import uPlot from '../vendor/uplot/uPlot.esm.js';
-import { h, setText } from '../ui/dom.js';
-import { forField, inField, significant } from '../text/format.js';
-import { followsPage, pictureScale } from '../ui/picture_scale.js';
-import { pictureMenu } from '../plots/menu.js';
-import { drawLabel, drawRule } from '../plots/rules.js';
-import { say, t } from '../text/words.js';
+import { forField, inField, say, significant, t } from '../text/index.js';
+import { followsPage, h, pictureScale, setText } from '../ui/index.js';
+import { drawLabel, drawRule, pictureMenu } from '../plots/index.js';
 
 const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const FONT = '11px system-ui, sans-serif';

@@ -1,7 +1,7 @@
 /** How much pitch and yaw feel each other at each frequency: relative gains, and off-diagonal over diagonal entries of Ĝ(jω). */
-import { relativeGain } from '../net/api.js';
-import { dominanceWords, largest, logSpaced } from '../model/compare_math.js';
-import { h, symbol } from '../ui/dom.js';
+import { dominanceWords, largest, logSpaced } from '../model/index.js';
+import { relativeGain } from '../net/index.js';
+import { h, symbol } from '../ui/index.js';
 import { FrequencyCard } from './frequency_card.js';
 
 const FREQUENCIES = logSpaced(0.01, 1000, 121);

@@ -4,7 +4,7 @@
  * @typedef {{gain_margin?: number, phase_margin?: number}} Margins
  * @typedef {{at: number, from: number, to: number}} Place  rad/s; dB or degrees: of the curve, and of the border
  */
-import { DEGREE } from '../text/format.js';
+import { DEGREE } from '../text/index.js';
 
 /** Further from the exact margin than this it is another crossing: °, dB. */
 const [PHASE_NEAR, GAIN_NEAR] = [3, 1];

@@ -1,10 +1,9 @@
 /** Bode plots of the loop opened at each motor, the other closed, with the margins drawn where they are measured. */
-import { openLoops } from '../net/api.js';
-import { logSpaced } from '../model/compare_math.js';
-import { symbol } from '../ui/dom.js';
-import { decibel, DEGREE, degrees, fixed, significant } from '../text/format.js';
+import { decibel, DEGREE, degrees, fixed, say, significant } from '../text/index.js';
+import { logSpaced } from '../model/index.js';
+import { openLoops } from '../net/index.js';
+import { symbol } from '../ui/index.js';
 import { decibels, marginPlaces } from './margins_math.js';
-import { say } from '../text/words.js';
 import { FrequencyCard } from './frequency_card.js';
 
 const FREQUENCIES = logSpaced(0.1, 1000, 241);

@@ -1,5 +1,5 @@
 /** The section below the instrument: the same poles through every method, dealt every way, interaction and open loops over frequency. */
-import { h } from '../ui/dom.js';
+import { h } from '../ui/index.js';
 import { CompareTable } from './table.js';
 import { InteractionCard } from './interaction.js';
 import { OpenLoopsCard } from './open_loops.js';

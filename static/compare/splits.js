@@ -1,12 +1,8 @@
 /** All ways to deal the four poles to pitch's pair and yaw's: the same poles, other gains. */
-import { compareSplits } from '../net/api.js';
-import { best, inOrder, pairText, sameSplit } from '../model/compare_math.js';
-import { h, setAttr, setText, symbol } from '../ui/dom.js';
-import { fixed, significant } from '../text/format.js';
-import { Lazy } from '../ui/lazy.js';
-import { FULL_RANK, nameOf } from '../model/methods.js';
-import { fromWire } from '../model/poles.js';
-import { bodyOf } from '../model/store.js';
+import { fixed, significant } from '../text/index.js';
+import { best, bodyOf, fromWire, FULL_RANK, inOrder, nameOf, pairText, sameSplit } from '../model/index.js';
+import { compareSplits } from '../net/index.js';
+import { h, Lazy, setAttr, setText, symbol } from '../ui/index.js';
 
 export class SplitsCard {
   /** @type {{row: HTMLElement, use: HTMLButtonElement, poles: import('../types.js').Poles}[]} */ #rows = [];

@@ -1,13 +1,10 @@
 /** The table of the methods: a row for each, its figures, the best of each column, and "Use", which makes it the design's own. */
-import { compareMethods } from '../net/api.js';
-import { best, hardest, worseMargins } from '../model/compare_math.js';
-import { h, setAttr, setText, symbol } from '../ui/dom.js';
-import { decibel, degrees, fixed, percent, seconds, significant } from '../text/format.js';
-import { Lazy } from '../ui/lazy.js';
-import { FULL_RANK, keyOf, nameOf, partOf } from '../model/methods.js';
-import { bodyOf, scenarioOf } from '../model/store.js';
+import { decibel, degrees, fixed, percent, seconds, significant } from '../text/index.js';
+import { best, bodyOf, FULL_RANK, hardest, keyOf, nameOf, partOf, scenarioOf, worseMargins } from '../model/index.js';
+import { compareMethods } from '../net/index.js';
+import { h, Lazy, setAttr, setText, symbol } from '../ui/index.js';
+import { motorText } from '../panels/index.js';
 import { rowDetail } from './detail.js';
-import { motorText } from '../panels/metrics.js';
 
 /** @typedef {'theta'|'psi'} Axis */
 const ROUNDING = 1e-9; // below it all pole errors are equally good

@@ -6,8 +6,8 @@
  * @typedef {import('../types.js').Poles} Poles
  * @typedef {string|number|boolean|null|unknown[]} Leaf
  */
-import { DEGREE } from '../text/format.js';
-import { LIMIT } from '../model/poles.js';
+import { DEGREE } from '../text/index.js';
+import { LIMIT } from '../model/index.js';
 
 const NUMBER = String.raw`[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?`;
 const IS_NUMBER = new RegExp(`^${NUMBER}$`);

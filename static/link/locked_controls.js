@@ -1,5 +1,5 @@
 /** Shows what a link has locked: its controls are disabled and say why. The store is what keeps the values. */
-import { LOCKS } from '../model/locks.js';
+import { LOCKS } from '../model/index.js';
 
 const WHY = 'Locked by the link that opened this page';
 

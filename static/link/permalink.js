@@ -16,9 +16,7 @@
  * @typedef {{presets: Preset[], methods: {name: string}[]}} Known
  */
 import { differences, escaped, leafOf, polesLink, polesOf, setLeaf, unescaped } from './link_values.js';
-import { LOCKS } from '../model/locks.js';
-import { asking, NONE } from '../model/requirements.js';
-import { designOf } from '../model/store.js';
+import { asking, designOf, LOCKS, NONE } from '../model/index.js';
 
 const VERSION = 1;
 /** Longer links are cut by some mail programs; pins that make it longer are left out. */

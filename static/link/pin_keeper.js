@@ -3,9 +3,9 @@
  * page's are read as an older link is.
  * @typedef {import('../types.js').State} State
  */
-import { evaluateDesign, ProblemError } from '../net/api.js';
+import { evaluationOf } from '../model/index.js';
+import { evaluateDesign, ProblemError } from '../net/index.js';
 import { linkOf, readLink } from './permalink.js';
-import { evaluationOf } from '../model/store.js';
 
 const KEY = 'heli2dof-pins';
 

@@ -3,7 +3,7 @@
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {{rows: number[][], columns: number[][]}} Dominance  off-diagonal over diagonal size, one pair a frequency
  */
-import { complex, fixed, forField, significant } from '../text/format.js';
+import { complex, fixed, forField, significant } from '../text/index.js';
 
 /** @param {number} from @param {number} to @param {number} count @returns {number[]} */
 export const logSpaced = (from, to, count) => Array.from({ length: count }, (_, k) => Number((from * (to / from) ** (k / (count - 1))).toPrecision(9)));

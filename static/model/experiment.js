@@ -7,7 +7,7 @@
  * @typedef {import('../types.js').Disturbance} Disturbance
  * @typedef {import('../types.js').Encoders} Encoders
  */
-import { DEGREE, fixed, significant } from '../text/format.js';
+import { DEGREE, fixed, significant } from '../text/index.js';
 
 /** @type {{saturation: boolean, anti_windup: NonNullable<Scenario['anti_windup']>, travel_stops: boolean, trim_feedforward: boolean, rtol: number}} */
 export const STANDARD = { saturation: true, anti_windup: 'clamping', travel_stops: true, trim_feedforward: true, rtol: 1e-5 };

@@ -3,9 +3,8 @@
  * @typedef {import('../types.js').Finding} Finding
  * @typedef {import('../types.js').State} State
  */
-import { percent } from '../text/format.js';
+import { percent, say, t } from '../text/index.js';
 import { AXES, verdictOf } from './requirements.js';
-import { say, t } from '../text/words.js';
 
 const testid = (/** @type {string} */ name) => `[data-testid="${name}"]`;
 const plot = (/** @type {string} */ signal) => `${testid(`plot-${signal}`)} .plot-body`;

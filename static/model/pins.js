@@ -4,8 +4,7 @@
  * @typedef {import('../types.js').Pin} Pin
  */
 import { best, hardest, worseMargins } from './compare_math.js';
-import { decibel, degrees, fixed, seconds, significant } from '../text/format.js';
-import { t } from '../text/words.js';
+import { decibel, degrees, fixed, seconds, significant, t } from '../text/index.js';
 
 export const COLORS = 6;
 

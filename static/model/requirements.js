@@ -4,9 +4,8 @@
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {import('../types.js').Requirements} Requirements
  */
-import { fixed, seconds } from '../text/format.js';
+import { fixed, say, seconds, t } from '../text/index.js';
 import { character } from './poles.js';
-import { say, t } from '../text/words.js';
 
 const SLACK = 1 + 1e-9; // a pole on the border itself is allowed
 

@@ -7,8 +7,7 @@
  * @typedef {'parameters'|'limits'} Kind
  * @typedef {{kind: Kind, name: string, meaning: string, unit: string, min: number, max: number, scale: number, free: boolean}} Quantity  in the unit shown; `scale` leads to it from SI; free: may be absent
  */
-import { DEGREE } from '../text/format.js';
-import { count } from '../text/words.js';
+import { count, DEGREE } from '../text/index.js';
 
 /** @param {Kind} kind @param {Record<string, import('../types.js').Range>} [infos] @returns {Quantity[]} */
 const listed = (kind, infos = {}) => Object.entries(infos).map(([name, { meaning, unit, minimum, maximum }]) => {

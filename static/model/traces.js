@@ -5,8 +5,8 @@
  * @typedef {import('../types.js').Motion} Motion
  * @typedef {'theta'|'psi'|'V_p'|'V_y'} Signal
  */
-import { DEGREE } from '../text/format.js';
-import { niceStep } from '../splane/math.js';
+import { DEGREE } from '../text/index.js';
+import { niceStep } from './ticks.js';
 
 /** @type {Signal[]} */
 export const SIGNALS = ['theta', 'psi', 'V_p', 'V_y'];

@@ -6,7 +6,7 @@
 import { backoff } from './backoff.js';
 import { ofSession, session } from './session.js';
 import { decodeFrame } from './wire.js';
-import { t } from '../text/words.js';
+import { t } from '../text/index.js';
 
 const PROTOCOL = 'heli2dof.v1+binary';
 const PATIENCE_MS = 10_000;

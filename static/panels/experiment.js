@@ -1,7 +1,6 @@
 /** How the experiment is run: where it starts, what limits it, which controller, what disturbs it. Folded away; one line says what differs from the standard. */
-import { h, setAttr, setText } from '../ui/dom.js';
-import { experimentWords, isStandard, standard } from '../model/experiment.js';
-import { presetOf } from '../model/store.js';
+import { experimentWords, isStandard, presetOf, standard } from '../model/index.js';
+import { h, setAttr, setText } from '../ui/index.js';
 import { AccuracyPart, DigitalPart, DisturbancePart, LimitsPart, ScenarioFields, StartPart } from './experiment_parts.js';
 
 /** Findings that are told at the fields that they speak of, too. */

@@ -1,8 +1,7 @@
 /** The parts of the experiment's options, each with its fields and what they change. */
-import { h, setText, symbol } from '../ui/dom.js';
-import { DIGITAL, STANDARD, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../model/experiment.js';
-import { Choice, NumberField } from '../ui/fields.js';
-import { DEGREE, inField } from '../text/format.js';
+import { DEGREE, inField } from '../text/index.js';
+import { DIGITAL, STANDARD, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../model/index.js';
+import { Choice, h, NumberField, setText, symbol } from '../ui/index.js';
 
 /**
  * @typedef {import('../types.js').Scenario} Scenario

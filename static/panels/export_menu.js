@@ -1,11 +1,9 @@
 /** "Export": the design as a file for other programs, as numbers, or as a report to print. */
-import { exportDesign } from '../net/api.js';
-import { saveFile } from '../ui/clipboard.js';
-import { h, setText } from '../ui/dom.js';
+import { say } from '../text/index.js';
+import { bodyOf, scenarioOf } from '../model/index.js';
+import { exportDesign } from '../net/index.js';
+import { h, icon, popupButton, saveFile, setText } from '../ui/index.js';
 import { EXPORTS } from './export_formats.js';
-import { icon, popupButton } from '../ui/popup.js';
-import { bodyOf, scenarioOf } from '../model/store.js';
-import { say } from '../text/words.js';
 
 /** @typedef {import('./export_formats.js').Export} Export */
 const READ_MS = 60_000; // by then a tab has read its page

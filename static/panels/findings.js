@@ -1,10 +1,8 @@
 /** The verdict on the whole loop, and what else is to be said of the design, worst first, in a place that is always kept free for it. */
-import { h, setText } from '../ui/dom.js';
-import { fixed } from '../text/format.js';
-import { placeOf } from '../model/finding_places.js';
+import { fixed, say, t } from '../text/index.js';
+import { AXES, placeOf, verdictOf } from '../model/index.js';
+import { h, setText } from '../ui/index.js';
 import { leadTo } from './lead.js';
-import { AXES, verdictOf } from '../model/requirements.js';
-import { say, t } from '../text/words.js';
 
 const ICON = { error: '✕', warning: '▲', info: 'i' };
 const WORD = { error: 'Error', warning: 'Warning', info: 'Note' };

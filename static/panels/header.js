@@ -1,9 +1,8 @@
 /** The top line: which rig, where its numbers come from, what of them is changed, one step back or forth, pin and link, and whether the server is there. */
-import { h, setAttr, setText } from '../ui/dom.js';
+import { say } from '../text/index.js';
+import { designOf, lockNames, presetOf } from '../model/index.js';
+import { h, setAttr, setText } from '../ui/index.js';
 import { exportMenu } from './export_menu.js';
-import { lockNames } from '../model/locks.js';
-import { designOf, presetOf } from '../model/store.js';
-import { say } from '../text/words.js';
 import { RigPanel } from './rig.js';
 import { ShareButtons } from './share.js';
 

@@ -1,9 +1,7 @@
 /** The outer loops: on or off, their PI values, how they are paired; and the method that makes the inner loop's gain. */
-import { h, setText, symbol } from '../ui/dom.js';
-import { Choice, NumberField } from '../ui/fields.js';
-import { suggestLoops } from '../net/api.js';
-import { FULL_RANK, keyOf, nameOf, partOf, STRUCTURES } from '../model/methods.js';
-import { bodyOf } from '../model/store.js';
+import { bodyOf, FULL_RANK, keyOf, nameOf, partOf, STRUCTURES } from '../model/index.js';
+import { suggestLoops } from '../net/index.js';
+import { Choice, h, NumberField, setText, symbol } from '../ui/index.js';
 
 /** @typedef {'pitch'|'yaw'} Axis */
 const AXES = /** @type {Axis[]} */ (['pitch', 'yaw']);

@@ -1,9 +1,7 @@
 /** How well it does, in figures: one column for the step of each axis, from the nonlinear rig; the linear model's in parentheses where they differ. */
-import { h, setAttr, setText, symbol } from '../ui/dom.js';
-import { brief, decibel, DEGREE, degrees, differs, fixed, percent, seconds, significant } from '../text/format.js';
-import { recall, remember } from '../ui/memory.js';
-import { AXES, verdictOf } from '../model/requirements.js';
-import { say, t } from '../text/words.js';
+import { brief, decibel, DEGREE, degrees, differs, fixed, percent, say, seconds, significant, t } from '../text/index.js';
+import { AXES, verdictOf } from '../model/index.js';
+import { h, recall, remember, setAttr, setText, symbol } from '../ui/index.js';
 
 /** @typedef {import('../types.js').Reply} Reply */
 /** @typedef {'theta'|'psi'} Axis */

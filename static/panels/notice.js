@@ -2,7 +2,7 @@
  * Three quiet words at the lower edge: what could not be taken from a link, until it is dismissed or the design changes; that a part of the page fails,
  * until it is dismissed; and that what is shown is an older design's while the server is away.
  */
-import { h, setText } from '../ui/dom.js';
+import { h, setText } from '../ui/index.js';
 
 /** A line that can be dismissed. */
 class Line {

@@ -1,9 +1,8 @@
 /** K and the RGA as matrices, what the RGA says, in words, and the one step that heeds it. */
-import { suggestLoops } from '../net/api.js';
-import { h, setAttr, setText } from '../ui/dom.js';
-import { fixed, significant } from '../text/format.js';
-import { GAIN, gainMatrix, relativeGains } from '../ui/matrix.js';
-import { bodyOf } from '../model/store.js';
+import { fixed, significant } from '../text/index.js';
+import { bodyOf } from '../model/index.js';
+import { suggestLoops } from '../net/index.js';
+import { GAIN, gainMatrix, h, relativeGains, setAttr, setText } from '../ui/index.js';
 
 /** @typedef {'diagonal'|'cross'} Pairing */
 

@@ -1,6 +1,6 @@
 /** The pinned designs over the plots: what each letter means, and back to one of them by one press. */
-import { h, setAttr } from '../ui/dom.js';
-import { colorOf, letterOf } from '../model/pins.js';
+import { colorOf, letterOf } from '../model/index.js';
+import { h, setAttr } from '../ui/index.js';
 
 /** The letter in its pin's colour. @param {number} index */
 export const badge = (index) => h('span', { class: `badge ${colorOf(index)}`, 'aria-hidden': 'true' }, letterOf(index));

@@ -1,8 +1,7 @@
 /** The table of the pinned designs: their figures, how far each is from the present design's, and the best of each column. */
-import { h, setAttr, setText, symbol } from '../ui/dom.js';
-import { complex } from '../text/format.js';
-import { nameOf } from '../model/methods.js';
-import { differenceTable, FIGURES } from '../model/pins.js';
+import { complex } from '../text/index.js';
+import { differenceTable, FIGURES, nameOf } from '../model/index.js';
+import { h, setAttr, setText, symbol } from '../ui/index.js';
 import { badge } from './pin_bar.js';
 
 /** @typedef {import('../types.js').Pin} Pin @typedef {import('../types.js').Design} Design */

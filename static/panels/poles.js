@@ -1,11 +1,7 @@
 /** The two pairs as numbers: real or complex, two values each, with sliders. */
-import { h, setAttr, setText } from '../ui/dom.js';
-import { Choice, NumberField } from '../ui/fields.js';
-import { isComplex, LIMIT, setComplex, setMode, setReal } from '../model/poles.js';
-import { AXES, verdictOf } from '../model/requirements.js';
-import { placesPoles } from '../model/methods.js';
-import { niceStep } from '../splane/math.js';
-import { say } from '../text/words.js';
+import { say } from '../text/index.js';
+import { AXES, isComplex, LIMIT, niceStep, placesPoles, setComplex, setMode, setReal, verdictOf } from '../model/index.js';
+import { Choice, h, NumberField, setAttr, setText } from '../ui/index.js';
 
 const NAMES = ['pitch', 'yaw'];
 

@@ -1,5 +1,5 @@
 /** Puts what the server refuses at the field that it names. */
-import { setAttr } from '../ui/dom.js';
+import { setAttr } from '../ui/index.js';
 
 export class FieldProblems {
   /** @type {import('../types.js').Problem|null} */ #shown = null;

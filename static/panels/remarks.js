@@ -1,6 +1,6 @@
 /** Findings where they concern: a few words at the loops and in the captions of the plots, in room that is kept for them. */
-import { h, setAttr, setText } from '../ui/dom.js';
-import { remarksOf } from '../model/finding_places.js';
+import { remarksOf } from '../model/index.js';
+import { h, setAttr, setText } from '../ui/index.js';
 
 /** After which element each stands. */
 const SPOTS = /** @type {const} */ ([['loops', '#loops .select:has([data-testid=pairing])'], ['theta', '[data-testid=plot-theta] .what'], ['V_p', '[data-testid=plot-V_p] .what'], ['V_y', '[data-testid=plot-V_y] .what']]);

@@ -1,10 +1,7 @@
 /** The rig's parameters and limits as fields, each beside what the preset says. Folded away; the header's line says how many differ. */
-import { h, setAttr, setText, symbol } from '../ui/dom.js';
-import { NumberField } from '../ui/fields.js';
-import { inField } from '../text/format.js';
-import { asProposed, changedWords, isChanged, proposedShown, quantities, valueOf, without, withValue } from '../model/rig.js';
-import { presetOf } from '../model/store.js';
-import { say } from '../text/words.js';
+import { inField, say } from '../text/index.js';
+import { asProposed, changedWords, isChanged, presetOf, proposedShown, quantities, valueOf, without, withValue } from '../model/index.js';
+import { h, NumberField, setAttr, setText, symbol } from '../ui/index.js';
 
 const CONCERNED = /^(parameters|limits)(\.|$)/;
 

@@ -1,7 +1,6 @@
 /** What is asked of the rig: where it rests, how far it steps and how long one watches; and what the plots' lines mean. */
-import { h, symbol } from '../ui/dom.js';
-import { NumberField } from '../ui/fields.js';
-import { DEGREE } from '../text/format.js';
+import { DEGREE } from '../text/index.js';
+import { h, NumberField, symbol } from '../ui/index.js';
 
 /** @typedef {'theta'|'psi'} Axis */
 

@@ -1,9 +1,7 @@
 /** "Copy link", and the small panel that makes a link with locks for a class. */
-import { copyText } from '../ui/clipboard.js';
-import { h, setText } from '../ui/dom.js';
-import { LOCKS } from '../model/locks.js';
-import { MOST } from '../link/permalink.js';
-import { popupButton } from '../ui/popup.js';
+import { LOCKS } from '../model/index.js';
+import { copyText, h, popupButton, setText } from '../ui/index.js';
+import { MOST } from '../link/index.js';
 
 const SHOWN_MS = 1600;
 

@@ -1,7 +1,6 @@
 /** Five short hints at the lower right, for a first visit: nothing is blocked, the page goes on beneath. Gone for good when ended; the header brings them back. */
-import { h, setText } from '../ui/dom.js';
-import { remember } from '../ui/memory.js';
-import { say } from '../text/words.js';
+import { say } from '../text/index.js';
+import { h, remember, setText } from '../ui/index.js';
 
 export const MEMORY = 'tour';
 

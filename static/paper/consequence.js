@@ -1,6 +1,6 @@
 /** Where the printed K really puts the poles, as a table and in the s-plane. */
-import { h, svg } from '../ui/dom.js';
-import { fixed } from '../text/format.js';
+import { fixed } from '../text/index.js';
+import { h, svg } from '../ui/index.js';
 import { dampingRatio, polesText } from './math.js';
 import { arrow, drawing } from './drawing.js';
 import { rich } from './rich.js';

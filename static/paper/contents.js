@@ -1,5 +1,5 @@
 /** The table of contents: chapters, and of the chapter that is being read its steps. */
-import { h } from '../ui/dom.js';
+import { h } from '../ui/index.js';
 import { anchorOf, shortOf } from './math.js';
 import { CHAPTERS, MARKS } from './words.js';
 

@@ -1,12 +1,9 @@
 /** Figs. 4 and 5, drawn anew: four answers to a step of one radian, told apart by dashes as well as by colour. */
 import uPlot from '../vendor/uplot/uPlot.esm.js';
-import { h, svg } from '../ui/dom.js';
-import { DEGREE, fixed } from '../text/format.js';
-import { followsPage, pictureScale } from '../ui/picture_scale.js';
-import { linesMenu } from '../plots/menu.js';
-import { drawLabel, drawRule } from '../plots/rules.js';
+import { DEGREE, fixed, say } from '../text/index.js';
+import { followsPage, h, pictureScale, svg } from '../ui/index.js';
+import { drawLabel, drawRule, linesMenu } from '../plots/index.js';
 import { rich } from './rich.js';
-import { say } from '../text/words.js';
 import { CURVES } from './words.js';
 
 /** @typedef {import('./math.js').Curves} Curves @typedef {import('../plots/rules.js').Rule} Rule */

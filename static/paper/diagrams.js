@@ -1,6 +1,6 @@
 /** The paper's Figs. 2 and 3 as block diagrams with the present values in their blocks: the state feedback, and the loops around it. */
-import { svg } from '../ui/dom.js';
-import { inverseOf, mixingOf } from '../model/loop_values.js';
+import { inverseOf, mixingOf } from '../model/index.js';
+import { svg } from '../ui/index.js';
 import { clean, figure } from './math.js';
 import { arrow, drawing, math, node, sum, words } from './drawing.js';
 

@@ -1,5 +1,5 @@
 /** Strokes, arrows, boxes and symbols that the paper's figures are drawn with; colours come from paper.css. */
-import { svg } from '../ui/dom.js';
+import { svg } from '../ui/index.js';
 
 /** @param {string} points like "10,20 30,40" @param {string} [kind] */
 export const wire = (points, kind = '') => svg('polyline', { class: `wire ${kind}`, points });

@@ -1,5 +1,5 @@
 /** The chapters of the derivation: prose, and each step with its mark, one plain sentence, its formulas, its figure, what it comes to on the present rig, and its errata. */
-import { h } from '../ui/dom.js';
+import { h } from '../ui/index.js';
 import { freeBody } from './figures.js';
 import { anchorOf } from './math.js';
 import { rich } from './rich.js';

@@ -1,5 +1,5 @@
 /** The paper's errata, and what is unclear in our copy: printed, corrected, why, what follows, the paper's numbers that confirm it, and the proof that the server has just computed. Each stands at its step; the lists lead there. */
-import { h } from '../ui/dom.js';
+import { h } from '../ui/index.js';
 import { countsOf } from './math.js';
 import { rich } from './rich.js';
 import { typeset } from './forms.js';

@@ -1,5 +1,5 @@
 /** The paper's Fig. 1 as a line drawing: the rig from its side and from above. */
-import { h, svg } from '../ui/dom.js';
+import { h, svg } from '../ui/index.js';
 import { arrow, dimension, drawing, math, through, wire, words } from './drawing.js';
 
 const TILT = (16 * Math.PI) / 180;

@@ -1,7 +1,5 @@
 /** A typeset formula with its button for copying: scrolls in itself, set smaller where it is long. */
-import { copyButton } from '../ui/copy_menu.js';
-import { h } from '../ui/dom.js';
-import { formula } from '../ui/mathml.js';
+import { copyButton, formula, h } from '../ui/index.js';
 import { rich } from './rich.js';
 
 /** @typedef {import('./math.js').Form} Form */

@@ -1,12 +1,8 @@
 /** K and the RGA as typeset formulas, each entry of K beside its present value. Fetched once per structure, when first seen. */
-import { copyButton } from '../ui/copy_menu.js';
-import { h, setText } from '../ui/dom.js';
-import { significant } from '../text/format.js';
-import { getSymbolic } from '../net/api.js';
-import { formula } from '../ui/mathml.js';
-import { Lazy } from '../ui/lazy.js';
-import { FULL_RANK } from '../model/methods.js';
-import { bodyOf, presetOf } from '../model/store.js';
+import { significant } from '../text/index.js';
+import { bodyOf, FULL_RANK, presetOf } from '../model/index.js';
+import { getSymbolic } from '../net/index.js';
+import { copyButton, formula, h, Lazy, setText } from '../ui/index.js';
 import { SymbolCards } from './symbol_cards.js';
 import { walk } from './walk.js';
 

@@ -1,8 +1,7 @@
 /** What the paper's equations come to on the present rig, with the present poles: matrices and constants beside their formulas. */
-import { h, setText, symbol } from '../ui/dom.js';
-import { DEGREE } from '../text/format.js';
-import { Matrix } from '../ui/matrix.js';
-import { FULL_RANK, nameOf } from '../model/methods.js';
+import { DEGREE } from '../text/index.js';
+import { FULL_RANK, nameOf } from '../model/index.js';
+import { h, Matrix, setText, symbol } from '../ui/index.js';
 import { outerLoops, stateFeedback } from './diagrams.js';
 import { clean, figure, polesText } from './math.js';
 import { rich } from './rich.js';

@@ -1,5 +1,5 @@
 /** Table I for the present rig, and Eqs. 1 and 8 worked through with the values of the rig's components. */
-import { h, setText } from '../ui/dom.js';
+import { h, setText } from '../ui/index.js';
 import { centreSteps, figure, thrustSteps } from './math.js';
 import { named, rich } from './rich.js';
 

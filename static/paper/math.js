@@ -25,7 +25,7 @@
  * @typedef {{number: number, output: string, t: number[], curves: {name: string, title: string, angle: number[]}[]}} Curves
  * @typedef {{title: string, authors: string, equations: Equation[], symbols: import('./symbols.js').Term[], numbers: PrintedNumber[], errata: Erratum[], consequence: Consequence[], figures: Curves[]}} Paper
  */
-import { complex } from '../text/format.js';
+import { complex } from '../text/index.js';
 
 const MINUS = '\u2212';
 const FIRM = '\u00a0'; // a space at which no line breaks

@@ -1,5 +1,5 @@
 /** Every number that the paper prints, beside what its formula gives: the table that is meant to be searched in seconds. */
-import { h } from '../ui/dom.js';
+import { h } from '../ui/index.js';
 import { countsOf, digitsText, figure, groupBy, minus } from './math.js';
 import { named, rich } from './rich.js';
 

@@ -1,11 +1,10 @@
 /** The derivation as a reading view along the paper: its equations derived again, its numbers recomputed, its errata proved. Fetched when it is first seen. */
-import { getPaper } from '../net/api.js';
-import { h } from '../ui/dom.js';
-import { Lazy } from '../ui/lazy.js';
-import { placeIn } from '../link/permalink.js';
+import { bodyOf, presetOf } from '../model/index.js';
+import { getPaper } from '../net/index.js';
+import { h, Lazy } from '../ui/index.js';
+import { placeIn } from '../link/index.js';
 import { countsOf } from './math.js';
 import { rich } from './rich.js';
-import { bodyOf, presetOf } from '../model/store.js';
 import { SymbolCards, SymbolList } from './symbol_cards.js';
 import { walk } from './walk.js';
 import { consequence } from './consequence.js';

@@ -1,5 +1,5 @@
 /** Plain text of the server as typeset text: K_pp gets its subscript, −8.7 its minus, "Eq. 13" leads to it, and $x$ is mathematics. */
-import { h, symbol } from '../ui/dom.js';
+import { h, symbol } from '../ui/index.js';
 import { anchorOf, minus } from './math.js';
 
 const PIECE = /\$([^$]+)\$|([A-Za-zα-ωΑ-Ω])_([A-Za-z0-9]+(?:,[a-z])?)|(\b(?:Eq|Fig)\. \d+|\bTable I\b)/g;

@@ -1,7 +1,7 @@
 /** The formulas of the structure that is chosen, beside those of the paper's own. */
-import { getSymbolic } from '../net/api.js';
-import { h } from '../ui/dom.js';
-import { FULL_RANK, nameOf } from '../model/methods.js';
+import { FULL_RANK, nameOf } from '../model/index.js';
+import { getSymbolic } from '../net/index.js';
+import { h } from '../ui/index.js';
 import { rich } from './rich.js';
 import { typeset } from './forms.js';
 

@@ -2,8 +2,7 @@
  * A small card for the symbol under the pointer, the finger or the keyboard's focus: name, meaning, value now, unit. A formula is one stop of the Tab key;
  * the arrow keys walk through its symbols.
  */
-import { h, setText } from '../ui/dom.js';
-import { formula } from '../ui/mathml.js';
+import { formula, h, setText } from '../ui/index.js';
 import { figure } from './math.js';
 import { rich } from './rich.js';
 import { Glossary, symbolsIn, worthOf } from './symbols.js';

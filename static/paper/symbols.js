@@ -6,7 +6,7 @@
  * @typedef {{parameters: Record<string, number>, components: Record<string, number>, walk: any}} Now
  * @typedef {{text?: string, matrix?: number[][], of?: string}} Worth
  */
-import { complex } from '../text/format.js';
+import { complex } from '../text/index.js';
 import { clean, figure } from './math.js';
 
 const text = (/** @type {MathElement} */ e) => (e.textContent ?? '').replace(/\s/g, '');

@@ -1,5 +1,5 @@
 /** The derivation in numbers for a design, asked for once and shared by all that show it. */
-import { ProblemError, walkThrough } from '../net/api.js';
+import { ProblemError, walkThrough } from '../net/index.js';
 
 /** @typedef {any} Walk  the reply of POST walkthrough with the body that was `asked`, or why it was `refused` */
 let key = '';

@@ -8,9 +8,8 @@
  * @typedef {'rise'|'peak'|'settling'|'coupling'} Kind
  * @typedef {{kind: Kind, axis: 'theta'|'psi', t: number, value: number, brief: string, text: string}} Mark  axis: whose step; s, degrees
  */
-import { DEGREE, degrees, fixed, seconds } from '../text/format.js';
-import { isVoltage } from '../model/traces.js';
-import { say } from '../text/words.js';
+import { DEGREE, degrees, fixed, say, seconds } from '../text/index.js';
+import { isVoltage } from '../model/index.js';
 
 const HIGH = 0.9; // of the step, where the rise ends
 const SEEN = 0.05; // %: less overshoot than this reads as none

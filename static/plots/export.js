@@ -6,10 +6,9 @@
  * @typedef {'pitch'|'yaw'|'played'|'pin'|'series-0'|'series-1'} Kind
  * @typedef {{name: string, kind: Kind, linear?: boolean, index?: number, axis?: 'theta'|'psi', t: Series, values: Series}} Line
  */
-import { letterOf } from '../model/pins.js';
+import { t as word } from '../text/index.js';
+import { isVoltage, letterOf, tracesOf } from '../model/index.js';
 import { ghostsOf } from './ghosts.js';
-import { isVoltage, tracesOf } from '../model/traces.js';
-import { t as word } from '../text/words.js';
 
 export const NAMES = { theta: 'theta', psi: 'psi', V_p: 'V_p', V_y: 'V_y' };
 export const TITLES = { theta: 'Pitch angle θ', psi: 'Yaw angle ψ', V_p: 'Pitch motor voltage V_p', V_y: 'Yaw motor voltage V_y' };

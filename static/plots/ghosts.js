@@ -4,10 +4,8 @@
  * @typedef {import('../types.js').Pin} Pin
  * @typedef {import('../model/traces.js').Signal} Signal
  */
-import { h } from '../ui/dom.js';
-import { pictureScale } from '../ui/picture_scale.js';
-import { colorOf, letterOf } from '../model/pins.js';
-import { extent, trace } from '../model/traces.js';
+import { colorOf, extent, letterOf, trace } from '../model/index.js';
+import { h, pictureScale } from '../ui/index.js';
 
 /** @typedef {{pin: Pin, axis: 'theta'|'psi', t: import('../types.js').Series, values: import('../types.js').Series}} Ghost */
 const AXES = /** @type {const} */ (['theta', 'psi']);

@@ -1,8 +1,8 @@
 /** A plot over time as a picture: what is seen, with its words. */
 import { drawPicture } from './picture.js';
 import { TITLES, unitOf } from './export.js';
-import { isVoltage } from '../model/traces.js';
-import { say, t } from '../text/words.js';
+import { say, t } from '../text/index.js';
+import { isVoltage } from '../model/index.js';
 
 /** @typedef {import('./export.js').Line} Line @typedef {import('../model/traces.js').Signal} Signal */
 /** @typedef {{x: [number, number], y: [number, number], rules: import('./rules.js').Rule[], regions?: import('./rules.js').Region[], marks?: import('./characteristics.js').Mark[]}} Seen  ranges in s and in the plot's unit */

@@ -1,6 +1,5 @@
 /** Points on the curves that say what they are under the pointer or by Tab, and take the time there when pressed: round on the pitch step's, square on the yaw step's. */
-import { h, setAttr, setText } from '../ui/dom.js';
-import { drawingUnit } from '../ui/picture_scale.js';
+import { drawingUnit, h, setAttr, setText } from '../ui/index.js';
 
 /** @typedef {import('./characteristics.js').Mark} Mark */
 const MOST = 4; // of a plot: rise, peak, settling, the other axis

@@ -1,13 +1,10 @@
 /** The small menu of a plot: its picture and its numbers as files. */
-import { saveFile } from '../ui/clipboard.js';
-import { fixed } from '../text/format.js';
-import { h } from '../ui/dom.js';
-import { nameOf } from '../model/methods.js';
+import { fixed, say } from '../text/index.js';
+import { nameOf } from '../model/index.js';
+import { h, icon, popupButton, saveFile } from '../ui/index.js';
 import { drawPicture } from './picture.js';
 import { csvOf, linesOf, tableOf } from './export.js';
 import { drawPlot, fileName } from './image.js';
-import { icon, popupButton } from '../ui/popup.js';
-import { say } from '../text/words.js';
 
 /** @typedef {import('../model/traces.js').Signal} Signal @typedef {import('./image.js').Seen} Seen @typedef {import('./picture.js').Picture} Picture */
 

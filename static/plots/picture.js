@@ -1,8 +1,8 @@
 /** A picture of lines for a report: title, axes with units, legend; on white, whatever the page's own colours. */
-import { inField } from '../text/format.js';
+import { inField } from '../text/index.js';
+import { niceStep, ticks } from '../model/index.js';
 import { drawGhosts } from './ghosts.js';
 import { hatch } from './rules.js';
-import { niceStep, ticks } from '../splane/math.js';
 
 /** @typedef {import('./export.js').Line} Line @typedef {import('./rules.js').Rule} Rule @typedef {import('./characteristics.js').Mark} Mark */
 /** @typedef {{range: [number, number], title: string, log?: boolean, steps?: number[]}} Axis  steps: between its numbers, where not any round one will do */

@@ -6,18 +6,15 @@
  */
 import uPlot from '../vendor/uplot/uPlot.esm.js';
 import { marksOf } from './characteristics.js';
-import { h, setText, symbol } from '../ui/dom.js';
-import { fixed } from '../text/format.js';
-import { followsPage, pictureScale } from '../ui/picture_scale.js';
-import { COLORS, colorOf } from '../model/pins.js';
+import { fixed, say, t as word } from '../text/index.js';
+import { colorOf, COLORS, extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from '../model/index.js';
+import { followsPage, h, pictureScale, setText, symbol } from '../ui/index.js';
 import { PlotGhosts } from './ghosts.js';
 import { PlotMarks } from './marks.js';
 import { plotMenu } from './menu.js';
 import { plainPath } from './paths.js';
 import { drawBand, drawReference, drawRegions, drawShades, limitOf, referenceOf, regionsOf, rulesOf, rulesSeen } from './rules.js';
 import { PlotTexts } from './texts.js';
-import { extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from '../model/traces.js';
-import { say, t as word } from '../text/words.js';
 
 /** @type {Record<Signal, {base: string, sub?: string, title: string, unit: string}>} */
 const ABOUT = {

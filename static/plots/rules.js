@@ -5,10 +5,9 @@
  * @typedef {(name: string) => string} Color
  * @typedef {{left: number, right: number, inner: number, outer: number}} Region  s, and in the plot's unit: the border, and how far it is drawn
  */
-import { DEGREE, fixed } from '../text/format.js';
-import { pictureScale } from '../ui/picture_scale.js';
-import { isVoltage } from '../model/traces.js';
-import { say } from '../text/words.js';
+import { DEGREE, fixed, say } from '../text/index.js';
+import { isVoltage } from '../model/index.js';
+import { pictureScale } from '../ui/index.js';
 
 /** @typedef {import('../model/traces.js').Signal} Signal @typedef {import('../types.js').Reply} Reply */
 

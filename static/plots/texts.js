@@ -2,7 +2,7 @@
  * What is written in a plot: the numbers at its axes, and what the lines across it are called. As elements over the canvas, they are laid out when they change, which in
  * a drag is seldom, and not drawn anew with every line.
  */
-import { h } from '../ui/dom.js';
+import { h } from '../ui/index.js';
 
 const GAP = { x: 4, y: 5, rule: 3 }; // px at the usual size of type
 const FOOT = 4;

@@ -1,7 +1,7 @@
 /** Asks the server about a recording and keeps its answers in the store: file, overlay, identification with progress and cancel. */
-import { identifyAddress, joinRecordings, overlayRecording, ProblemError, sampleRecording, sendRecording } from '../net/api.js';
+import { bodyOf } from '../model/index.js';
+import { identifyAddress, joinRecordings, overlayRecording, ProblemError, sampleRecording, sendRecording } from '../net/index.js';
 import { guessed, identifyBody, isMapped, nothing, overlayBody } from './recordings.js';
-import { bodyOf } from '../model/store.js';
 
 /** @typedef {import('../types.js').Recorded} Recorded */
 

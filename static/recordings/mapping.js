@@ -1,7 +1,6 @@
 /** Which column of a recording is what, in which units, with which signs; how its text was split; its first rows. */
-import { h, setText, symbol } from '../ui/dom.js';
-import { NumberField } from '../ui/fields.js';
-import { significant } from '../text/format.js';
+import { significant } from '../text/index.js';
+import { h, NumberField, setText, symbol } from '../ui/index.js';
 import { DECIMALS, ROLES, SEPARATORS, TIME_UNITS } from './recordings.js';
 
 /** @typedef {import('../types.js').RecordingColumns} RecordingColumns */

@@ -1,6 +1,6 @@
 /** A recording of a real rig: file and columns, the simulation over it with its fit, and the rig's parameters identified from it. */
-import { h, setText, symbol } from '../ui/dom.js';
-import { significant } from '../text/format.js';
+import { significant } from '../text/index.js';
+import { h, setText, symbol } from '../ui/index.js';
 import { RecordingFeed } from './feed.js';
 import { adopted, curves, DRIVERS, estimateRows, fitText, freeAtFirst, IDENTIFIABLE, isMapped, missingWords, overlayWords, previewWords, progressWords } from './recordings.js';
 import { RecordingMapping } from './mapping.js';

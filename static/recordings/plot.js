@@ -1,8 +1,7 @@
 /** One axis of a recording over the simulation: measured, simulated, reference, over the recording's own time. */
 import uPlot from '../vendor/uplot/uPlot.esm.js';
-import { h, setText } from '../ui/dom.js';
-import { fixed } from '../text/format.js';
-import { followsPage, pictureScale } from '../ui/picture_scale.js';
+import { fixed } from '../text/index.js';
+import { followsPage, h, pictureScale, setText } from '../ui/index.js';
 import { rangeOfCurves } from './recordings.js';
 
 const Chart = /** @type {any} */ (uPlot); // its types stay in its package

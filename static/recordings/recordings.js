@@ -3,9 +3,8 @@
  * @typedef {import('../types.js').Recorded} Recorded
  * @typedef {import('../types.js').RecordingColumns} RecordingColumns
  */
-import { DEGREE, fixed, forField, significant } from '../text/format.js';
-import { bodyOf, initialState } from '../model/store.js';
-import { count, say } from '../text/words.js';
+import { count, DEGREE, fixed, forField, say, significant } from '../text/index.js';
+import { bodyOf, initialState } from '../model/index.js';
 
 export const ROLES = [
   { role: 'time', base: 't', title: 'time' }, { role: 'theta', base: 'θ', title: 'pitch angle' }, { role: 'psi', base: 'ψ', title: 'yaw angle' },

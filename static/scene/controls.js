@@ -1,7 +1,5 @@
 /** What is chosen over the scene: where the rig is looked at from, who flies beside it, whether it is drawn. */
-import { h } from '../ui/dom.js';
-import { Choice } from '../ui/fields.js';
-import { recall, remember } from '../ui/memory.js';
+import { Choice, h, recall, remember } from '../ui/index.js';
 import { cameraNamed, CAMERAS } from './cameras.js';
 
 /** @typedef {import('./cameras.js').CameraName} CameraName */

@@ -1,7 +1,6 @@
 // Designs that fly beside the rig as ghosts: the linear model and pinned designs. Pure.
 import { change, sampleTrajectory, show, turn } from "./pose.js";
-import { colorOf, COLORS, letterOf } from "../model/pins.js";
-import { motionOf } from "../model/traces.js";
+import { colorOf, COLORS, letterOf, motionOf } from "../model/index.js";
 
 /**
  * One ghost: its node under /ghosts, as app/scene/rig.py makes them, what is written at it and what

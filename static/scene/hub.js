@@ -5,8 +5,7 @@
  * @typedef {import('./clock.js').Snapshot} Snapshot
  * @typedef {{others: number, leads: boolean, count: number}} Windows  count: of the panel's messages so far
  */
-import { backoff } from '../net/backoff.js';
-import { decodeFrame, encodeFrame } from '../net/wire.js';
+import { backoff, decodeFrame, encodeFrame } from '../net/index.js';
 
 const PINGS = 4; // at first, to find the shortest way
 const PING_MS = 20_000;

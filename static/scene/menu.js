@@ -1,9 +1,7 @@
 /** The small menu beside the transport: the rig in a window of its own, and its motion as a file to take away. */
-import { recordMotion, windowAddress } from '../net/api.js';
-import { copyText, saveFile } from '../ui/clipboard.js';
-import { h, setText, svg } from '../ui/dom.js';
-import { popupButton } from '../ui/popup.js';
-import { bodyOf, scenarioOf } from '../model/store.js';
+import { bodyOf, scenarioOf } from '../model/index.js';
+import { recordMotion, windowAddress } from '../net/index.js';
+import { copyText, h, popupButton, saveFile, setText, svg } from '../ui/index.js';
 
 const arrow = () => svg('svg', { class: 'icon-tool', viewBox: '0 0 12 12', 'aria-hidden': 'true' }, svg('path', { d: 'M 5 2 H 1.5 V 10.5 H 10 V 7 M 7 1.5 H 10.5 V 5 M 10.5 1.5 L 5.5 6.5' }));
 

@@ -4,7 +4,7 @@
  * @typedef {import('../types.js').Loops} Loops
  * @typedef {Record<string, number|boolean|string>} Edits
  */
-import { isComplex, LIMIT, setComplex, setMode, setReal } from '../model/poles.js';
+import { isComplex, LIMIT, setComplex, setMode, setReal } from '../model/index.js';
 
 const PAIRS = /** @type {const} */ (['pitch', 'yaw']);
 const LEAST_IM = 1e-3;

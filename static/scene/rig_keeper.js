@@ -2,7 +2,7 @@
  * Sees to it that the server shows the wanted rig. What a server forgets (it was started again, another one took over) and what it could not hear
  * is told again; of several wishes only the newest is. Pure but for the clock that it is given.
  */
-import { backoff } from '../net/backoff.js';
+import { backoff } from '../net/index.js';
 
 const FIRST_RETRY_MS = 500;
 const LAST_RETRY_MS = 30_000;

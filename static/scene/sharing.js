@@ -3,12 +3,11 @@
  * Where the page is hidden behind them it gets no frames, so nothing here waits for one.
  * @typedef {import('../types.js').State} State
  */
-import { hubAddress } from '../net/api.js';
+import { evaluationOf, motionOf } from '../model/index.js';
+import { hubAddress } from '../net/index.js';
 import { Hub } from './hub.js';
 import { edited, shownOf, steer } from './panel.js';
 import { InStep } from './step.js';
-import { evaluationOf } from '../model/store.js';
-import { motionOf } from '../model/traces.js';
 
 export class SceneSharing {
   /** How many of the panel's messages each design contains. @type {WeakMap<object, number>} */ #counts = new WeakMap();

@@ -1,6 +1,6 @@
 /** The bar under the scene: play and pause, replay, the time, speed and loop. */
-import { h, setAttr, setText } from '../ui/dom.js';
-import { fixed } from '../text/format.js';
+import { fixed } from '../text/index.js';
+import { h, setAttr, setText } from '../ui/index.js';
 import { SPEEDS } from './clock.js';
 
 const SPEED_TEXT = /** @type {Record<number, string>} */ ({ 0.25: '¼×', 0.5: '½×' });

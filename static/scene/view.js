@@ -3,20 +3,17 @@
  * the plots and the read-outs.
  * @typedef {import('../types.js').State} State
  */
-import { getRigViews, putRig } from '../net/api.js';
-import { h, setText, symbol } from '../ui/dom.js';
-import { Choice } from '../ui/fields.js';
-import { degrees, fixed } from '../text/format.js';
-import { CALM } from '../ui/pace.js';
+import { degrees, fixed } from '../text/index.js';
+import { motionOf } from '../model/index.js';
+import { getRigViews, hasWebGl, putRig, session } from '../net/index.js';
+import { CALM, Choice, h, setText, symbol } from '../ui/index.js';
 import { RigKeeper } from './rig_keeper.js';
 import { ScenePlayer } from './player.js';
 import { SceneControls } from './controls.js';
 import { flightsOf } from './ghosts.js';
 import { sceneMenu } from './menu.js';
 import { AT_LIMIT } from './pose.js';
-import { hasWebGl, session } from '../net/session.js';
 import { Transport } from './transport.js';
-import { motionOf } from '../model/traces.js';
 
 const QUIET_MS = 450; // after the last change, before the motion plays afresh
 const LATE_MS = 100; // between two frames: three such in a row, and drawing the rig is slow here

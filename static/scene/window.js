@@ -2,16 +2,14 @@
  * The rig in a window of its own: plays what the page shows, in step with it. While there is no page, the window that leads asks the server itself, so
  * that the panel goes on working; with a session that nobody has used it starts from the first preset.
  */
-import { Live } from '../net/api.js';
-import { h, setText } from '../ui/dom.js';
-import { degrees, fixed } from '../text/format.js';
+import { degrees, fixed } from '../text/index.js';
+import { designOf, evaluationOf, motionOf } from '../model/index.js';
+import { Live, ofSession } from '../net/index.js';
+import { h, setText } from '../ui/index.js';
 import { Hub } from './hub.js';
 import { ScenePlayer } from './player.js';
 import { edited, shownOf, steer, trajectoryIn } from './panel.js';
-import { ofSession } from '../net/session.js';
 import { InStep } from './step.js';
-import { designOf, evaluationOf } from '../model/store.js';
-import { motionOf } from '../model/traces.js';
 
 const APP = new URL('../../', location.href); // the page is served at …/scene/{session}/
 const SESSION = location.pathname.split('/').at(-2) ?? '';

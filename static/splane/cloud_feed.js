@@ -3,9 +3,8 @@
  * @typedef {import('../types.js').State} State
  * @typedef {import('../types.js').Design} Design
  */
-import { cloudAddress } from '../net/api.js';
-import { cloudCaveat, cloudScenario } from '../model/experiment.js';
-import { bodyOf } from '../model/store.js';
+import { bodyOf, cloudCaveat, cloudScenario } from '../model/index.js';
+import { cloudAddress } from '../net/index.js';
 
 export const SPREADS = [0, 0.05, 0.1, 0.2];
 const FEW = 200;

@@ -4,7 +4,7 @@
  * @typedef {import('./math.js').View} View
  * @typedef {{x: number, y: number}} Point  pixels of the view
  */
-import { drag, nudge, tidy } from '../model/poles.js';
+import { drag, nudge, tidy } from '../model/index.js';
 import { keyStep, pick, pinch, toPixel, toPlane, zoom } from './math.js';
 
 export const REACH = 28; // px: how near a press must be to take a pole

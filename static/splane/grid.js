@@ -1,7 +1,8 @@
 /** What lies behind the poles: axes, circles of constant ωₙ, rays of constant ζ, and the unstable half. Redrawn only when the view changes. */
-import { svg } from '../ui/dom.js';
-import { fixed } from '../text/format.js';
-import { bounds, DAMPING, niceStep, rayEnd, ticks, toPixel } from './math.js';
+import { fixed } from '../text/index.js';
+import { niceStep, ticks } from '../model/index.js';
+import { svg } from '../ui/index.js';
+import { bounds, DAMPING, rayEnd, toPixel } from './math.js';
 
 const WN_DIRECTION = [Math.cos(0.87), Math.sin(0.87)];
 

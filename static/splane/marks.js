@@ -5,13 +5,10 @@
  * @typedef {import('../types.js').State} State
  * @typedef {import('./math.js').View} View
  */
-import { setAttr, setText, svg } from '../ui/dom.js';
-import { poleText } from '../text/format.js';
-import { placesPoles } from '../model/methods.js';
-import { pairOf } from '../model/poles.js';
-import { guideWords, isAsked } from '../model/requirements.js';
+import { poleText, say } from '../text/index.js';
+import { guideWords, isAsked, pairOf, placesPoles } from '../model/index.js';
+import { setAttr, setText, svg } from '../ui/index.js';
 import { toPixel } from './math.js';
-import { say } from '../text/words.js';
 
 export const NAMES = ['pitch', 'yaw'];
 const CROSS = 'M -5.5 -5.5 L 5.5 5.5 M -5.5 5.5 L 5.5 -5.5';

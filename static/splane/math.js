@@ -4,6 +4,7 @@
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {{cx: number, cy: number, scale: number, width: number, height: number}} View  centre, pixels per rad/s, pixels
  */
+import { niceStep } from '../model/index.js';
 
 /** @param {View} v @param {Complex} p @returns {[number, number]} pixels */
 export const toPixel = (v, p) => [v.width / 2 + (p.re - v.cx) * v.scale, v.height / 2 - (p.im - v.cy) * v.scale];
@@ -81,21 +82,6 @@ export function outgrown(v, placed) {
   const out = placed.some((p) => p.re < b.left + margin || p.re > b.right - margin || Math.abs(p.im) > b.top - margin);
   const reach = Math.max(...placed.map((p) => Math.hypot(p.re, p.im)));
   return out || reach < 0.25 * (b.right - b.left);
-}
-
-/** A step of 1, 2 or 5 times a power of ten, for about `count` steps in `span`. @param {number} span @param {number} count */
-export function niceStep(span, count) {
-  const raw = span / count;
-  const power = 10 ** Math.floor(Math.log10(raw));
-  const m = raw / power;
-  return power * (m < 1.5 ? 1 : m < 3.5 ? 2 : m < 7.5 ? 5 : 10);
-}
-
-/** @param {number} low @param {number} high @param {number} step */
-export function ticks(low, high, step) {
-  const out = [];
-  for (let k = Math.ceil(low / step); k * step <= high; k++) out.push(Number((k * step).toPrecision(10)));
-  return out;
 }
 
 export const DAMPING = [0.2, 0.4, 0.6, 0.8, 0.9];

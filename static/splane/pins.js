@@ -1,7 +1,6 @@
 /** Pinned designs in the s-plane: small crosses with their letters under the poles that are dragged. Drawn anew only when pins or view change. */
-import { svg } from '../ui/dom.js';
-import { colorOf, letterOf } from '../model/pins.js';
-import { drawingUnit, pictureScale } from '../ui/picture_scale.js';
+import { colorOf, letterOf } from '../model/index.js';
+import { drawingUnit, pictureScale, svg } from '../ui/index.js';
 import { toPixel } from './math.js';
 
 const CROSS = 'M -3.5 -3.5 L 3.5 3.5 M -3.5 3.5 L 3.5 -3.5';

@@ -1,10 +1,8 @@
 /** What one pole means, written beside it: place, damping, frequency, settling time and overshoot alone; where the PI loops take it; and how its axis' step settles. */
-import { h, setText } from '../ui/dom.js';
-import { fixed, seconds } from '../text/format.js';
-import { character, isComplex, pairOf, partner } from '../model/poles.js';
-import { AXES, guideWords, isAsked } from '../model/requirements.js';
+import { fixed, say, seconds, t } from '../text/index.js';
+import { AXES, character, guideWords, isAsked, isComplex, pairOf, partner } from '../model/index.js';
+import { h, setText } from '../ui/index.js';
 import { toPixel } from './math.js';
-import { say, t } from '../text/words.js';
 
 const NAMES = ['pitch', 'yaw'];
 

@@ -1,10 +1,8 @@
 /** What is asked of the response: two fields below the s-plane; and, as a guide, the regions where a pole alone would not do, hatched. */
-import { h, setText, svg } from '../ui/dom.js';
-import { NumberField } from '../ui/fields.js';
-import { forField } from '../text/format.js';
-import { forbidden, isAsked, leastDamping, missing, NONE, RANGES } from '../model/requirements.js';
+import { forField, say } from '../text/index.js';
+import { forbidden, isAsked, leastDamping, missing, NONE, RANGES } from '../model/index.js';
+import { h, NumberField, setText, svg } from '../ui/index.js';
 import { bounds, toPixel } from './math.js';
-import { say } from '../text/words.js';
 
 /** @typedef {import('../types.js').Requirements} Requirements */
 /** @typedef {import('./math.js').View} View */

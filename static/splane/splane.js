@@ -4,10 +4,10 @@
  * @typedef {import('../types.js').State} State
  */
 import { cloudWords, SPREADS } from './cloud_feed.js';
-import { h, setText, svg } from '../ui/dom.js';
+import { say } from '../text/index.js';
+import { placesPoles } from '../model/index.js';
+import { drawingUnit, h, setText, svg } from '../ui/index.js';
 import { loopPaths } from './loop_paths.js';
-import { placesPoles } from '../model/methods.js';
-import { drawingUnit } from '../ui/picture_scale.js';
 import { drawCloud } from './cloud.js';
 import { Gestures } from './gestures.js';
 import { drawGrid } from './grid.js';
@@ -16,7 +16,6 @@ import { fit, outgrown, zoom } from './math.js';
 import { drawPins } from './pins.js';
 import { Readout } from './readout.js';
 import { drawForbidden, hatchings, RequirementsBar } from './requirements.js';
-import { say } from '../text/words.js';
 
 export class SPlane {
   view = { cx: -5, cy: 0, scale: 20, width: 0, height: 0 };

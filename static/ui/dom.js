@@ -1,5 +1,5 @@
 /** The few lines that a page without a framework needs to make elements; static strings pass the words of the page's language here. */
-import { SPOKEN, t } from '../text/words.js';
+import { SPOKEN, t } from '../text/index.js';
 
 const SVG = 'http://www.w3.org/2000/svg';
 

@@ -3,7 +3,7 @@
  * A field says at itself what is wrong with a number and keeps the design as it was.
  */
 import { h, setAttr } from './dom.js';
-import { inField, parseComplex, parseNumber, significant } from '../text/format.js';
+import { inField, parseComplex, parseNumber, significant } from '../text/index.js';
 
 /**
  * @typedef {object} FieldOptions

@@ -1,5 +1,5 @@
 /** Asks the server for what a card shows: only while the card is seen, shortly after the last change of the design, and never during a drag. */
-import { ProblemError } from '../net/api.js';
+import { ProblemError } from '../net/index.js';
 import { h, setText } from './dom.js';
 
 const DELAY_MS = 300;

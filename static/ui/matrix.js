@@ -1,8 +1,7 @@
 /** A matrix of numbers with names on its borders, and what the entries of K are called. */
 import { copyButton } from './copy_menu.js';
 import { h, setAttr, setText, symbol } from './dom.js';
-import { significant } from '../text/format.js';
-import { t } from '../text/words.js';
+import { significant, t } from '../text/index.js';
 
 /** @typedef {{name: string, note?: string}|(() => import('./copy_formats.js').Item[])} Copied  the name under which a matrix is copied, or all that its button copies */
 const dotted = (/** @type {string} */ s) => h('span', { class: 'sym' }, h('i', {}, `${s}\u0307`));

@@ -2,7 +2,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { bounds, fit, niceStep, outgrown, pick, pinch, rayEnd, ticks, toPixel, toPlane, zoom } from "../../static/splane/math.js";
+import { niceStep, ticks } from "../../static/model/ticks.js";
+import { bounds, fit, outgrown, pick, pinch, rayEnd, toPixel, toPlane, zoom } from "../../static/splane/math.js";
 
 const SIZE = { width: 400, height: 380 };
 const real = (...values) => values.map((re) => ({ re, im: 0 }));

@@ -1,0 +1,3 @@
+/** What other rooms may import of paper/. */
+export { FormulasPanel } from './formulas.js';
+export { PaperPanel } from './panel.js';

@@ -1,0 +1,3 @@
+/** What other rooms may import of splane/. */
+export { CloudFeed } from './cloud_feed.js';
+export { SPlane } from './splane.js';

@@ -1,0 +1,16 @@
+/** What other rooms may import of ui/. */
+export { copyText, saveFile } from './clipboard.js';
+export { copyButton } from './copy_menu.js';
+export { byId, h, setAttr, setText, svg, symbol } from './dom.js';
+export { Choice, NumberField } from './fields.js';
+export { isolated } from './isolated.js';
+export { Lazy } from './lazy.js';
+export { formula } from './mathml.js';
+export { GAIN, gainMatrix, integralMatrix, Matrix, relativeGains } from './matrix.js';
+export { recall, remember } from './memory.js';
+export { CALM, Turns } from './pace.js';
+export { drawingUnit, followsPage, pictureScale } from './picture_scale.js';
+export { icon, popupButton } from './popup.js';
+export { Projector } from './projector.js';
+export { Stats } from './stats.js';
+export { watched } from './watch.js';
