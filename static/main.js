@@ -11,7 +11,21 @@ import { Plots } from './plots/index.js';
 import { CloudFeed, SPlane } from './splane/index.js';
 import { SceneSharing, SceneView } from './scene/index.js';
 import { FormulasPanel, PaperPanel } from './paper/index.js';
-import { ExperimentPanel, FieldProblems, FindingsPanel, HeaderPanel, LoopsPanel, MetricsPanel, Notice, NumbersPanel, PinBar, PinsPanel, PolesPanel, Remarks, ScenarioPanel } from './panels/index.js';
+import {
+  ExperimentPanel,
+  FieldProblems,
+  FindingsPanel,
+  HeaderPanel,
+  LoopsPanel,
+  MetricsPanel,
+  Notice,
+  NumbersPanel,
+  PinBar,
+  PinsPanel,
+  PolesPanel,
+  Remarks,
+  ScenarioPanel,
+} from './panels/index.js';
 
 const language = languageOf(location.search, navigator.languages);
 if (await loadWords(language)) translatePage(document, language);
@@ -21,7 +35,13 @@ const stats = new Stats();
 const address = new Address(store);
 const pins = new PinKeeper(store);
 
-const scene = new SceneView(byId('scene'), store, { onTime: (t) => { plots.setTime(t); sharing.correct(); }, onTransport: (snapshot, cause) => sharing.run(snapshot, cause) });
+const scene = new SceneView(byId('scene'), store, {
+  onTime: (t) => {
+    plots.setTime(t);
+    sharing.correct();
+  },
+  onTransport: (snapshot, cause) => sharing.run(snapshot, cause),
+});
 const sharing = new SceneSharing(store, scene);
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t), onPeek: (t) => scene.peek(t) });
 const projector = new Projector();
@@ -29,11 +49,24 @@ const plane = new SPlane(byId('splane'), store); // what the hand moves
 /** @type {{render: (state: State) => void}[]} */
 const figures = [
   new HeaderPanel(byId('header'), store, address, { tour, projector }),
-  { render: (/** @type {State} */ state) => plane.renderReadout(state) }, { render: (/** @type {State} */ state) => plots.renderValues(state) }, new PolesPanel(byId('poles'), store), new LoopsPanel(byId('loops'), store), new ScenarioPanel(byId('scenario'), store), new ExperimentPanel(byId('scenario'), store), new NumbersPanel(byId('numbers'), store), new MetricsPanel(byId('metrics')),
-  new PinBar(byId('pin-bar'), store), new PinsPanel(byId('pins'), store),
-  new FormulasPanel(byId('formulas'), store), new PaperPanel(byId('paper'), store), new FieldProblems(document.body), scene, new CloudFeed(store),
+  { render: (/** @type {State} */ state) => plane.renderReadout(state) },
+  { render: (/** @type {State} */ state) => plots.renderValues(state) },
+  new PolesPanel(byId('poles'), store),
+  new LoopsPanel(byId('loops'), store),
+  new ScenarioPanel(byId('scenario'), store),
+  new ExperimentPanel(byId('scenario'), store),
+  new NumbersPanel(byId('numbers'), store),
+  new MetricsPanel(byId('metrics')),
+  new PinBar(byId('pin-bar'), store),
+  new PinsPanel(byId('pins'), store),
+  new FormulasPanel(byId('formulas'), store),
+  new PaperPanel(byId('paper'), store),
+  new FieldProblems(document.body),
+  scene,
+  new CloudFeed(store),
   new Notice(byId('notice'), store),
-  new Remarks(document), new FindingsPanel(byId('strip'), store), // it measures what it has written
+  new Remarks(document),
+  new FindingsPanel(byId('strip'), store), // it measures what it has written
   { render: publish }, // last, when all is shown
 ];
 const views = { plane: viewOf(plane), figures: figures.map(viewOf) };
@@ -71,7 +104,9 @@ store.addEventListener('design', (event) => {
   live.send(requestOf(design, seq));
 });
 
-const lookers = [pins, address, locked].map((part) => isolated((/** @type {State} */ state) => part.render(state), report)); // they look at more than the state
+const lookers = [pins, address, locked].map((part) =>
+  isolated((/** @type {State} */ state) => part.render(state), report),
+); // they look at more than the state
 const drawPlots = isolated((/** @type {State} */ state) => plots.render(state), report);
 
 let scheduled = false;
@@ -102,20 +137,31 @@ function render() {
 /** A view that is drawn where what it reads has changed, and stops no other where it fails; `forget` has it drawn in any case. @param {{render: (state: State) => void}} view */
 function viewOf(view) {
   let draw = watched(view);
-  return Object.assign(isolated((/** @type {State} */ state) => draw(state), report), { forget: () => { draw = watched(view); } });
+  return Object.assign(
+    isolated((/** @type {State} */ state) => draw(state), report),
+    {
+      forget: () => {
+        draw = watched(view);
+      },
+    },
+  );
 }
 
 /** Quietly, once for each part. @param {unknown} error */
 function report(error) {
   console.error(error);
-  queueMicrotask(() => store.set({ fault: say`A part of this page could not be drawn: ${error instanceof Error ? error.message : error}. Everything else works.` }));
+  queueMicrotask(() =>
+    store.set({
+      fault: say`A part of this page could not be drawn: ${error instanceof Error ? error.message : error}. Everything else works.`,
+    }),
+  );
 }
 
-/** @type {Promise<import('./panels/tour.js').Tour>|null} */ let tours = null;
+/** @type {Promise<import('./tour/index.js').Tour>|null} */ let tours = null;
 
 /** The five hints, loaded when they are wanted. @param {HTMLElement} [from] the button that asks */
 async function tour(from) {
-  tours ??= import('./panels/tour.js').then(({ Tour }) => new Tour(byId('tour')));
+  tours ??= import('./tour/index.js').then(({ Tour }) => new Tour(byId('tour')));
   (await tours).start(from);
 }
 
@@ -126,18 +172,36 @@ function welcome() {
 
 /** Panels that the first view does not need, fetched when it is there. */
 async function furtherDown() {
-  const [{ ComparePanel }, { RecordingsPanel }] = await Promise.all([import('./compare/panel.js'), import('./recordings/panel.js')]);
-  views.figures.unshift(viewOf(new ComparePanel(byId('compare'), store)), viewOf(new RecordingsPanel(byId('recordings'), store)));
+  const [{ ComparePanel }, { RecordingsPanel }] = await Promise.all([
+    import('./compare/index.js'),
+    import('./recordings/index.js'),
+  ]);
+  views.figures.unshift(
+    viewOf(new ComparePanel(byId('compare'), store)),
+    viewOf(new RecordingsPanel(byId('recordings'), store)),
+  );
   schedule();
 }
 
 /** The design and its key results in one attribute, for tests and scripts. @param {State} state */
 function publish({ design, reply, problem, connection, motion, dragging, locks, notice, pins: pinned }) {
   document.documentElement.dataset.state = JSON.stringify({
-    ...design, connection, motion, dragging, seq, answered: reply?.seq ?? null, settled: reply?.seq === seq && !problem,
-    K: reply?.gains.K ?? null, rga: reply?.rga?.rga ?? null, stable: reply?.stable ?? null, loopPoles: reply?.loop_poles ?? null,
-    findings: reply?.findings?.map((f) => f.code) ?? [], problem: problem?.code ?? null,
-    locks, notice, pins: pinned.map(({ name, reply: own }) => ({ name, K: own?.gains.K ?? null })),
+    ...design,
+    connection,
+    motion,
+    dragging,
+    seq,
+    answered: reply?.seq ?? null,
+    settled: reply?.seq === seq && !problem,
+    K: reply?.gains.K ?? null,
+    rga: reply?.rga?.rga ?? null,
+    stable: reply?.stable ?? null,
+    loopPoles: reply?.loop_poles ?? null,
+    findings: reply?.findings?.map((f) => f.code) ?? [],
+    problem: problem?.code ?? null,
+    locks,
+    notice,
+    pins: pinned.map(({ name, reply: own }) => ({ name, K: own?.gains.K ?? null })),
   });
 }
 

@@ -18,7 +18,17 @@ export function rowDetail(row, key, title) {
     integral.render(row.integral, (v) => significant(v, 4));
     matrices.push(integral.node);
   }
-  return h('div', { class: 'inside' }, h('div', { class: 'matrices' }, matrices), h('div', { class: 'said' },
-    poles('Poles of A − BK', row.closed_loop_poles), poles('Poles of the whole loop', row.loop_poles),
-    (row.findings ?? []).map((/** @type {any} */ f) => h('p', { class: f.severity }, f.message)), h('p', { class: 'aside' }, title.replace('\n', ': '))));
+  return h(
+    'div',
+    { class: 'inside' },
+    h('div', { class: 'matrices' }, matrices),
+    h(
+      'div',
+      { class: 'said' },
+      poles('Poles of A − BK', row.closed_loop_poles),
+      poles('Poles of the whole loop', row.loop_poles),
+      (row.findings ?? []).map((/** @type {any} */ f) => h('p', { class: f.severity }, f.message)),
+      h('p', { class: 'aside' }, title.replace('\n', ': ')),
+    ),
+  );
 }

@@ -22,11 +22,28 @@ export class FrequencyCard {
     this.card = card;
     this.at = h('span', { class: 'at-frequency' });
     this.words = h('p', { class: 'claim', 'data-testid': card.testid });
-    this.plots = card.charts.map((about) => new FrequencyPlot(about, card.frequencies, { onHover: (i) => this.#hover(i), subtitle: () => subtitle(store) }));
-    this.figures = h('div', {}, h('p', { class: 'caption' }, card.caption, ' Values at ', this.at), h('div', { class: 'frequency-plots' }, this.plots.map((p) => p.node)));
+    this.plots = card.charts.map(
+      (about) =>
+        new FrequencyPlot(about, card.frequencies, { onHover: (i) => this.#hover(i), subtitle: () => subtitle(store) }),
+    );
+    this.figures = h(
+      'div',
+      {},
+      h('p', { class: 'caption' }, card.caption, ' Values at ', this.at),
+      h(
+        'div',
+        { class: 'frequency-plots' },
+        this.plots.map((p) => p.node),
+      ),
+    );
     const content = h('div', {}, this.figures, this.words);
     root.append(content);
-    this.lazy = new Lazy(root, content, store, { wait: card.wait, ask: card.ask, show: (answer) => this.#show(answer), body: (d) => ({ ...bodyOf(d), frequencies: card.frequencies }) });
+    this.lazy = new Lazy(root, content, store, {
+      wait: card.wait,
+      ask: card.ask,
+      show: (answer) => this.#show(answer),
+      body: (d) => ({ ...bodyOf(d), frequencies: card.frequencies }),
+    });
   }
 
   /** @param {any} reply */

@@ -8,8 +8,10 @@ const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const FONT = '11px system-ui, sans-serif';
 const COLORS = ['series-0', 'series-1', 'pitch', 'yaw', 'panel', 'muted', 'grid', 'danger', 'limit-fill'];
 /** Only full powers of ten get a line and a number. */
-const decades = (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => (v && Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? v : null));
-const power = (/** @type {any} */ u, /** @type {number[]} */ splits) => decades(u, splits).map((v) => (v === null ? '' : forField(v)));
+const decades = (/** @type {any} */ _u, /** @type {number[]} */ splits) =>
+  splits.map((v) => (v && Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? v : null));
+const power = (/** @type {any} */ u, /** @type {number[]} */ splits) =>
+  decades(u, splits).map((v) => (v === null ? '' : forField(v)));
 const plain = (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => inField(v));
 
 /**
@@ -31,11 +33,36 @@ export class FrequencyPlot {
     this.about = about;
     this.frequencies = frequencies;
     this.onHover = onHover;
-    this.values = about.series.map((s, i) => h('span', { class: 'value', 'data-testid': `interaction-${about.id}-${i}` }));
-    this.body = h('div', { class: 'plot-body', tabindex: 0, role: 'group', 'aria-label': `${about.title}: left and right read the values`, onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e) });
-    this.node = h('figure', { class: 'frequency-plot', 'data-testid': `interaction-${about.id}` },
-      h('figcaption', {}, h('span', { class: 'what' }, about.title), pictureMenu(`frequency-${about.id}`, about.title, () => this.#picture(subtitle()), 'omega [rad/s]'),
-        about.series.map((s, i) => h('span', { class: 'key', title: s.title }, h('span', { class: `line ${s.kind}`, 'aria-hidden': 'true' }), h('span', {}, s.name()), this.values[i]))), this.body);
+    this.values = about.series.map((s, i) =>
+      h('span', { class: 'value', 'data-testid': `interaction-${about.id}-${i}` }),
+    );
+    this.body = h('div', {
+      class: 'plot-body',
+      tabindex: 0,
+      role: 'group',
+      'aria-label': `${about.title}: left and right read the values`,
+      onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e),
+    });
+    this.node = h(
+      'figure',
+      { class: 'frequency-plot', 'data-testid': `interaction-${about.id}` },
+      h(
+        'figcaption',
+        {},
+        h('span', { class: 'what' }, about.title),
+        pictureMenu(`frequency-${about.id}`, about.title, () => this.#picture(subtitle()), 'omega [rad/s]'),
+        about.series.map((s, i) =>
+          h(
+            'span',
+            { class: 'key', title: s.title },
+            h('span', { class: `line ${s.kind}`, 'aria-hidden': 'true' }),
+            h('span', {}, s.name()),
+            this.values[i],
+          ),
+        ),
+      ),
+      this.body,
+    );
     this.#readColors();
     for (const query of ['(prefers-color-scheme: dark)', '(prefers-contrast: more)']) {
       matchMedia(query).addEventListener('change', () => {
@@ -54,15 +81,57 @@ export class FrequencyPlot {
     const { frequencies, about } = this;
     const color = (/** @type {string} */ name) => () => this.#colors[name];
     const axis = { stroke: color('muted'), font: FONT, ticks: { show: false } };
-    const [even, log] = [{ grid: { stroke: color('grid'), width: 1 }, values: plain, incrs: about.steps }, { grid: { stroke: color('grid'), width: 1, filter: decades }, values: power }];
-    this.chart = followsPage(new Chart({
-      width: 300, height: 160, legend: { show: false }, pxAlign: 0, padding: [() => 6 * pictureScale().type, () => 18 * pictureScale().type, 0, 0],
-      series: [{}, ...about.series.map(({ kind }) => ({ stroke: color(kind), width: kind === 'yaw' ? 1.5 : 2, dash: kind === 'series-1' ? [7, 4] : [], points: { show: false } }))],
-      scales: { x: { time: false, distr: 3, range: () => [frequencies[0], frequencies[frequencies.length - 1]] }, y: { distr: about.steps ? 1 : 3, range: () => this.#range } },
-      axes: [{ ...axis, ...log, gap: 6, size: () => 24 * pictureScale().type }, { ...axis, ...(about.steps ? even : log), gap: 5, size: () => 46 * pictureScale().type, space: () => 26 * pictureScale().type }],
-      cursor: { y: false, points: { show: false }, drag: { x: false, y: false }, sync: { key: `frequency-${frequencies.length}` } },
-      hooks: { drawAxes: [() => this.#shade()], draw: [() => this.#drawRule(), () => this.#drawSpans()], setCursor: [(/** @type {any} */ u) => this.onHover(u.cursor.left < 0 ? null : u.cursor.idx ?? null)] },
-    }, [frequencies, ...about.series.map(() => frequencies.map(() => null))], this.body));
+    const [even, log] = [
+      { grid: { stroke: color('grid'), width: 1 }, values: plain, incrs: about.steps },
+      { grid: { stroke: color('grid'), width: 1, filter: decades }, values: power },
+    ];
+    this.chart = followsPage(
+      new Chart(
+        {
+          width: 300,
+          height: 160,
+          legend: { show: false },
+          pxAlign: 0,
+          padding: [() => 6 * pictureScale().type, () => 18 * pictureScale().type, 0, 0],
+          series: [
+            {},
+            ...about.series.map(({ kind }) => ({
+              stroke: color(kind),
+              width: kind === 'yaw' ? 1.5 : 2,
+              dash: kind === 'series-1' ? [7, 4] : [],
+              points: { show: false },
+            })),
+          ],
+          scales: {
+            x: { time: false, distr: 3, range: () => [frequencies[0], frequencies[frequencies.length - 1]] },
+            y: { distr: about.steps ? 1 : 3, range: () => this.#range },
+          },
+          axes: [
+            { ...axis, ...log, gap: 6, size: () => 24 * pictureScale().type },
+            {
+              ...axis,
+              ...(about.steps ? even : log),
+              gap: 5,
+              size: () => 46 * pictureScale().type,
+              space: () => 26 * pictureScale().type,
+            },
+          ],
+          cursor: {
+            y: false,
+            points: { show: false },
+            drag: { x: false, y: false },
+            sync: { key: `frequency-${frequencies.length}` },
+          },
+          hooks: {
+            drawAxes: [() => this.#shade()],
+            draw: [() => this.#drawRule(), () => this.#drawSpans()],
+            setCursor: [(/** @type {any} */ u) => this.onHover(u.cursor.left < 0 ? null : (u.cursor.idx ?? null))],
+          },
+        },
+        [frequencies, ...about.series.map(() => frequencies.map(() => null))],
+        this.body,
+      ),
+    );
     new ResizeObserver(([entry]) => {
       const { width, height } = entry.contentRect;
       if (width > 60 && height > 40) this.chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
@@ -75,7 +144,10 @@ export class FrequencyPlot {
     if (!step || !this.chart || e.ctrlKey || e.metaKey || e.altKey) return;
     const { idx, left } = this.chart.cursor;
     const last = this.frequencies.length - 1;
-    const i = left < 0 || idx === null || idx === undefined ? Math.round(last / 2) : Math.max(0, Math.min(last, idx + step * (e.shiftKey ? 10 : 1)));
+    const i =
+      left < 0 || idx === null || idx === undefined
+        ? Math.round(last / 2)
+        : Math.max(0, Math.min(last, idx + step * (e.shiftKey ? 10 : 1)));
     this.chart.setCursor({ left: this.chart.valToPos(this.frequencies[i], 'x'), top: 1 });
     e.preventDefault();
   }
@@ -85,10 +157,26 @@ export class FrequencyPlot {
     const { about, frequencies } = this;
     const title = about.unit ? say`${t(about.title)} in ${about.unit.trim()}` : t(about.title);
     return {
-      title: t(about.full ?? about.title), subtitle, x: { range: [frequencies[0], frequencies[frequencies.length - 1]], title: t('ω in rad/s'), log: true }, y: { range: this.#range, title, log: !about.steps, steps: about.steps },
-      lines: about.series.map((s, i) => ({ name: t(s.plain), kind: s.kind, t: frequencies, values: this.#data[i] ?? [] })),
+      title: t(about.full ?? about.title),
+      subtitle,
+      x: { range: [frequencies[0], frequencies[frequencies.length - 1]], title: t('ω in rad/s'), log: true },
+      y: { range: this.#range, title, log: !about.steps, steps: about.steps },
+      lines: about.series.map((s, i) => ({
+        name: t(s.plain),
+        kind: s.kind,
+        t: frequencies,
+        values: this.#data[i] ?? [],
+      })),
       rules: this.#borders().map((value) => ({ value, label: t(about.rule?.label ?? ''), danger: true })),
-      marks: this.#spans.map((s) => ({ kind: 'rise', axis: s.kind === 'yaw' ? 'psi' : 'theta', t: s.at, value: s.from, to: s.to, brief: s.label, text: s.label })),
+      marks: this.#spans.map((s) => ({
+        kind: 'rise',
+        axis: s.kind === 'yaw' ? 'psi' : 'theta',
+        t: s.at,
+        value: s.from,
+        to: s.to,
+        brief: s.label,
+        text: s.label,
+      })),
     };
   }
 
@@ -96,7 +184,12 @@ export class FrequencyPlot {
     if (!this.about.rule?.above) return;
     const { ctx, bbox, valToPos } = this.chart;
     ctx.fillStyle = this.#colors['limit-fill'];
-    ctx.fillRect(bbox.left, bbox.top, bbox.width, Math.max(0, Math.round(valToPos(this.about.rule.value, 'y', true)) - bbox.top));
+    ctx.fillRect(
+      bbox.left,
+      bbox.top,
+      bbox.width,
+      Math.max(0, Math.round(valToPos(this.about.rule.value, 'y', true)) - bbox.top),
+    );
   }
 
   /** The border's places in sight. @returns {number[]} */
@@ -105,7 +198,10 @@ export class FrequencyPlot {
     const [low, high] = this.#range;
     if (!rule) return [];
     const first = rule.every ? rule.value + rule.every * Math.ceil((low - rule.value) / rule.every) : rule.value;
-    return Array.from({ length: rule.every ? Math.max(0, Math.floor((high - first) / rule.every) + 1) : 1 }, (_, k) => first + k * (rule.every ?? 0)).filter((v) => v >= low && v <= high);
+    return Array.from(
+      { length: rule.every ? Math.max(0, Math.floor((high - first) / rule.every) + 1) : 1 },
+      (_, k) => first + k * (rule.every ?? 0),
+    ).filter((v) => v >= low && v <= high);
   }
 
   #drawRule() {
@@ -125,7 +221,11 @@ export class FrequencyPlot {
     ctx.save();
     for (const { kind, at, from, to, label } of this.#spans) {
       const [x, y, end] = [valToPos(at, 'x', true), valToPos(from, 'y', true), valToPos(to, 'y', true)];
-      Object.assign(ctx, { strokeStyle: this.#colors[kind], fillStyle: this.#colors[kind], lineWidth: 1.5 * devicePixelRatio * pictureScale().line });
+      Object.assign(ctx, {
+        strokeStyle: this.#colors[kind],
+        fillStyle: this.#colors[kind],
+        lineWidth: 1.5 * devicePixelRatio * pictureScale().line,
+      });
       ctx.setLineDash([]);
       ctx.beginPath();
       ctx.moveTo(x, y);
@@ -135,8 +235,11 @@ export class FrequencyPlot {
       if (kind === 'yaw') ctx.rect(x - 3.5 * size, y - 3.5 * size, 7 * size, 7 * size);
       else ctx.arc(x, y, 3.5 * size, 0, 2 * Math.PI);
       ctx.fill();
-      const width = 8 * size + (ctx.font = `600 ${11 * size}px system-ui, sans-serif`, ctx.measureText(label).width);
-      const left = kind === 'yaw' ? Math.min(x + 3 * size, bbox.left + bbox.width - width) : Math.max(bbox.left, x - 3 * size - width);
+      const width = 8 * size + ((ctx.font = `600 ${11 * size}px system-ui, sans-serif`), ctx.measureText(label).width);
+      const left =
+        kind === 'yaw'
+          ? Math.min(x + 3 * size, bbox.left + bbox.width - width)
+          : Math.max(bbox.left, x - 3 * size - width);
       const middle = Math.max(bbox.top + 8 * size, Math.min(bbox.top + bbox.height - 8 * size, (y + end) / 2));
       ctx.fillStyle = this.#colors.panel;
       ctx.globalAlpha = 0.85;
@@ -154,7 +257,10 @@ export class FrequencyPlot {
     this.#spans = this.about.spans?.(reply) ?? [];
     this.#range = this.about.range(this.#data);
     const known = (/** @type {number} */ v) => (Number.isFinite(v) && (this.about.steps || v > 0) ? v : null);
-    this.chart.setData([this.frequencies, ...this.#data.map((values) => this.frequencies.map((_w, i) => known(values[i])))]);
+    this.chart.setData([
+      this.frequencies,
+      ...this.#data.map((values) => this.frequencies.map((_w, i) => known(values[i]))),
+    ]);
     this.valuesAt(0);
   }
 

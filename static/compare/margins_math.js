@@ -36,16 +36,26 @@ const nearest = (places, off, near) => places.filter((p) => off(p) <= near).sort
  * @returns {{phase?: Place, gain?: Place}} what there is, and within the frequencies
  */
 export function marginPlaces(frequencies, loop, margins) {
-  const [dB, degrees, decades] = [decibels(loop.gain), loop.phase.map((v) => v * DEGREE), frequencies.map((w) => Math.log(w))];
+  const [dB, degrees, decades] = [
+    decibels(loop.gain),
+    loop.phase.map((v) => v * DEGREE),
+    frequencies.map((w) => Math.log(w)),
+  ];
   const { phase_margin: pm, gain_margin: gm } = margins ?? {};
   /** @type {{phase?: Place, gain?: Place}} */ const out = {};
   if (pm !== undefined) {
-    const places = crossings(dB, 0).map((c) => ({ at: Math.exp(between(decades, c)), from: between(degrees, c), to: critical(between(degrees, c)) }));
+    const places = crossings(dB, 0).map((c) => ({
+      at: Math.exp(between(decades, c)),
+      from: between(degrees, c),
+      to: critical(between(degrees, c)),
+    }));
     out.phase = nearest(places, (p) => Math.abs(Math.abs(p.from - p.to) - pm * DEGREE), PHASE_NEAR);
   }
   if (gm !== undefined) {
     const turns = [...new Set(degrees.map(critical))];
-    const places = turns.flatMap((level) => crossings(degrees, level)).map((c) => ({ at: Math.exp(between(decades, c)), from: between(dB, c), to: 0 }));
+    const places = turns
+      .flatMap((level) => crossings(degrees, level))
+      .map((c) => ({ at: Math.exp(between(decades, c)), from: between(dB, c), to: 0 }));
     out.gain = nearest(places, (p) => Math.abs(-p.from - 20 * Math.log10(gm)), GAIN_NEAR);
   }
   return out;

@@ -12,14 +12,51 @@ export class SplitsCard {
     this.store = store;
     this.rows = h('tbody');
     this.words = h('p', { class: 'claim', 'data-testid': 'splits-words' });
-    const column = (/** @type {string} */ name) => h('th', { scope: 'col', class: 'pair-name' }, h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }), ` ${name}`);
-    const content = h('div', {}, h('div', { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Table of the splits' }, h('table', { class: 'compare-table', 'data-testid': 'splits-table' },
-      h('thead', {}, h('tr', {}, column('pitch'), column('yaw'), h('th', { scope: 'col', title: 'Frobenius norm of K' }, '‖', symbol('K'), h('span', { class: 'sym' }, '‖', h('sub', {}, 'F'))),
-        h('th', { scope: 'col', title: 'relative gain at s = 0, dimensionless' }, symbol('λ', '11')), h('th', {}, h('span', { class: 'sr' }, 'Use')))),
-      this.rows)), this.words);
+    const column = (/** @type {string} */ name) =>
+      h(
+        'th',
+        { scope: 'col', class: 'pair-name' },
+        h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }),
+        ` ${name}`,
+      );
+    const content = h(
+      'div',
+      {},
+      h(
+        'div',
+        { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Table of the splits' },
+        h(
+          'table',
+          { class: 'compare-table', 'data-testid': 'splits-table' },
+          h(
+            'thead',
+            {},
+            h(
+              'tr',
+              {},
+              column('pitch'),
+              column('yaw'),
+              h(
+                'th',
+                { scope: 'col', title: 'Frobenius norm of K' },
+                '‖',
+                symbol('K'),
+                h('span', { class: 'sym' }, '‖', h('sub', {}, 'F')),
+              ),
+              h('th', { scope: 'col', title: 'relative gain at s = 0, dimensionless' }, symbol('λ', '11')),
+              h('th', {}, h('span', { class: 'sr' }, 'Use')),
+            ),
+          ),
+          this.rows,
+        ),
+      ),
+      this.words,
+    );
     root.append(content);
     this.lazy = new Lazy(root, content, store, {
-      wait: 'Computing the splits…', ask: compareSplits, show: (answer) => this.#show(answer),
+      wait: 'Computing the splits…',
+      ask: compareSplits,
+      show: (answer) => this.#show(answer),
       body: (d) => ({ ...bodyOf(d), method: FULL_RANK, poles: inOrder(d.poles) }), // the rows keep their places whichever is in use
     });
   }
@@ -28,12 +65,26 @@ export class SplitsCard {
   #show(splits) {
     const focused = this.#rows.findIndex((r) => r.use === document.activeElement);
     const texts = splits.map((s) => significant(s.norm, 4));
-    const least = best(splits.map((s) => s.norm), texts);
+    const least = best(
+      splits.map((s) => s.norm),
+      texts,
+    );
     this.#rows = splits.map((split, i) => {
       const poles = fromWire(split.poles);
-      const use = h('button', { type: 'button', 'data-testid': `use-split-${i}`, onclick: () => this.#use(poles) }, 'Use');
-      const row = h('tr', { 'data-testid': `split-${i}` }, h('td', { class: 'pair-name' }, pairText(poles.slice(0, 2))), h('td', { class: 'pair-name' }, pairText(poles.slice(2))),
-        h('td', { class: least.has(i) ? 'best' : null, 'data-testid': `split-${i}-norm` }, texts[i]), h('td', {}, fixed(split.rga?.[0][0], 3)), h('td', {}, use));
+      const use = h(
+        'button',
+        { type: 'button', 'data-testid': `use-split-${i}`, onclick: () => this.#use(poles) },
+        'Use',
+      );
+      const row = h(
+        'tr',
+        { 'data-testid': `split-${i}` },
+        h('td', { class: 'pair-name' }, pairText(poles.slice(0, 2))),
+        h('td', { class: 'pair-name' }, pairText(poles.slice(2))),
+        h('td', { class: least.has(i) ? 'best' : null, 'data-testid': `split-${i}-norm` }, texts[i]),
+        h('td', {}, fixed(split.rga?.[0][0], 3)),
+        h('td', {}, use),
+      );
       return { row, use, poles };
     });
     this.rows.replaceChildren(...this.#rows.map((r) => r.row));
@@ -43,7 +94,9 @@ export class SplitsCard {
 
   /** Only full-rank placement tells the pairs apart, so it comes with them. @param {import('../types.js').Poles} poles */
   #use(poles) {
-    this.store.edit((d) => (d.method === FULL_RANK && sameSplit(d.poles, poles) ? d : { ...d, poles, method: FULL_RANK }));
+    this.store.edit((d) =>
+      d.method === FULL_RANK && sameSplit(d.poles, poles) ? d : { ...d, poles, method: FULL_RANK },
+    );
   }
 
   /** @param {import('../types.js').State} state */
@@ -59,6 +112,9 @@ export class SplitsCard {
       setText(use, present ? 'In use' : 'Use');
     }
     const structure = nameOf({ ...design, method: FULL_RANK });
-    setText(this.words, `Full-rank, ${structure}.${own ? '' : ' The method in use does not tell the pairs apart: “Use” takes full-rank with the split.'}`);
+    setText(
+      this.words,
+      `Full-rank, ${structure}.${own ? '' : ' The method in use does not tell the pairs apart: “Use” takes full-rank with the split.'}`,
+    );
   }
 }

@@ -98,7 +98,8 @@ export class Address {
     const hash = this.of.hash();
     if (hash === this.#shown || !this.store.state.design) return;
     const link = readLink(hash, this.#known);
-    if (!link.design && !link.trouble.length) { // a jump within the page: the design goes along
+    if (!link.design && !link.trouble.length) {
+      // a jump within the page: the design goes along
       this.flush();
       this.#place = placeIn(hash) ?? null;
       this.#replace(linkOf(this.store.state, this.#known, this.#place));
@@ -125,7 +126,10 @@ export class Address {
     if (this.#pending && this.#pending.step !== this.store.step) this.flush();
     this.#pending = { state, step: this.store.step };
     if (this.#timer !== null) return;
-    this.#timer = this.of.later(() => this.flush(), this.store.busy ? Math.max(0, WITHIN_MS - (this.of.now() - this.#wrote)) : 0);
+    this.#timer = this.of.later(
+      () => this.flush(),
+      this.store.busy ? Math.max(0, WITHIN_MS - (this.of.now() - this.#wrote)) : 0,
+    );
   }
 
   /** Writes what waits. */

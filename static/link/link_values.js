@@ -19,8 +19,10 @@ const SEGMENT = /^[A-Za-z]\w*$/;
 const ANGLE = /(^|\.)(theta0?|psi)$/;
 
 /** For a part of a link: nothing that separates parts, nor what mail programs take for the end of an address. @param {string} text */
-export const escaped = (text) => encodeURIComponent(text).replace(/%(?:2C|3A|2F|2B)/g, (code) => decodeURIComponent(code))
-  .replace(/[!'()*~]|[.,:]$/g, (c) => `%${c.charCodeAt(0).toString(16).toUpperCase()}`);
+export const escaped = (text) =>
+  encodeURIComponent(text)
+    .replace(/%(?:2C|3A|2F|2B)/g, (code) => decodeURIComponent(code))
+    .replace(/[!'()*~]|[.,:]$/g, (c) => `%${c.charCodeAt(0).toString(16).toUpperCase()}`);
 
 /** @param {string} text @returns {string} as it stands where its escapes are broken */
 export function unescaped(text) {
@@ -52,7 +54,8 @@ export function leafOf(text) {
 }
 
 /** @param {readonly Complex[]} poles */
-export const polesLink = (poles) => poles.map(({ re, im }) => `${re}${im === 0 ? '' : `${im < 0 ? '' : '+'}${im}j`}`).join(',');
+export const polesLink = (poles) =>
+  poles.map(({ re, im }) => `${re}${im === 0 ? '' : `${im < 0 ? '' : '+'}${im}j`}`).join(',');
 
 /** @param {string} text @returns {Poles|undefined} undefined unless two pairs, real or conjugate */
 export function polesOf(text) {
@@ -61,7 +64,11 @@ export function polesOf(text) {
     return found ? { re: Number(found[1] ?? 0), im: Number(found[2] ?? 0) } : { re: NaN, im: NaN };
   });
   const near = poles.every((p) => Math.abs(p.re) <= LIMIT && Math.abs(p.im) <= LIMIT);
-  const closed = [0, 2].every((i) => poles[i]?.im === 0 ? poles[i + 1]?.im === 0 : poles[i]?.re === poles[i + 1]?.re && poles[i]?.im === -poles[i + 1]?.im);
+  const closed = [0, 2].every((i) =>
+    poles[i]?.im === 0
+      ? poles[i + 1]?.im === 0
+      : poles[i]?.re === poles[i + 1]?.re && poles[i]?.im === -poles[i + 1]?.im,
+  );
   return poles.length === 4 && near && closed ? /** @type {Poles} */ (poles) : undefined;
 }
 
@@ -78,8 +85,15 @@ const same = (a, b) => Object.is(a, b) || (typeof a === 'object' && JSON.stringi
 /** What must be written so that `base` becomes `value`: leaves that differ, and empty ones that are gone. @param {any} value @param {any} base @returns {[string, string][]} path, text */
 export function differences(value, base) {
   const [own, old] = [new Map(leaves(value)), new Map(leaves(base))];
-  const gone = [...old.keys()].filter((path) => !own.has(path)).map((path) => /** @type {[string, string]} */ ([path, '']));
-  return [...gone, ...[...own].filter(([path, leaf]) => !same(leaf, old.get(path))).map(([path, leaf]) => /** @type {[string, string]} */ ([path, leafText(path, leaf)]))];
+  const gone = [...old.keys()]
+    .filter((path) => !own.has(path))
+    .map((path) => /** @type {[string, string]} */ ([path, '']));
+  return [
+    ...gone,
+    ...[...own]
+      .filter(([path, leaf]) => !same(leaf, old.get(path)))
+      .map(([path, leaf]) => /** @type {[string, string]} */ ([path, leafText(path, leaf)])),
+  ];
 }
 
 /**
@@ -95,7 +109,8 @@ export function setLeaf(target, path, leaf) {
     else Object.defineProperty(target, key, { value: leaf, writable: true, enumerable: true, configurable: true });
     return true;
   }
-  if (leaf === undefined && (inner === undefined || inner === null || typeof inner !== 'object')) return rest.every((part) => SEGMENT.test(part));
+  if (leaf === undefined && (inner === undefined || inner === null || typeof inner !== 'object'))
+    return rest.every((part) => SEGMENT.test(part));
   const nested = inner !== null && typeof inner === 'object' && !Array.isArray(inner) ? inner : {};
   if (!setLeaf(nested, rest.join('.'), leaf)) return false;
   if (leaf === undefined && !Object.keys(nested).length) delete target[key];

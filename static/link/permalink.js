@@ -24,14 +24,29 @@ export const MOST = 2000;
 const LIMITS = ['V_p', 'V_y', 'theta'];
 const MOTIONS = ['both', 'theta', 'psi'];
 const OUTER = ['loops.pitch.kp', 'loops.pitch.ti', 'loops.yaw.kp', 'loops.yaw.ti'];
-const SHORT = /** @type {const} */ ([['scenario.reference.', 'step.'], ['scenario.duration', 'duration'], ['parameters.', 'set.']]);
+const SHORT = /** @type {const} */ ([
+  ['scenario.reference.', 'step.'],
+  ['scenario.duration', 'duration'],
+  ['parameters.', 'set.'],
+]);
 /** @type {Record<string, string[]>} */
-const CHOICES = { coupling: ['triangular', 'input-diagonal', 'axis-decoupled'], lead: ['pitch', 'yaw'], outer: ['pi', 'none'], pairing: ['diagonal', 'cross'] };
+const CHOICES = {
+  coupling: ['triangular', 'input-diagonal', 'axis-decoupled'],
+  lead: ['pitch', 'yaw'],
+  outer: ['pi', 'none'],
+  pairing: ['diagonal', 'cross'],
+};
 
 /** @param {string} path */
-const shortened = (path) => SHORT.reduce((key, [long, short]) => (key.startsWith(long) ? short + key.slice(long.length) : key), path);
+const shortened = (path) =>
+  SHORT.reduce((key, [long, short]) => (key.startsWith(long) ? short + key.slice(long.length) : key), path);
 /** @param {string} key */
-const lengthened = (key) => SHORT.reduce((path, [long, short]) => (path.startsWith(short) && (short.endsWith('.') || path === short) ? long + path.slice(short.length) : path), key);
+const lengthened = (key) =>
+  SHORT.reduce(
+    (path, [long, short]) =>
+      path.startsWith(short) && (short.endsWith('.') || path === short) ? long + path.slice(short.length) : path,
+    key,
+  );
 
 /** @param {Design} design @param {Preset[]} presets @returns {[string, string][]} */
 function designParts(design, presets) {
@@ -41,8 +56,14 @@ function designParts(design, presets) {
   if (!base) return parts;
   if (polesLink(design.poles) !== polesLink(base.poles)) parts.push(['p', polesLink(design.poles)]);
   const changed = differences({ ...design, poles: [] }, { ...base, poles: [] });
-  if (changed.some(([path]) => OUTER.includes(path))) parts.push(['pi', [design.loops.pitch.kp, design.loops.pitch.ti, design.loops.yaw.kp, design.loops.yaw.ti].join()]);
-  return [...parts, ...changed.filter(([path]) => path !== 'preset' && !OUTER.includes(path)).map(([path, text]) => /** @type {[string, string]} */ ([shortened(path), text]))];
+  if (changed.some(([path]) => OUTER.includes(path)))
+    parts.push(['pi', [design.loops.pitch.kp, design.loops.pitch.ti, design.loops.yaw.kp, design.loops.yaw.ti].join()]);
+  return [
+    ...parts,
+    ...changed
+      .filter(([path]) => path !== 'preset' && !OUTER.includes(path))
+      .map(([path, text]) => /** @type {[string, string]} */ ([shortened(path), text])),
+  ];
 }
 
 /** @param {[string, string][]} parts @param {string} separator */
@@ -61,7 +82,9 @@ export function linkOf(state, { presets }, place = null, most = MOST) {
   if (locks.length) parts.push(['lock', locks.join()]);
   if (place) parts.push(['at', place]);
   const link = `#v${VERSION}&${joined(parts, '&')}`;
-  const pinned = pins.map((pin) => `&pin=${pin.index}~${escaped(pin.name)}~${joined(designParts(pin.design, presets), '~')}`).join('');
+  const pinned = pins
+    .map((pin) => `&pin=${pin.index}~${escaped(pin.name)}~${joined(designParts(pin.design, presets), '~')}`)
+    .join('');
   return link.length + pinned.length <= most ? link + pinned : link;
 }
 
@@ -70,17 +93,34 @@ function objection(path, leaf, base, { methods }, preset) {
   const [top, key] = path.split('.');
   if (typeof leaf === 'number' && !Number.isFinite(leaf)) return 'not a finite number';
   if (path in CHOICES) return CHOICES[path].includes(leaf) ? '' : `neither ${CHOICES[path].join(' nor ')}`;
-  if (path === 'method') return !methods.length || methods.some((m) => m.name === leaf) ? '' : 'no method of this server';
-  if (top === 'parameters') return !(key in preset.parameters) ? 'no parameter of this rig' : typeof leaf !== 'number' ? 'not a number' : '';
-  if (top === 'limits') return !LIMITS.includes(key) ? 'no limit of this rig' : typeof leaf === 'number' || (leaf === null && key === 'theta') ? '' : 'not a number';
-  if (path === 'theta0') return typeof leaf === 'number' && Math.abs(leaf) < Math.PI / 2 ? '' : 'not an angle below 90°';
-  if (path === 'scenario.duration') return typeof leaf === 'number' && leaf > 0 && leaf <= 60 ? '' : 'not between 0 and 60 s';
-  if (base !== undefined && base !== null && leaf !== undefined && leaf !== null && typeof base !== typeof leaf) return `not a ${typeof base}`;
+  if (path === 'method')
+    return !methods.length || methods.some((m) => m.name === leaf) ? '' : 'no method of this server';
+  if (top === 'parameters')
+    return !(key in preset.parameters) ? 'no parameter of this rig' : typeof leaf !== 'number' ? 'not a number' : '';
+  if (top === 'limits')
+    return !LIMITS.includes(key)
+      ? 'no limit of this rig'
+      : typeof leaf === 'number' || (leaf === null && key === 'theta')
+        ? ''
+        : 'not a number';
+  if (path === 'theta0')
+    return typeof leaf === 'number' && Math.abs(leaf) < Math.PI / 2 ? '' : 'not an angle below 90°';
+  if (path === 'scenario.duration')
+    return typeof leaf === 'number' && leaf > 0 && leaf <= 60 ? '' : 'not between 0 and 60 s';
+  if (base !== undefined && base !== null && leaf !== undefined && leaf !== null && typeof base !== typeof leaf)
+    return `not a ${typeof base}`;
   return base !== undefined || top === 'scenario' ? '' : 'unknown here';
 }
 
 /** @param {any} object @param {string} path */
-const at = (object, path) => path.split('.').reduce((inner, key) => (inner !== null && typeof inner === 'object' && Object.hasOwn(inner, key) ? inner[key] : undefined), object);
+const at = (object, path) =>
+  path
+    .split('.')
+    .reduce(
+      (inner, key) =>
+        inner !== null && typeof inner === 'object' && Object.hasOwn(inner, key) ? inner[key] : undefined,
+      object,
+    );
 
 /** @param {[string, string][]} parts those of a design @param {Known} known @param {Trouble[]} trouble @param {string} [where] @returns {Design} */
 function readDesign(parts, known, trouble, where = '') {
@@ -99,8 +139,13 @@ function readDesign(parts, known, trouble, where = '') {
       else complain('p', 'not four poles in real or conjugate pairs');
     } else if (key === 'pi') {
       const [a, b, c, d] = text.split(',').map((v) => (v.trim() === '' ? NaN : Number(v)));
-      const right = text.split(',').length === 4 && [a, b, c, d].every(Number.isFinite) && a >= 0 && c >= 0 && b > 0 && d > 0;
-      if (right) Object.assign(design.loops, { pitch: { ...design.loops.pitch, kp: a, ti: b }, yaw: { ...design.loops.yaw, kp: c, ti: d } });
+      const right =
+        text.split(',').length === 4 && [a, b, c, d].every(Number.isFinite) && a >= 0 && c >= 0 && b > 0 && d > 0;
+      if (right)
+        Object.assign(design.loops, {
+          pitch: { ...design.loops.pitch, kp: a, ti: b },
+          yaw: { ...design.loops.yaw, kp: c, ti: d },
+        });
       else complain('pi', 'not four PI values');
     } else {
       const path = lengthened(key);
@@ -111,7 +156,10 @@ function readDesign(parts, known, trouble, where = '') {
         complain(key, 'not readable');
         continue;
       }
-      const why = ['poles', 'preset', 'loops'].includes(path.split('.')[0]) && at(base, path) === undefined ? 'unknown here' : objection(path, leaf, at(base, path), known, preset);
+      const why =
+        ['poles', 'preset', 'loops'].includes(path.split('.')[0]) && at(base, path) === undefined
+          ? 'unknown here'
+          : objection(path, leaf, at(base, path), known, preset);
       if (why) complain(key, why);
       else if (!setLeaf(design, path, leaf)) complain(key, 'unknown here');
     }
@@ -120,10 +168,14 @@ function readDesign(parts, known, trouble, where = '') {
 }
 
 /** @param {string} text @param {string|RegExp} separator @returns {[string, string][]} */
-const split = (text, separator) => text.split(separator).filter(Boolean).map((part) => {
-  const i = part.indexOf('=');
-  return i < 0 ? [unescaped(part), ''] : [unescaped(part.slice(0, i)), unescaped(part.slice(i + 1))];
-});
+const split = (text, separator) =>
+  text
+    .split(separator)
+    .filter(Boolean)
+    .map((part) => {
+      const i = part.indexOf('=');
+      return i < 0 ? [unescaped(part), ''] : [unescaped(part.slice(0, i)), unescaped(part.slice(i + 1))];
+    });
 
 /** @param {string} raw @param {Known} known @param {Trouble[]} trouble @param {number} order @returns {PinnedDesign[]} */
 function readPin(raw, known, trouble, order) {
@@ -132,27 +184,46 @@ function readPin(raw, known, trouble, order) {
     trouble.push({ part: `pin ${order + 1}`, why: 'not readable' });
     return [];
   }
-  return [{ index: Number(index), name: unescaped(name).slice(0, 60), design: readDesign(split(parts.join('~'), '~'), known, trouble, `pin “${unescaped(name)}”, `) }];
+  return [
+    {
+      index: Number(index),
+      name: unescaped(name).slice(0, 60),
+      design: readDesign(split(parts.join('~'), '~'), known, trouble, `pin “${unescaped(name)}”, `),
+    },
+  ];
 }
 
 /** @param {string} body @param {Known} known @returns {Link} */
 function readFirst(body, known) {
   /** @type {Trouble[]} */ const trouble = [];
-  /** @type {Shown} */ const shown = { motion: 'both', showLinear: true, showMarks: true, spread: 0, requirements: NONE, locks: [] };
+  /** @type {Shown} */ const shown = {
+    motion: 'both',
+    showLinear: true,
+    showMarks: true,
+    spread: 0,
+    requirements: NONE,
+    locks: [],
+  };
   /** @type {[string, string][]} */ const design = [];
   /** @type {PinnedDesign[]} */ const pins = [];
   let place;
   const raw = body.split(/&(?:amp;)?/).filter(Boolean);
-  for (const text of raw.filter((part) => part.startsWith('pin='))) pins.push(...readPin(text.slice(4), known, trouble, pins.length));
+  for (const text of raw.filter((part) => part.startsWith('pin=')))
+    pins.push(...readPin(text.slice(4), known, trouble, pins.length));
   for (const [key, value] of raw.filter((part) => !part.startsWith('pin=')).flatMap((part) => split(part, '&'))) {
     const refuse = (/** @type {string} */ why) => trouble.push({ part: key, why });
-    if (key === 'motion') MOTIONS.includes(value) ? (shown.motion = /** @type {State['motion']} */ (value)) : refuse(`neither ${MOTIONS.join(' nor ')}`);
+    if (key === 'motion')
+      MOTIONS.includes(value)
+        ? (shown.motion = /** @type {State['motion']} */ (value))
+        : refuse(`neither ${MOTIONS.join(' nor ')}`);
     else if (key === 'linear') shown.showLinear = value !== 'false';
     else if (key === 'marks') shown.showMarks = value !== 'false';
-    else if (key === 'spread') Number(value) >= 0 && Number(value) <= 0.5 ? (shown.spread = Number(value)) : refuse('not between 0 and 0.5');
+    else if (key === 'spread')
+      Number(value) >= 0 && Number(value) <= 0.5 ? (shown.spread = Number(value)) : refuse('not between 0 and 0.5');
     else if (key === 'lock') {
       shown.locks = value.split(',').filter((name) => Object.hasOwn(LOCKS, name));
-      for (const name of value.split(',')) if (!Object.hasOwn(LOCKS, name)) refuse(`“${name}” is nothing that can be locked`);
+      for (const name of value.split(','))
+        if (!Object.hasOwn(LOCKS, name)) refuse(`“${name}” is nothing that can be locked`);
     } else if (key === 'at') place = value;
     else if (key.startsWith('req.')) {
       const asked = asking(shown.requirements, key.slice(4), /^["[{]/.test(value) ? undefined : leafOf(value));
@@ -177,7 +248,17 @@ export function readLink(hash, known) {
   if (!found) return { place: placeIn(hash), trouble: [] };
   const version = Number(found[1]);
   if (READERS[version]) return READERS[version](whole.slice(found[0].length), known);
-  return { trouble: [{ part: `v${version}`, why: version > VERSION ? `made by a newer heli2dof; this one reads links up to v${VERSION}` : 'no such version of links' }] };
+  return {
+    trouble: [
+      {
+        part: `v${version}`,
+        why:
+          version > VERSION
+            ? `made by a newer heli2dof; this one reads links up to v${VERSION}`
+            : 'no such version of links',
+      },
+    ],
+  };
 }
 
 /** The place on the page to which an address leads. @param {string} hash @returns {string|undefined} */
@@ -190,6 +271,12 @@ export function placeIn(hash) {
 /** @param {Trouble[]} trouble */
 export function troubleWords(trouble) {
   if (!trouble.length) return null;
-  const parts = trouble.slice(0, 3).map(({ part, why }) => `${part} (${why})`).join('; ') + (trouble.length > 3 ? `; and ${trouble.length - 3} more` : '');
-  return /^v\d+$/.test(trouble[0].part) ? `This link cannot be opened: ${trouble[0].why}.` : `Not taken from this link: ${parts}. The rest is restored.`;
+  const parts =
+    trouble
+      .slice(0, 3)
+      .map(({ part, why }) => `${part} (${why})`)
+      .join('; ') + (trouble.length > 3 ? `; and ${trouble.length - 3} more` : '');
+  return /^v\d+$/.test(trouble[0].part)
+    ? `This link cannot be opened: ${trouble[0].why}.`
+    : `Not taken from this link: ${parts}. The rest is restored.`;
 }

@@ -31,12 +31,20 @@ export class PinKeeper {
     const kept = readLink(this.storage.getItem(KEY) ?? '', { presets, methods }).pins ?? [];
     const there = new Set(pins.map(identity));
     const letters = new Set(pins.map((p) => p.index));
-    const free = () => { let i = 0; while (letters.has(i)) i += 1; return i; };
-    this.store.addPins(kept.filter((pin) => !there.has(identity(pin))).map((pin) => {
-      const index = letters.has(pin.index) ? free() : pin.index;
-      letters.add(index);
-      return { ...pin, index, reply: null };
-    }));
+    const free = () => {
+      let i = 0;
+      while (letters.has(i)) i += 1;
+      return i;
+    };
+    this.store.addPins(
+      kept
+        .filter((pin) => !there.has(identity(pin)))
+        .map((pin) => {
+          const index = letters.has(pin.index) ? free() : pin.index;
+          letters.add(index);
+          return { ...pin, index, reply: null };
+        }),
+    );
     this.#opened = true;
   }
 
@@ -54,7 +62,8 @@ export class PinKeeper {
   /** @param {State} state */
   #keep(state) {
     try {
-      if (state.pins.length) this.storage.setItem(KEY, linkOf(state, { presets: state.presets, methods: state.methods }, null, Infinity));
+      if (state.pins.length)
+        this.storage.setItem(KEY, linkOf(state, { presets: state.presets, methods: state.methods }, null, Infinity));
       else this.storage.removeItem(KEY);
     } catch {
       // A full or forbidden storage: the pins live as long as the page.

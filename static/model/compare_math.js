@@ -6,7 +6,8 @@
 import { complex, fixed, forField, significant } from '../text/index.js';
 
 /** @param {number} from @param {number} to @param {number} count @returns {number[]} */
-export const logSpaced = (from, to, count) => Array.from({ length: count }, (_, k) => Number((from * (to / from) ** (k / (count - 1))).toPrecision(9)));
+export const logSpaced = (from, to, count) =>
+  Array.from({ length: count }, (_, k) => Number((from * (to / from) ** (k / (count - 1))).toPrecision(9)));
 
 /**
  * The rows whose figure is best: the least cost, and all that cost or read the same. Where most are alike, none stands out.
@@ -27,27 +28,44 @@ export function best(costs, texts) {
 export function worseMargins(margins) {
   const both = Object.values(margins ?? {});
   if (!both.length) return undefined;
-  return { gain: Math.min(...both.map((m) => m.gain_margin ?? Infinity)), phase: Math.min(...both.map((m) => m.phase_margin ?? Infinity)) };
+  return {
+    gain: Math.min(...both.map((m) => m.gain_margin ?? Infinity)),
+    phase: Math.min(...both.map((m) => m.phase_margin ?? Infinity)),
+  };
 }
 
 /** Each motor over both single steps: the higher peak, the longer share of time at the limit. @param {Record<string, any>|undefined} steps */
 export function hardest(steps) {
   const of = (/** @type {string} */ name) => {
-    const both = Object.values(steps ?? {}).map((s) => s?.[name]).filter((m) => m?.peak !== undefined);
-    return both.length ? { peak: Math.max(...both.map((m) => m.peak)), saturated: Math.max(...both.map((m) => m.saturated ?? 0)) } : undefined;
+    const both = Object.values(steps ?? {})
+      .map((s) => s?.[name])
+      .filter((m) => m?.peak !== undefined);
+    return both.length
+      ? { peak: Math.max(...both.map((m) => m.peak)), saturated: Math.max(...both.map((m) => m.saturated ?? 0)) }
+      : undefined;
   };
   return { V_p: of('V_p'), V_y: of('V_y') };
 }
 
 /** A pair in words. @param {readonly Complex[]} pair */
-export const pairText = ([a, b]) => (a.im === 0 ? `${significant(a.re, 3)}, ${significant(b.re, 3)}` : `${fixed(a.re)} ± ${fixed(Math.abs(a.im))}j`);
+export const pairText = ([a, b]) =>
+  a.im === 0 ? `${significant(a.re, 3)}, ${significant(b.re, 3)}` : `${fixed(a.re)} ± ${fixed(Math.abs(a.im))}j`;
 
 /** Conjugates first, so that any four poles stay two closed pairs, and in one order however they are dealt. @param {readonly Complex[]} poles @returns {Complex[]} */
-export const inOrder = (poles) => [...poles].sort((a, b) => Number(a.im === 0) - Number(b.im === 0) || a.re - b.re || Math.abs(a.im) - Math.abs(b.im) || a.im - b.im);
+export const inOrder = (poles) =>
+  [...poles].sort(
+    (a, b) => Number(a.im === 0) - Number(b.im === 0) || a.re - b.re || Math.abs(a.im) - Math.abs(b.im) || a.im - b.im,
+  );
 
 /** Whether both deal the same poles to pitch, and so to yaw. @param {readonly Complex[]} a @param {readonly Complex[]} b */
 export function sameSplit(a, b) {
-  const text = (/** @type {readonly Complex[]} */ poles) => [poles.slice(0, 2), poles.slice(2)].map((pair) => pair.map((p) => complex(p, 9)).sort().join());
+  const text = (/** @type {readonly Complex[]} */ poles) =>
+    [poles.slice(0, 2), poles.slice(2)].map((pair) =>
+      pair
+        .map((p) => complex(p, 9))
+        .sort()
+        .join(),
+    );
   return text(a).join('|') === text(b).join('|');
 }
 
@@ -75,10 +93,20 @@ export function dominanceWords(w, dominance) {
   const kinds = [largest(dominance.rows), largest(dominance.columns)];
   const [rows, columns] = kinds.map((ratio) => where(w, ratio));
   const dominant = rows === 'everywhere' && columns === 'everywhere';
-  const alike = rows === 'nowhere' ? 'nowhere diagonally dominant, neither by rows nor by columns' : `diagonally dominant ${rows}, by rows and by columns`;
+  const alike =
+    rows === 'nowhere'
+      ? 'nowhere diagonally dominant, neither by rows nor by columns'
+      : `diagonally dominant ${rows}, by rows and by columns`;
   const told = rows === columns ? alike : `diagonally dominant by rows ${rows}, by columns ${columns}`;
-  const [peak, i] = kinds.flatMap((ratio) => ratio.map((v, k) => /** @type {[number, number]} */ ([v, k]))).reduce((a, b) => (b[0] > a[0] ? b : a));
-  const most = Number.isFinite(peak) ? ` The off-diagonal entries reach ${short(peak, 3)} of the diagonal ones, at ${short(w[i])} rad/s.` : '';
+  const [peak, i] = kinds
+    .flatMap((ratio) => ratio.map((v, k) => /** @type {[number, number]} */ ([v, k])))
+    .reduce((a, b) => (b[0] > a[0] ? b : a));
+  const most = Number.isFinite(peak)
+    ? ` The off-diagonal entries reach ${short(peak, 3)} of the diagonal ones, at ${short(w[i])} rad/s.`
+    : '';
   const range = `Between ${forField(w[0])} and ${forField(w[w.length - 1])} rad/s`;
-  return { dominant, text: `${range} Ĝ(jω) is ${told}${dominant ? ', as the paper says of its helicopter' : ''}.${most}` };
+  return {
+    dominant,
+    text: `${range} Ĝ(jω) is ${told}${dominant ? ', as the paper says of its helicopter' : ''}.${most}`,
+  };
 }

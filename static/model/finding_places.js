@@ -12,19 +12,44 @@ const LOOPS = `${testid('suggest-pi')}`;
 
 /** Selectors of what takes the focus, by the finding's code. @type {Record<string, string>} */
 const PLACES = {
-  pi_unstable: LOOPS, loop_unstable: LOOPS, poorly_damped: LOOPS, pitch_loop_open: testid('kp-pitch'), yaw_loop_open: testid('kp-yaw'),
-  saturation_V_p: plot('V_p'), saturation_V_y: plot('V_y'), travel_stop: plot('theta'), diverges: plot('theta'), unlike_linear: testid('more-figures'), not_settled: testid('duration'), slow_pole: LOOPS,
-  reference_beyond_stop: testid('step-theta'), starts_on_stop: testid('experiment-start-theta'), integration_stopped: testid('experiment-tolerance'), disturbance_left_out: testid('more-figures'),
-  slow_sampling: testid('experiment-sample-time'), fast_tracking: testid('experiment-tracking'), pairing_cross: testid('pair-advised'), pairing_diagonal: testid('pair-advised'),
-  own_poles: testid('method'), own_integral_action: testid('method'), nearly_uncontrollable: testid('rig-K_pp'),
+  pi_unstable: LOOPS,
+  loop_unstable: LOOPS,
+  poorly_damped: LOOPS,
+  pitch_loop_open: testid('kp-pitch'),
+  yaw_loop_open: testid('kp-yaw'),
+  saturation_V_p: plot('V_p'),
+  saturation_V_y: plot('V_y'),
+  travel_stop: plot('theta'),
+  diverges: plot('theta'),
+  unlike_linear: testid('more-figures'),
+  not_settled: testid('duration'),
+  slow_pole: LOOPS,
+  reference_beyond_stop: testid('step-theta'),
+  starts_on_stop: testid('experiment-start-theta'),
+  integration_stopped: testid('experiment-tolerance'),
+  disturbance_left_out: testid('more-figures'),
+  slow_sampling: testid('experiment-sample-time'),
+  fast_tracking: testid('experiment-tracking'),
+  pairing_cross: testid('pair-advised'),
+  pairing_diagonal: testid('pair-advised'),
+  own_poles: testid('method'),
+  own_integral_action: testid('method'),
+  nearly_uncontrollable: testid('rig-K_pp'),
 };
 
 /** Which of the placed poles a finding is about, by how it is measured. @type {Record<string, (p: import('../types.js').Complex, index: number, s: Pick<State, 'requirements'|'reply'>) => number>} */
 const POLES = {
-  right_half_plane: (p) => p.re, imaginary_axis: (p) => p.re, no_steady_state: (p) => -Math.hypot(p.re, p.im), far_out: (p) => Math.hypot(p.re, p.im),
-  repeated_poles: () => 0, open_loop_pole: () => 0, pole_error: () => 0,
-  short_delay_margin: (p) => Math.hypot(p.re, p.im), high_gain: (p) => Math.hypot(p.re, p.im),
-  requirement_missed: (p, index, { requirements, reply }) => (verdictOf(reply, AXES[index < 2 ? 0 : 1], requirements)?.met === false ? 1e6 : 0) + p.re,
+  right_half_plane: (p) => p.re,
+  imaginary_axis: (p) => p.re,
+  no_steady_state: (p) => -Math.hypot(p.re, p.im),
+  far_out: (p) => Math.hypot(p.re, p.im),
+  repeated_poles: () => 0,
+  open_loop_pole: () => 0,
+  pole_error: () => 0,
+  short_delay_margin: (p) => Math.hypot(p.re, p.im),
+  high_gain: (p) => Math.hypot(p.re, p.im),
+  requirement_missed: (p, index, { requirements, reply }) =>
+    (verdictOf(reply, AXES[index < 2 ? 0 : 1], requirements)?.met === false ? 1e6 : 0) + p.re,
 };
 
 /** @param {string} code @param {Pick<State, 'design'|'requirements'|'problem'|'reply'>} state @returns {string} a selector; empty where it belongs to no place */
@@ -38,25 +63,35 @@ export function placeOf(code, { design, requirements, problem, reply }) {
 const CSS_SAFE = /^[\w.]+$/;
 
 /** @param {Finding[]} findings @param {string[]} codes the one that matters most first */
-const first = (findings, codes) => codes.map((code) => findings.find((f) => f.code === code)).find((f) => f !== undefined);
+const first = (findings, codes) =>
+  codes.map((code) => findings.find((f) => f.code === code)).find((f) => f !== undefined);
 
 /**
  * What is said at the loops and at the plots, each in few words with its whole sentence behind.
  * @param {Pick<State, 'reply'|'problem'>} state @returns {Record<'loops'|'theta'|'V_p'|'V_y', {text: string, severity: string, message: string}|null>}
  */
 export function remarksOf({ reply, problem }) {
-  const findings = problem ? [] : reply?.findings ?? [];
-  const remark = (/** @type {Finding|undefined} */ f, /** @type {string} */ text) => (f ? { text: `${f.severity === 'error' ? '✕' : '▲'} ${text}`, severity: f.severity, message: f.message } : null);
+  const findings = problem ? [] : (reply?.findings ?? []);
+  const remark = (/** @type {Finding|undefined} */ f, /** @type {string} */ text) =>
+    f ? { text: `${f.severity === 'error' ? '✕' : '▲'} ${text}`, severity: f.severity, message: f.message } : null;
   const motor = (/** @type {'V_p'|'V_y'} */ name) => {
     const share = reply?.step.nonlinear.metrics?.[name]?.saturated;
-    return remark(first(findings, [`saturation_${name}`]), share > 0 ? say`at limit ${percent(share, share < 0.01 ? 1 : 0)}` : t('at limit'));
+    return remark(
+      first(findings, [`saturation_${name}`]),
+      share > 0 ? say`at limit ${percent(share, share < 0.01 ? 1 : 0)}` : t('at limit'),
+    );
   };
   const stop = first(findings, ['reference_beyond_stop', 'travel_stop', 'starts_on_stop']);
   const unstable = first(findings, ['pi_unstable', 'loop_unstable']);
   const open = first(findings, ['pitch_loop_open', 'yaw_loop_open']);
   return {
-    loops: unstable ? remark(unstable, t('unstable')) : open ? remark(open, t('open loop')) : remark(first(findings, ['poorly_damped']), t('rings')) ?? remark(first(findings, ['slow_pole']), t('slow')),
+    loops: unstable
+      ? remark(unstable, t('unstable'))
+      : open
+        ? remark(open, t('open loop'))
+        : (remark(first(findings, ['poorly_damped']), t('rings')) ?? remark(first(findings, ['slow_pole']), t('slow'))),
     theta: remark(stop, stop?.code === 'travel_stop' ? t('hits a stop') : t('beyond a stop')),
-    V_p: motor('V_p'), V_y: motor('V_y'),
+    V_p: motor('V_p'),
+    V_y: motor('V_y'),
   };
 }

@@ -1,13 +1,60 @@
 /** What other rooms may import of model/. */
-export { best, dominanceWords, hardest, inOrder, largest, logSpaced, pairText, sameSplit, worseMargins } from './compare_math.js';
-export { cloudCaveat, cloudScenario, DIGITAL, experimentWords, isStandard, standard, STANDARD, withDigital, withDisturbance, withEncoder, withOption, withStart } from './experiment.js';
+export {
+  best,
+  dominanceWords,
+  hardest,
+  inOrder,
+  largest,
+  logSpaced,
+  pairText,
+  sameSplit,
+  worseMargins,
+} from './compare_math.js';
+export {
+  cloudCaveat,
+  cloudScenario,
+  DIGITAL,
+  experimentWords,
+  isStandard,
+  standard,
+  STANDARD,
+  withDigital,
+  withDisturbance,
+  withEncoder,
+  withOption,
+  withStart,
+} from './experiment.js';
 export { placeOf, remarksOf } from './finding_places.js';
 export { lockNames, LOCKS } from './locks.js';
 export { inverseOf, mixingOf } from './loop_values.js';
 export { FULL_RANK, keyOf, nameOf, partOf, placesPoles, STRUCTURES } from './methods.js';
 export { colorOf, COLORS, differenceTable, FIGURES, letterOf } from './pins.js';
-export { character, drag, fromWire, isComplex, LIMIT, nudge, pairOf, partner, setComplex, setMode, setReal, tidy } from './poles.js';
-export { asking, AXES, forbidden, guideWords, isAsked, leastDamping, missing, NONE, RANGES, verdictOf } from './requirements.js';
+export {
+  character,
+  drag,
+  fromWire,
+  isComplex,
+  LIMIT,
+  nudge,
+  pairOf,
+  partner,
+  setComplex,
+  setMode,
+  setReal,
+  tidy,
+} from './poles.js';
+export {
+  asking,
+  AXES,
+  forbidden,
+  guideWords,
+  isAsked,
+  leastDamping,
+  missing,
+  NONE,
+  RANGES,
+  verdictOf,
+} from './requirements.js';
 export { asProposed, changedWords, isChanged, proposedShown, quantities, valueOf, without, withValue } from './rig.js';
 export { bodyOf, designOf, evaluationOf, initialState, presetOf, requestOf, scenarioOf, Store } from './store.js';
 export { niceStep, ticks } from './ticks.js';

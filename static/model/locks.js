@@ -6,11 +6,24 @@
 
 /** @type {Record<string, Lock>} */
 export const LOCKS = {
-  preset: { name: 'rig', keys: ['preset', 'parameters', 'limits'], controls: '[data-testid=preset], #header :is([data-field], [data-testid^=rig-reset])' },
+  preset: {
+    name: 'rig',
+    keys: ['preset', 'parameters', 'limits'],
+    controls: '[data-testid=preset], #header :is([data-field], [data-testid^=rig-reset])',
+  },
   point: { name: 'operating point', keys: ['theta0'], controls: '[data-field^="operating_point"]' },
   poles: { name: 'poles', keys: ['poles'], controls: '.pole, #poles input, [data-testid^="use-split"]' },
-  method: { name: 'method', keys: ['method', 'coupling', 'lead'], controls: '[data-field=method], [data-testid^="use-"]' },
-  loops: { name: 'outer loops', keys: ['outer', 'pairing', 'decoupler', 'loops'], controls: '#loops [data-testid^=outer-], #loops .pis input, [data-field=pairing], [data-field=decoupler], [data-testid=suggest-pi], [data-testid=pair-advised]' },
+  method: {
+    name: 'method',
+    keys: ['method', 'coupling', 'lead'],
+    controls: '[data-field=method], [data-testid^="use-"]',
+  },
+  loops: {
+    name: 'outer loops',
+    keys: ['outer', 'pairing', 'decoupler', 'loops'],
+    controls:
+      '#loops [data-testid^=outer-], #loops .pis input, [data-field=pairing], [data-field=decoupler], [data-testid=suggest-pi], [data-testid=pair-advised]',
+  },
   scenario: { name: 'steps', keys: ['scenario'], controls: '#scenario [data-field^=scenario]' },
 };
 

@@ -8,7 +8,11 @@ export const FULL_RANK = 'full-rank';
 
 /** @type {[string, string, string][]} key, name, explanation */
 export const STRUCTURES = [
-  ['full-rank/triangular/pitch', 'triangular, pitch leads', 'pitch has exactly its own pair and drives yaw: the paper’s'],
+  [
+    'full-rank/triangular/pitch',
+    'triangular, pitch leads',
+    'pitch has exactly its own pair and drives yaw: the paper’s',
+  ],
   ['full-rank/triangular/yaw', 'triangular, yaw leads', 'yaw has exactly its own pair and drives pitch'],
   ['full-rank/input-diagonal', 'input-diagonal', 'standard Luenberger: diagonal in B₂⁻¹[θ, ψ]'],
   ['full-rank/axis-decoupled', 'axis-decoupled', 'pitch and yaw do not feel each other'],
@@ -16,8 +20,13 @@ export const STRUCTURES = [
 
 /** @type {Record<string, string>} */
 const NAMES = {
-  'tits-yang': 'Tits–Yang', knv0: 'Kautsky–Nichols–Van Dooren', varga: 'Varga’s Schur method', ackermann: 'Ackermann’s formula', 'bass-gura': 'Bass–Gura formula',
-  lqr: 'LQR', 'lqr-integral': 'LQR, integral action',
+  'tits-yang': 'Tits–Yang',
+  knv0: 'Kautsky–Nichols–Van Dooren',
+  varga: 'Varga’s Schur method',
+  ackermann: 'Ackermann’s formula',
+  'bass-gura': 'Bass–Gura formula',
+  lqr: 'LQR',
+  'lqr-integral': 'LQR, integral action',
 };
 
 /** Yaw can lead only where the coupling is triangular. @param {Way} way @returns {string} */
@@ -29,7 +38,9 @@ export function keyOf({ method, coupling, lead }) {
 /** What a key changes in a design. @param {string} key @returns {Partial<Design>} */
 export function partOf(key) {
   const [method, coupling, lead] = key.split('/');
-  return coupling ? { method, coupling: /** @type {any} */ (coupling), lead: /** @type {any} */ (lead ?? 'pitch') } : { method };
+  return coupling
+    ? { method, coupling: /** @type {any} */ (coupling), lead: /** @type {any} */ (lead ?? 'pitch') }
+    : { method };
 }
 
 /** @param {Way & {title?: string}} way @returns {string} */

@@ -84,7 +84,8 @@ export function nudge(poles, index, by) {
   const other = poles[partner(index)].re;
   if (by.im !== 0 && here.re === other) return setComplex(poles, index, to);
   const [before, after] = [here.re - other, to.re - other];
-  if (before !== 0 && (before * after <= 0 || Math.abs(after) < Math.abs(by.re) / 2)) return setReal(poles, index, other);
+  if (before !== 0 && (before * after <= 0 || Math.abs(after) < Math.abs(by.re) / 2))
+    return setReal(poles, index, other);
   return by.re === 0 ? /** @type {Poles} */ (poles.slice()) : setReal(poles, index, to.re);
 }
 
@@ -116,6 +117,8 @@ export function character(p) {
 
 /** @param {unknown} poles @returns {Poles} poles from outside, made exact conjugates */
 export function fromWire(poles) {
-  const list = /** @type {(Complex|number)[]} */ (poles).map((p) => (typeof p === 'number' ? { re: p, im: 0 } : { re: p.re, im: p.im }));
+  const list = /** @type {(Complex|number)[]} */ (poles).map((p) =>
+    typeof p === 'number' ? { re: p, im: 0 } : { re: p.re, im: p.im },
+  );
   return /** @type {Poles} */ (list);
 }

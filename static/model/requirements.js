@@ -13,14 +13,19 @@ const SLACK = 1 + 1e-9; // a pole on the border itself is allowed
 export const NONE = { settling: null, overshoot: null };
 
 /** What can be asked: s, %. @type {Record<keyof Requirements, {min: number, max: number, positive: boolean}>} */
-export const RANGES = { settling: { min: 0, max: 1e3, positive: true }, overshoot: { min: 0, max: 100, positive: false } };
+export const RANGES = {
+  settling: { min: 0, max: 1e3, positive: true },
+  overshoot: { min: 0, max: 100, positive: false },
+};
 
 /** With one of them changed. @param {Requirements} r @param {string} name @param {unknown} value @returns {Requirements|null} null where that cannot be asked */
 export function asking(r, name, value) {
   if (name !== 'settling' && name !== 'overshoot') return null;
   const { min, max, positive } = RANGES[name];
   if (value === null) return { ...r, [name]: null };
-  return typeof value === 'number' && value >= min && value <= max && !(positive && value === 0) ? { ...r, [name]: value } : null;
+  return typeof value === 'number' && value >= min && value <= max && !(positive && value === 0)
+    ? { ...r, [name]: value }
+    : null;
 }
 
 /** @param {Requirements} r */
@@ -42,7 +47,8 @@ export function missed(p, { settling, overshoot }) {
   const it = character(p);
   return {
     settling: settling !== null && !((it.settling ?? Infinity) <= settling * SLACK),
-    overshoot: overshoot !== null && !((it.settling === undefined ? Infinity : it.overshoot ?? 0) <= overshoot * SLACK),
+    overshoot:
+      overshoot !== null && !((it.settling === undefined ? Infinity : (it.overshoot ?? 0)) <= overshoot * SLACK),
   };
 }
 
@@ -68,12 +74,21 @@ export function verdictOf(reply, axis, r) {
   const own = reply?.axis_steps?.[axis]?.nonlinear.metrics?.[axis];
   if (!isAsked(r) || !own) return null;
   const [settling, overshoot] = [misses(own.settling_time, r.settling), misses(own.overshoot, r.overshoot)];
-  const words = [settling && (own.settling_time === undefined ? t('not settled') : say`settles in ${seconds(own.settling_time)}`), overshoot && say`overshoots by ${fixed(own.overshoot, 1)} %`];
-  return { met: !settling && !overshoot, settling, overshoot, text: words.filter(Boolean).join(', ') || t('requirements met') };
+  const words = [
+    settling && (own.settling_time === undefined ? t('not settled') : say`settles in ${seconds(own.settling_time)}`),
+    overshoot && say`overshoots by ${fixed(own.overshoot, 1)} %`,
+  ];
+  return {
+    met: !settling && !overshoot,
+    settling,
+    overshoot,
+    text: words.filter(Boolean).join(', ') || t('requirements met'),
+  };
 }
 
 /** The axes that miss what is asked, in words. @param {import('../types.js').Reply|null} reply @param {Requirements} r @returns {string[]} */
-export const missing = (reply, r) => AXES.filter((axis) => verdictOf(reply, axis, r)?.met === false).map((axis) => t(NAMES[axis]));
+export const missing = (reply, r) =>
+  AXES.filter((axis) => verdictOf(reply, axis, r)?.met === false).map((axis) => t(NAMES[axis]));
 
 /**
  * The forbidden regions as polygons in the plane, large enough for what is seen: right of −4/T, and outside the wedge of least damping.
@@ -85,13 +100,23 @@ export function forbidden(seen, r) {
   const edge = fastestOf(r);
   if (edge !== undefined && edge < seen.right) {
     const left = Math.max(edge, seen.left - 1);
-    out.settling = [{ re: left, im: seen.bottom }, { re: left, im: seen.top }, { re: seen.right, im: seen.top }, { re: seen.right, im: seen.bottom }];
+    out.settling = [
+      { re: left, im: seen.bottom },
+      { re: left, im: seen.top },
+      { re: seen.right, im: seen.top },
+      { re: seen.right, im: seen.bottom },
+    ];
   }
   const zeta = leastDamping(r);
   if (zeta !== undefined) {
     const far = 2 * Math.hypot(Math.max(-seen.left, seen.right), Math.max(seen.top, -seen.bottom));
     const end = { re: -zeta * far, im: Math.sqrt(1 - zeta * zeta) * far };
-    const around = [{ re: end.re, im: far }, { re: far, im: far }, { re: far, im: -far }, { re: end.re, im: -far }];
+    const around = [
+      { re: end.re, im: far },
+      { re: far, im: far },
+      { re: far, im: -far },
+      { re: end.re, im: -far },
+    ];
     out.overshoot = [{ re: 0, im: 0 }, end, ...around, { re: end.re, im: -end.im }];
   }
   return out;

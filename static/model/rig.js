@@ -10,16 +10,30 @@
 import { count, DEGREE } from '../text/index.js';
 
 /** @param {Kind} kind @param {Record<string, import('../types.js').Range>} [infos] @returns {Quantity[]} */
-const listed = (kind, infos = {}) => Object.entries(infos).map(([name, { meaning, unit, minimum, maximum }]) => {
-  const scale = unit === 'rad' ? DEGREE : 1;
-  return { kind, name, meaning, unit: unit === 'rad' ? '°' : unit, min: minimum * scale, max: maximum * scale, scale, free: kind === 'limits' && name === 'theta' };
-});
+const listed = (kind, infos = {}) =>
+  Object.entries(infos).map(([name, { meaning, unit, minimum, maximum }]) => {
+    const scale = unit === 'rad' ? DEGREE : 1;
+    return {
+      kind,
+      name,
+      meaning,
+      unit: unit === 'rad' ? '°' : unit,
+      min: minimum * scale,
+      max: maximum * scale,
+      scale,
+      free: kind === 'limits' && name === 'theta',
+    };
+  });
 
 /** All that can be changed of a rig, parameters first. @param {Preset} preset @returns {Quantity[]} */
-export const quantities = (preset) => [...listed('parameters', preset.parameter_info), ...listed('limits', preset.limit_info)];
+export const quantities = (preset) => [
+  ...listed('parameters', preset.parameter_info),
+  ...listed('limits', preset.limit_info),
+];
 
 /** In SI units. @param {Preset} preset @param {Quantity} q @returns {number|undefined} undefined where it is free */
-export const proposed = (preset, { kind, name }) => /** @type {Record<string, number|undefined>} */ (preset[kind])[name];
+export const proposed = (preset, { kind, name }) =>
+  /** @type {Record<string, number|undefined>} */ (preset[kind])[name];
 
 /** Without what a change of units leaves in the last digits. @param {number|undefined} v @param {Quantity} q as shown; NaN where it is free */
 const shown = (v, { scale }) => (v === undefined ? NaN : Number((v * scale).toPrecision(12)));
@@ -45,7 +59,10 @@ export function withValue(design, preset, q, v) {
 /** Back to the preset's. @param {Design} design @param {Quantity} q @returns {Design} */
 export function without(design, q) {
   if (!isChanged(design, q)) return design;
-  return { ...design, [q.kind]: Object.fromEntries(Object.entries(design[q.kind]).filter(([name]) => name !== q.name)) };
+  return {
+    ...design,
+    [q.kind]: Object.fromEntries(Object.entries(design[q.kind]).filter(([name]) => name !== q.name)),
+  };
 }
 
 /** The preset's rig. @param {Design} design @returns {Design} */

@@ -18,9 +18,38 @@ const DEPTH = 200;
 
 /** @returns {State} */
 export const initialState = () => ({
-  presets: [], methods: [], design: null, reply: null, answered: null, problem: null, connection: 'connecting', motion: 'both', showLinear: true, showMarks: true, dragging: false, spread: 0, cloud: null,
-  requirements: NONE, canUndo: false, canRedo: false, pins: [], locks: [], notice: null, fault: null,
-  recorded: { preview: null, columns: null, driver: 'segments', busy: '', problem: null, overlay: null, overlaid: null, progress: null, found: null, foundFor: null },
+  presets: [],
+  methods: [],
+  design: null,
+  reply: null,
+  answered: null,
+  problem: null,
+  connection: 'connecting',
+  motion: 'both',
+  showLinear: true,
+  showMarks: true,
+  dragging: false,
+  spread: 0,
+  cloud: null,
+  requirements: NONE,
+  canUndo: false,
+  canRedo: false,
+  pins: [],
+  locks: [],
+  notice: null,
+  fault: null,
+  recorded: {
+    preview: null,
+    columns: null,
+    driver: 'segments',
+    busy: '',
+    problem: null,
+    overlay: null,
+    overlaid: null,
+    progress: null,
+    found: null,
+    foundFor: null,
+  },
 });
 
 /** What a preset proposes. @param {Preset} preset @param {Partial<Design>} [keep] @returns {Design} */

@@ -18,7 +18,7 @@ export const TRACES = ['played', 'theta-linear', 'psi-linear', 'psi', 'theta'];
 export const isVoltage = (signal) => signal === 'V_p' || signal === 'V_y';
 
 /** @param {Reply} reply @param {Motion} motion @returns {import('../types.js').StepPair|undefined} */
-export const motionOf = (reply, motion) => (motion === 'both' ? reply.step : reply.axis_steps?.[motion] ?? undefined);
+export const motionOf = (reply, motion) => (motion === 'both' ? reply.step : (reply.axis_steps?.[motion] ?? undefined));
 
 /** @param {import('../types.js').Series} values @param {number} factor @param {number} offset */
 function scaled(values, factor, offset) {
@@ -89,7 +89,10 @@ export function rangeOf({ solid, dashed, include, limit, previous }) {
   }
   const pad = 0.07 * Math.max(high - low, 1e-3);
   const step = niceStep(high - low + 2 * pad, 8);
-  const wanted = /** @type {[number, number]} */ ([Math.floor((low - pad) / step) * step, Math.ceil((high + pad) / step) * step]);
+  const wanted = /** @type {[number, number]} */ ([
+    Math.floor((low - pad) / step) * step,
+    Math.ceil((high + pad) / step) * step,
+  ]);
   if (!previous) return wanted;
   const holds = previous[0] <= low - pad / 4 && previous[1] >= high + pad / 4;
   const tooLarge = wanted[1] - wanted[0] < 0.6 * (previous[1] - previous[0]);

@@ -38,7 +38,11 @@ export class ProblemError extends Error {
 /** @param {string|URL} path @param {{method?: string, body?: unknown}} [options] @returns {Promise<any>} */
 async function call(path, { method = 'GET', body } = {}) {
   const headers = body === undefined ? undefined : { 'Content-Type': 'application/json' };
-  const response = await reach(path instanceof URL ? path : at(path), { method, headers, body: body === undefined ? undefined : JSON.stringify(body) });
+  const response = await reach(path instanceof URL ? path : at(path), {
+    method,
+    headers,
+    body: body === undefined ? undefined : JSON.stringify(body),
+  });
   const text = await response.text();
   const json = text && (response.headers.get('content-type') ?? '').includes('json') ? JSON.parse(text) : {};
   if (!response.ok) throw new ProblemError({ title: response.statusText, ...json });
@@ -72,30 +76,40 @@ export const getRigViews = () => call('scene/rigs');
 
 /** A file that the server makes of a design. @param {string} path @param {unknown} design with scenario @returns {Promise<Blob>} */
 async function fileOf(path, design) {
-  const response = await reach(at(path), { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(design) });
-  if (!response.ok) throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
+  const response = await reach(at(path), {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json' },
+    body: JSON.stringify(design),
+  });
+  if (!response.ok)
+    throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
   return response.blob();
 }
 /** @param {string} path @param {BodyInit} body @param {string} [type] @returns {Promise<Response>} */
 async function post(path, body, type = 'application/octet-stream') {
   const response = await reach(at(path), { method: 'POST', headers: { 'Content-Type': type }, body });
-  if (!response.ok) throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
+  if (!response.ok)
+    throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
   return response;
 }
 
 /** A recorded file, and how its text is to be read where that is not to be judged. @param {Blob} file @param {string} name @param {Record<string, string>} [dialect] */
-export const sendRecording = async (file, name, dialect = {}) => (await post(`api/v1/recordings?${new URLSearchParams({ name, ...dialect })}`, file)).json();
+export const sendRecording = async (file, name, dialect = {}) =>
+  (await post(`api/v1/recordings?${new URLSearchParams({ name, ...dialect })}`, file)).json();
 /** Files of one run as one recording. @param {string[]} recordings their ids */
 export const joinRecordings = (recordings) => call('api/v1/recordings/join', { method: 'POST', body: { recordings } });
 /** A recording of a design's digital rig. @param {unknown} design @returns {Promise<Blob>} */
-export const sampleRecording = async (design) => (await post('api/v1/recordings/sample', JSON.stringify(design), 'application/json')).blob();
+export const sampleRecording = async (design) =>
+  (await post('api/v1/recordings/sample', JSON.stringify(design), 'application/json')).blob();
 /** @param {string} id @param {unknown} body */
-export const overlayRecording = (id, body) => call(`api/v1/recordings/${encodeURIComponent(id)}/overlay`, { method: 'POST', body });
+export const overlayRecording = (id, body) =>
+  call(`api/v1/recordings/${encodeURIComponent(id)}/overlay`, { method: 'POST', body });
 
 /** The motion of a design. @param {'html'|'viser'} format @param {unknown} design */
 export const recordMotion = (format, design) => fileOf(`api/v1/recording?format=${format}`, design);
 /** A design for another program or for print. @param {string} format @param {string} link that opens it @param {unknown} design */
-export const exportDesign = (format, link, design) => fileOf(`api/v1/export/${format}?${new URLSearchParams({ link: link.replace(UNUSUAL, encodeURIComponent) })}`, design);
+export const exportDesign = (format, link, design) =>
+  fileOf(`api/v1/export/${format}?${new URLSearchParams({ link: link.replace(UNUSUAL, encodeURIComponent) })}`, design);
 /** The rig in a window of its own. @param {string} id of a session */
 export const windowAddress = (id) => sceneAt(id, '').href;
 

@@ -3,4 +3,5 @@
  * one moment. Pure.
  * @param {number} attempt from 0 @param {number} first @param {number} longest ms
  */
-export const backoff = (attempt, first, longest) => Math.min(longest, first * 2 ** attempt) * (0.75 + Math.random() / 2);
+export const backoff = (attempt, first, longest) =>
+  Math.min(longest, first * 2 ** attempt) * (0.75 + Math.random() / 2);

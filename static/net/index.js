@@ -1,5 +1,31 @@
 /** What other rooms may import of net/. */
-export { cloudAddress, compareMethods, compareSplits, evaluateDesign, exportDesign, getMethods, getPaper, getPresets, getRigViews, getSymbolic, hubAddress, identifyAddress, joinRecordings, Live, openLoops, overlayRecording, ProblemError, putRig, recordMotion, relativeGain, sampleRecording, sendRecording, suggestLoops, walkThrough, windowAddress } from './api.js';
+export {
+  cloudAddress,
+  compareMethods,
+  compareSplits,
+  evaluateDesign,
+  exportDesign,
+  getMethods,
+  getPaper,
+  getPresets,
+  getRigViews,
+  getSymbolic,
+  hubAddress,
+  identifyAddress,
+  joinRecordings,
+  Live,
+  openLoops,
+  overlayRecording,
+  ProblemError,
+  putRig,
+  recordMotion,
+  relativeGain,
+  sampleRecording,
+  sendRecording,
+  suggestLoops,
+  walkThrough,
+  windowAddress,
+} from './api.js';
 export { backoff } from './backoff.js';
 export { hasWebGl, ofSession, session } from './session.js';
 export { decodeFrame, encodeFrame } from './wire.js';

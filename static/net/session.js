@@ -5,7 +5,9 @@ const KEY = 'heli2dof-scene';
 /** A name that nobody guesses: whoever knows it sees this tab's rig. */
 function newSession() {
   const bytes = crypto.getRandomValues(new Uint8Array(18));
-  return btoa(String.fromCharCode(...bytes)).replaceAll('+', '-').replaceAll('/', '_');
+  return btoa(String.fromCharCode(...bytes))
+    .replaceAll('+', '-')
+    .replaceAll('/', '_');
 }
 
 /** Kept over a reload; a duplicated tab inherits the storage but not the navigation type, and gets its own. */

@@ -20,7 +20,8 @@ export function decodeFrame(buffer) {
   const text = new TextDecoder().decode(new Uint8Array(buffer, 4, size));
   const filled = (/** @type {any} */ value) => {
     if (Array.isArray(value.$f32)) return floats(buffer, data + 4 * value.$f32[0], value.$f32[1]);
-    for (const key of Object.keys(value)) if (typeof value[key] === 'object' && value[key] !== null) value[key] = filled(value[key]);
+    for (const key of Object.keys(value))
+      if (typeof value[key] === 'object' && value[key] !== null) value[key] = filled(value[key]);
     return value;
   };
   return filled(JSON.parse(text)); // a reviver would be called for each number: several times slower
@@ -44,9 +45,10 @@ export function encodeFrame(value) {
   view.setUint32(0, size, true);
   new Uint8Array(buffer, 4, size).fill(0x20).set(bytes);
   let at = 4 + size;
-  for (const array of arrays) for (const v of array) {
-    view.setFloat32(at, v, true);
-    at += 4;
-  }
+  for (const array of arrays)
+    for (const v of array) {
+      view.setFloat32(at, v, true);
+      at += 4;
+    }
   return buffer;
 }

@@ -1,7 +1,14 @@
 /** How the experiment is run: where it starts, what limits it, which controller, what disturbs it. Folded away; one line says what differs from the standard. */
 import { experimentWords, isStandard, presetOf, standard } from '../model/index.js';
 import { h, setAttr, setText } from '../ui/index.js';
-import { AccuracyPart, DigitalPart, DisturbancePart, LimitsPart, ScenarioFields, StartPart } from './experiment_parts.js';
+import {
+  AccuracyPart,
+  DigitalPart,
+  DisturbancePart,
+  LimitsPart,
+  ScenarioFields,
+  StartPart,
+} from './experiment_parts.js';
 
 /** Findings that are told at the fields that they speak of, too. */
 const TOLD_HERE = ['slow_sampling', 'fast_tracking'];
@@ -12,16 +19,41 @@ export class ExperimentPanel {
   constructor(root, store) {
     this.store = store;
     const fields = new ScenarioFields(store);
-    const close = h('button', { type: 'button', class: 'quiet close', 'data-testid': 'experiment-close', 'aria-label': 'Close the experiment', title: 'Close (Esc)', onclick: () => this.#close() }, '✕');
+    const close = h(
+      'button',
+      {
+        type: 'button',
+        class: 'quiet close',
+        'data-testid': 'experiment-close',
+        'aria-label': 'Close the experiment',
+        title: 'Close (Esc)',
+        onclick: () => this.#close(),
+      },
+      '✕',
+    );
     this.start = new StartPart(fields, close);
     this.limits = new LimitsPart(fields);
     this.digital = new DigitalPart(fields);
     this.disturbance = new DisturbancePart(fields);
     this.accuracy = new AccuracyPart(fields);
     this.words = h('span', { class: 'experiment-words', 'data-testid': 'experiment-words' });
-    this.reset = h('button', { type: 'button', class: 'quiet', 'data-testid': 'experiment-reset', title: 'Back to the standard experiment; the steps stay', onclick: () => this.#reset(fields) }, 'Standard');
+    this.reset = h(
+      'button',
+      {
+        type: 'button',
+        class: 'quiet',
+        'data-testid': 'experiment-reset',
+        title: 'Back to the standard experiment; the steps stay',
+        onclick: () => this.#reset(fields),
+      },
+      'Standard',
+    );
     this.summary = h('summary', { 'data-testid': 'experiment' }, 'Experiment');
-    const body = h('div', { class: 'experiment-body', 'data-testid': 'experiment-body' }, [this.start, this.limits, this.digital, this.disturbance, this.accuracy].map((part) => part.node));
+    const body = h(
+      'div',
+      { class: 'experiment-body', 'data-testid': 'experiment-body' },
+      [this.start, this.limits, this.digital, this.disturbance, this.accuracy].map((part) => part.node),
+    );
     this.details = h('details', { class: 'experiment' }, this.summary, body);
     this.details.addEventListener('keydown', (e) => e.key === 'Escape' && this.#close());
     root.append(h('div', { class: 'row experiment-row' }, this.details, this.words, this.reset));

@@ -13,7 +13,12 @@ const AXES = /** @type {Axis[]} */ (['theta', 'psi']);
 const GREEK = { theta: 'θ', psi: 'ψ' };
 const AXIS_NAMES = { theta: 'pitch', psi: 'yaw' };
 const COUNTS = { theta: 4096, psi: 8192 };
-const TOLERANCES = /** @type {[number, string][]} */ ([[1e-3, '10⁻³'], [1e-5, '10⁻⁵'], [1e-8, '10⁻⁸'], [1e-11, '10⁻¹¹']]);
+const TOLERANCES = /** @type {[number, string][]} */ ([
+  [1e-3, '10⁻³'],
+  [1e-5, '10⁻⁵'],
+  [1e-8, '10⁻⁸'],
+  [1e-11, '10⁻¹¹'],
+]);
 
 /** Without what a change of units leaves in the last digits. @param {number} v */
 const tidy = (v) => Number(v.toPrecision(10));
@@ -37,13 +42,22 @@ export class ScenarioFields {
    */
   number({ id, scale = 1, change, ...rest }) {
     const gesture = `experiment-${id}`;
-    return new NumberField({ testid: gesture, ...rest, onInput: (v, stamp) => this.edit((s) => change(s, Number.isNaN(v) ? undefined : tidy(v / scale)), gesture, stamp),
-      onCommit: () => this.store.commit() });
+    return new NumberField({
+      testid: gesture,
+      ...rest,
+      onInput: (v, stamp) => this.edit((s) => change(s, Number.isNaN(v) ? undefined : tidy(v / scale)), gesture, stamp),
+      onCommit: () => this.store.commit(),
+    });
   }
 
   /** @param {string} id @param {string} text @param {string} title @param {(s: Scenario, on: boolean) => Scenario} change @param {string} [field] */
   check(id, text, title, change, field) {
-    const input = h('input', { type: 'checkbox', 'data-testid': `experiment-${id}`, 'data-field': field, onchange: () => this.edit((s) => change(s, input.checked)) });
+    const input = h('input', {
+      type: 'checkbox',
+      'data-testid': `experiment-${id}`,
+      'data-field': field,
+      onchange: () => this.edit((s) => change(s, input.checked)),
+    });
     return { input, node: h('label', { class: 'check', title }, input, text) };
   }
 }
@@ -52,9 +66,31 @@ export class ScenarioFields {
 export class StartPart {
   /** @param {ScenarioFields} fields @param {Node} close what closes the whole */
   constructor(fields, close) {
-    this.angles = AXES.map((axis) => fields.number({ id: `start-${axis}`, label: `${AXIS_NAMES[axis]} angle at the start in degrees, empty: at rest`, mark: symbol(GREEK[axis]), unit: '°', field: `scenario.initial.${axis}`,
-      min: axis === 'theta' ? -90 : -360, max: axis === 'theta' ? 90 : 360, scale: DEGREE, optional: true, change: (s, v) => withStart(s, axis, v) }));
-    this.node = h('div', { class: 'row' }, h('span', { class: 'caption', title: 'where the rig is let go, at rest; empty: where it rests anyway' }, 'Starts at'), this.angles.map((f) => f.node), close);
+    this.angles = AXES.map((axis) =>
+      fields.number({
+        id: `start-${axis}`,
+        label: `${AXIS_NAMES[axis]} angle at the start in degrees, empty: at rest`,
+        mark: symbol(GREEK[axis]),
+        unit: '°',
+        field: `scenario.initial.${axis}`,
+        min: axis === 'theta' ? -90 : -360,
+        max: axis === 'theta' ? 90 : 360,
+        scale: DEGREE,
+        optional: true,
+        change: (s, v) => withStart(s, axis, v),
+      }),
+    );
+    this.node = h(
+      'div',
+      { class: 'row' },
+      h(
+        'span',
+        { class: 'caption', title: 'where the rig is let go, at rest; empty: where it rests anyway' },
+        'Starts at',
+      ),
+      this.angles.map((f) => f.node),
+      close,
+    );
   }
 
   /** @param {Design} design */
@@ -72,16 +108,71 @@ export class StartPart {
 export class LimitsPart {
   /** @param {ScenarioFields} fields */
   constructor(fields) {
-    this.saturation = fields.check('saturation', 'voltage limits', 'the motors get no more than their limits', (s, on) => withOption(s, { saturation: on }), 'scenario.saturation');
-    this.stops = fields.check('stops', 'travel stops', 'pitch ends at its mechanical stops, without rebound', (s, on) => withOption(s, { travel_stops: on }), 'scenario.travel_stops');
-    this.trim = fields.check('trim', 'trim feed-forward', 'the constant voltages that hold the rig are added; without them it sags until the integrals have found them', (s, on) => withOption(s, { trim_feedforward: on }), 'scenario.trim_feedforward');
-    this.windup = new Choice({ label: 'Anti-windup', testid: 'experiment-windup', onChange: (v) => fields.edit((s) => withOption(s, { anti_windup: /** @type {any} */ (v) })),
-      options: [['none', 'none', 'the integrals go on while a motor is at its limit'], ['clamping', 'clamping', 'the integral that pushes a motor beyond its limit stands still'],
-        ['back-calculation', 'back-calculation', 'the integrals follow what the limits leave of the voltages, with the tracking time (Åström and Hägglund, Advanced PID Control, 2006, section 3.5)']] });
-    this.tracking = fields.number({ id: 'tracking', label: 'tracking time of back-calculation in milliseconds, empty: the integral time', unit: 'ms', field: 'scenario.tracking_time', min: 0.1, max: 1e7, scale: 1000, positive: true, optional: true,
-      mark: h('span', { title: 'how fast the integrals let go; empty: each loop’s own integral time' }, 'tracking time ', symbol('T', 't')), change: (s, v) => withOption(s, { tracking_time: v }) });
-    this.node = h('fieldset', { 'aria-label': 'Limits' }, h('div', { class: 'row' }, this.saturation.node, this.stops.node, this.trim.node),
-      h('div', { class: 'row' }, h('span', { class: 'caption', 'aria-hidden': 'true' }, 'Anti-windup'), this.windup.node, this.tracking.node));
+    this.saturation = fields.check(
+      'saturation',
+      'voltage limits',
+      'the motors get no more than their limits',
+      (s, on) => withOption(s, { saturation: on }),
+      'scenario.saturation',
+    );
+    this.stops = fields.check(
+      'stops',
+      'travel stops',
+      'pitch ends at its mechanical stops, without rebound',
+      (s, on) => withOption(s, { travel_stops: on }),
+      'scenario.travel_stops',
+    );
+    this.trim = fields.check(
+      'trim',
+      'trim feed-forward',
+      'the constant voltages that hold the rig are added; without them it sags until the integrals have found them',
+      (s, on) => withOption(s, { trim_feedforward: on }),
+      'scenario.trim_feedforward',
+    );
+    this.windup = new Choice({
+      label: 'Anti-windup',
+      testid: 'experiment-windup',
+      onChange: (v) => fields.edit((s) => withOption(s, { anti_windup: /** @type {any} */ (v) })),
+      options: [
+        ['none', 'none', 'the integrals go on while a motor is at its limit'],
+        ['clamping', 'clamping', 'the integral that pushes a motor beyond its limit stands still'],
+        [
+          'back-calculation',
+          'back-calculation',
+          'the integrals follow what the limits leave of the voltages, with the tracking time (Åström and Hägglund, Advanced PID Control, 2006, section 3.5)',
+        ],
+      ],
+    });
+    this.tracking = fields.number({
+      id: 'tracking',
+      label: 'tracking time of back-calculation in milliseconds, empty: the integral time',
+      unit: 'ms',
+      field: 'scenario.tracking_time',
+      min: 0.1,
+      max: 1e7,
+      scale: 1000,
+      positive: true,
+      optional: true,
+      mark: h(
+        'span',
+        { title: 'how fast the integrals let go; empty: each loop’s own integral time' },
+        'tracking time ',
+        symbol('T', 't'),
+      ),
+      change: (s, v) => withOption(s, { tracking_time: v }),
+    });
+    this.node = h(
+      'fieldset',
+      { 'aria-label': 'Limits' },
+      h('div', { class: 'row' }, this.saturation.node, this.stops.node, this.trim.node),
+      h(
+        'div',
+        { class: 'row' },
+        h('span', { class: 'caption', 'aria-hidden': 'true' }, 'Anti-windup'),
+        this.windup.node,
+        this.tracking.node,
+      ),
+    );
   }
 
   /** @param {Design} design @param {boolean} hasStops */
@@ -108,19 +199,91 @@ export class DigitalPart {
   /** @param {ScenarioFields} fields */
   constructor(fields) {
     this.counts = () => fields.store.preset?.encoders ?? COUNTS;
-    this.on = fields.check('digital', 'Digital controller', 'the rig’s own: it samples the encoders, filters the rates from them and holds its voltages between samples', (s, on) => withDigital(s, on ? {} : null));
-    this.sampleTime = fields.number({ id: 'sample-time', label: 'sample time in milliseconds', mark: h('span', { title: 'sample time: the voltages are held between two samples' }, 'every'), unit: 'ms', field: 'scenario.digital.sample_time',
-      min: 0.1, max: 1000, scale: 1000, positive: true, change: (s, v) => withDigital(s, { sample_time: v }) });
-    this.delay = fields.check('delay', 'delay', 'computation delay: the voltages reach the motors one sample after they were computed from', (s, on) => withDigital(s, { delay: on }), 'scenario.digital.delay');
-    this.rates = fields.check('filtered', 'filtered rates', 'rates from the angles by second-order filters, 20 Hz, damping 0.85; otherwise the true ones', (s, on) => withDigital(s, { rates: on ? 'filtered' : 'true' }), 'scenario.digital.rates');
-    this.encoders = AXES.map((axis) => fields.number({ id: `encoder-${axis}`, label: `${AXIS_NAMES[axis]} encoder, counts per revolution; 0 measures exactly, empty: this rig's`, mark: symbol(GREEK[axis]), field: `scenario.digital.encoders.${axis}`,
-      min: 0, max: 1e7, integer: true, optional: true, change: (s, v) => withEncoder(s, axis, v, this.counts()) }));
-    this.noise = fields.number({ id: 'noise', label: 'noise on the measured angles, standard deviation in degrees', mark: 'noise', unit: '°', field: 'scenario.digital.noise', min: 0, max: 57, scale: DEGREE, change: (s, v) => withDigital(s, { noise: v }) });
-    this.seed = fields.number({ id: 'seed', label: 'seed of the noise', mark: 'seed', field: 'scenario.digital.seed', min: 0, max: 2 ** 32 - 1, integer: true, change: (s, v) => withDigital(s, { seed: v }) });
+    this.on = fields.check(
+      'digital',
+      'Digital controller',
+      'the rig’s own: it samples the encoders, filters the rates from them and holds its voltages between samples',
+      (s, on) => withDigital(s, on ? {} : null),
+    );
+    this.sampleTime = fields.number({
+      id: 'sample-time',
+      label: 'sample time in milliseconds',
+      mark: h('span', { title: 'sample time: the voltages are held between two samples' }, 'every'),
+      unit: 'ms',
+      field: 'scenario.digital.sample_time',
+      min: 0.1,
+      max: 1000,
+      scale: 1000,
+      positive: true,
+      change: (s, v) => withDigital(s, { sample_time: v }),
+    });
+    this.delay = fields.check(
+      'delay',
+      'delay',
+      'computation delay: the voltages reach the motors one sample after they were computed from',
+      (s, on) => withDigital(s, { delay: on }),
+      'scenario.digital.delay',
+    );
+    this.rates = fields.check(
+      'filtered',
+      'filtered rates',
+      'rates from the angles by second-order filters, 20 Hz, damping 0.85; otherwise the true ones',
+      (s, on) => withDigital(s, { rates: on ? 'filtered' : 'true' }),
+      'scenario.digital.rates',
+    );
+    this.encoders = AXES.map((axis) =>
+      fields.number({
+        id: `encoder-${axis}`,
+        label: `${AXIS_NAMES[axis]} encoder, counts per revolution; 0 measures exactly, empty: this rig's`,
+        mark: symbol(GREEK[axis]),
+        field: `scenario.digital.encoders.${axis}`,
+        min: 0,
+        max: 1e7,
+        integer: true,
+        optional: true,
+        change: (s, v) => withEncoder(s, axis, v, this.counts()),
+      }),
+    );
+    this.noise = fields.number({
+      id: 'noise',
+      label: 'noise on the measured angles, standard deviation in degrees',
+      mark: 'noise',
+      unit: '°',
+      field: 'scenario.digital.noise',
+      min: 0,
+      max: 57,
+      scale: DEGREE,
+      change: (s, v) => withDigital(s, { noise: v }),
+    });
+    this.seed = fields.number({
+      id: 'seed',
+      label: 'seed of the noise',
+      mark: 'seed',
+      field: 'scenario.digital.seed',
+      min: 0,
+      max: 2 ** 32 - 1,
+      integer: true,
+      change: (s, v) => withDigital(s, { seed: v }),
+    });
     this.warning = h('p', { class: 'experiment-warning', role: 'status', 'data-testid': 'experiment-warning' });
-    this.more = h('div', { class: 'inner' }, h('div', { class: 'row' }, this.rates.node, this.noise.node, this.seed.node),
-      h('div', { class: 'row' }, h('span', { class: 'caption', title: 'counts per revolution; 0 measures exactly' }, 'encoder counts'), this.encoders.map((f) => f.node)));
-    this.node = h('fieldset', { 'aria-label': 'Digital controller' }, h('div', { class: 'row' }, this.on.node, this.sampleTime.node, this.delay.node), this.more, this.warning);
+    this.more = h(
+      'div',
+      { class: 'inner' },
+      h('div', { class: 'row' }, this.rates.node, this.noise.node, this.seed.node),
+      h(
+        'div',
+        { class: 'row' },
+        h('span', { class: 'caption', title: 'counts per revolution; 0 measures exactly' }, 'encoder counts'),
+        this.encoders.map((f) => f.node),
+      ),
+    );
+    this.node = h(
+      'fieldset',
+      { 'aria-label': 'Digital controller' },
+      h('div', { class: 'row' }, this.on.node, this.sampleTime.node, this.delay.node),
+      this.more,
+      this.warning,
+    );
   }
 
   /** @param {Design} design @param {Finding[]} findings that concern it */
@@ -147,11 +310,41 @@ export class DigitalPart {
 export class DisturbancePart {
   /** @param {ScenarioFields} fields */
   constructor(fields) {
-    this.on = fields.check('disturbance', 'Disturbance', 'volts that act on the motors besides the controller’s, beyond their limits', (s, on) => withDisturbance(s, on ? {} : null));
-    this.volts = /** @type {const} */ (['V_p', 'V_y']).map((name) => fields.number({ id: `disturbance-${name}`, label: `disturbance of the ${name === 'V_p' ? 'pitch' : 'yaw'} motor in volts`, mark: symbol('V', name[2]), unit: 'V',
-      field: `scenario.disturbance.${name}`, min: -1000, max: 1000, change: (s, v) => withDisturbance(s, { [name]: v }) }));
-    this.since = fields.number({ id: 'disturbance-time', label: 'when the disturbance sets in, seconds', mark: 'from', unit: 's', field: 'scenario.disturbance.time', min: 0, max: 600, change: (s, v) => withDisturbance(s, { time: v }) });
-    this.node = h('fieldset', { class: 'row', 'aria-label': 'Disturbance' }, this.on.node, this.volts.map((f) => f.node), this.since.node);
+    this.on = fields.check(
+      'disturbance',
+      'Disturbance',
+      'volts that act on the motors besides the controller’s, beyond their limits',
+      (s, on) => withDisturbance(s, on ? {} : null),
+    );
+    this.volts = /** @type {const} */ (['V_p', 'V_y']).map((name) =>
+      fields.number({
+        id: `disturbance-${name}`,
+        label: `disturbance of the ${name === 'V_p' ? 'pitch' : 'yaw'} motor in volts`,
+        mark: symbol('V', name[2]),
+        unit: 'V',
+        field: `scenario.disturbance.${name}`,
+        min: -1000,
+        max: 1000,
+        change: (s, v) => withDisturbance(s, { [name]: v }),
+      }),
+    );
+    this.since = fields.number({
+      id: 'disturbance-time',
+      label: 'when the disturbance sets in, seconds',
+      mark: 'from',
+      unit: 's',
+      field: 'scenario.disturbance.time',
+      min: 0,
+      max: 600,
+      change: (s, v) => withDisturbance(s, { time: v }),
+    });
+    this.node = h(
+      'fieldset',
+      { class: 'row', 'aria-label': 'Disturbance' },
+      this.on.node,
+      this.volts.map((f) => f.node),
+      this.since.node,
+    );
   }
 
   /** @param {Design} design */
@@ -167,10 +360,34 @@ export class DisturbancePart {
 export class AccuracyPart {
   /** @param {ScenarioFields} fields */
   constructor(fields) {
-    this.tolerance = h('select', { 'data-testid': 'experiment-tolerance', 'data-field': 'scenario.rtol', onchange: () => fields.edit((s) => withOption(s, { rtol: Number(this.tolerance.value) })) },
-      TOLERANCES.map(([value, text]) => h('option', { value }, text)));
-    this.node = h('div', { class: 'row foot' }, h('label', { class: 'select', title: 'relative tolerance of the adaptive integration; where a finer one changes the picture, the picture was wrong' }, 'tolerance', this.tolerance),
-      h('span', { class: 'aside' }, 'Linear responses use only the start angles; limits, stops, sampling and disturbances are left out.'));
+    this.tolerance = h(
+      'select',
+      {
+        'data-testid': 'experiment-tolerance',
+        'data-field': 'scenario.rtol',
+        onchange: () => fields.edit((s) => withOption(s, { rtol: Number(this.tolerance.value) })),
+      },
+      TOLERANCES.map(([value, text]) => h('option', { value }, text)),
+    );
+    this.node = h(
+      'div',
+      { class: 'row foot' },
+      h(
+        'label',
+        {
+          class: 'select',
+          title:
+            'relative tolerance of the adaptive integration; where a finer one changes the picture, the picture was wrong',
+        },
+        'tolerance',
+        this.tolerance,
+      ),
+      h(
+        'span',
+        { class: 'aside' },
+        'Linear responses use only the start angles; limits, stops, sampling and disturbances are left out.',
+      ),
+    );
   }
 
   /** @param {Design} design */

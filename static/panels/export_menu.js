@@ -10,7 +10,13 @@ const READ_MS = 60_000; // by then a tab has read its page
 
 /** @param {import('../model/store.js').Store} store @param {import('../link/address.js').Address} address */
 export function exportMenu(store, address) {
-  return popupButton({ label: 'Export this design as a file', text: h('span', { class: 'export' }, icon('save'), h('span', { class: 'word' }, 'Export')), testid: 'export', kind: '', content: () => menu(store, address) });
+  return popupButton({
+    label: 'Export this design as a file',
+    text: h('span', { class: 'export' }, icon('save'), h('span', { class: 'word' }, 'Export')),
+    testid: 'export',
+    kind: '',
+    content: () => menu(store, address),
+  });
 }
 
 /** @param {import('../model/store.js').Store} store @param {import('../link/address.js').Address} address */
@@ -22,7 +28,10 @@ function menu(store, address) {
     if (!design) return null;
     setText(told, say`Making ${filename}…`);
     try {
-      return await exportDesign(name, `${location.origin}${location.pathname}${location.search}${address.link}`, { ...bodyOf(design), scenario: scenarioOf(design) });
+      return await exportDesign(name, `${location.origin}${location.pathname}${location.search}${address.link}`, {
+        ...bodyOf(design),
+        scenario: scenarioOf(design),
+      });
     } catch (error) {
       setText(told, error instanceof Error ? error.message : String(error));
       return null;
@@ -39,14 +48,54 @@ function menu(store, address) {
   async function open(format) {
     const tab = window.open('', '_blank'); // at once: later the browser would take it for an advertisement
     const file = await made(format);
-    if (!file || !tab) return tab ? tab.close() : file && setText(told, 'The browser blocked the new tab. Save the report instead.');
+    if (!file || !tab)
+      return tab ? tab.close() : file && setText(told, 'The browser blocked the new tab. Save the report instead.');
     const url = URL.createObjectURL(file);
     tab.location.href = url;
     setTimeout(() => URL.revokeObjectURL(url), READ_MS);
     setText(told, 'The report is open in a new tab.');
   }
-  const button = (/** @type {Export} */ format) => h('button', { type: 'button', title: format.about, 'aria-label': `${format.label}: ${format.about}`, 'data-testid': `export-${format.name}`, onclick: () => save(format) }, format.label);
-  const rows = EXPORTS.map(({ group, formats }) => h('tr', {}, h('th', { scope: 'row' }, group), h('td', {}, h('span', { class: 'row' }, formats.map(button),
-    formats.filter(({ opens }) => opens).map((format) => h('button', { type: 'button', title: 'Open it in a new tab, to read or to print', 'data-testid': `open-${format.name}`, onclick: () => open(format) }, 'Open'))))));
+  const button = (/** @type {Export} */ format) =>
+    h(
+      'button',
+      {
+        type: 'button',
+        title: format.about,
+        'aria-label': `${format.label}: ${format.about}`,
+        'data-testid': `export-${format.name}`,
+        onclick: () => save(format),
+      },
+      format.label,
+    );
+  const rows = EXPORTS.map(({ group, formats }) =>
+    h(
+      'tr',
+      {},
+      h('th', { scope: 'row' }, group),
+      h(
+        'td',
+        {},
+        h(
+          'span',
+          { class: 'row' },
+          formats.map(button),
+          formats
+            .filter(({ opens }) => opens)
+            .map((format) =>
+              h(
+                'button',
+                {
+                  type: 'button',
+                  title: 'Open it in a new tab, to read or to print',
+                  'data-testid': `open-${format.name}`,
+                  onclick: () => open(format),
+                },
+                'Open',
+              ),
+            ),
+        ),
+      ),
+    ),
+  );
   return [h('h3', {}, 'Export this design'), h('table', { class: 'copy-menu' }, h('tbody', {}, rows)), told];
 }

@@ -13,18 +13,36 @@ const CAUSES = ['slow_sampling', 'fast_tracking', 'unlike_linear'];
 
 /** The requirements that the steps miss, in words; empty where they are met or none is asked. @param {import('../types.js').State} state */
 function missedWords({ reply, requirements }) {
-  const [pitch, yaw] = AXES.map((axis) => verdictOf(reply, axis, requirements)).map((v) => (v?.met === false ? v.text : ''));
+  const [pitch, yaw] = AXES.map((axis) => verdictOf(reply, axis, requirements)).map((v) =>
+    v?.met === false ? v.text : '',
+  );
   if (pitch && yaw) return say`Requirements missed: the pitch step ${pitch}; the yaw step ${yaw}.`;
-  return pitch ? say`Requirement missed: the pitch step ${pitch}.` : yaw ? say`Requirement missed: the yaw step ${yaw}.` : '';
+  return pitch
+    ? say`Requirement missed: the pitch step ${pitch}.`
+    : yaw
+      ? say`Requirement missed: the yaw step ${yaw}.`
+      : '';
 }
 
 /** @param {import('../types.js').State} state @returns {import('../types.js').Finding[]} */
 export function findingsOf(state) {
   const { reply, problem } = state;
-  if (problem) return [{ code: problem.code ?? 'refused', severity: 'error', message: [problem.detail ?? problem.title ?? 'The server refused this design.', problem.hint].filter(Boolean).join(' ') }];
+  if (problem)
+    return [
+      {
+        code: problem.code ?? 'refused',
+        severity: 'error',
+        message: [problem.detail ?? problem.title ?? 'The server refused this design.', problem.hint]
+          .filter(Boolean)
+          .join(' '),
+      },
+    ];
   const missed = missedWords(state);
-  const own = /** @type {import('../types.js').Finding[]} */ (missed ? [{ code: 'requirement_missed', severity: 'warning', message: missed }] : []);
-  const rank = (/** @type {import('../types.js').Finding} */ f) => (RANK[f.severity] ?? 3) - (CAUSES.includes(f.code) ? 0.5 : 0);
+  const own = /** @type {import('../types.js').Finding[]} */ (
+    missed ? [{ code: 'requirement_missed', severity: 'warning', message: missed }] : []
+  );
+  const rank = (/** @type {import('../types.js').Finding} */ f) =>
+    (RANK[f.severity] ?? 3) - (CAUSES.includes(f.code) ? 0.5 : 0);
   return [...own, ...(reply?.findings ?? [])].sort((a, b) => rank(a) - rank(b));
 }
 
@@ -37,13 +55,31 @@ export class FindingsPanel {
     this.icon = h('span', { class: 'icon', 'aria-hidden': 'true' });
     this.word = h('strong');
     this.detail = h('span', { class: 'detail' });
-    this.verdict = h('div', { class: 'verdict', 'data-testid': 'verdict', role: 'status' }, this.icon, h('div', {}, this.word, this.detail));
+    this.verdict = h(
+      'div',
+      { class: 'verdict', 'data-testid': 'verdict', role: 'status' },
+      this.icon,
+      h('div', {}, this.word, this.detail),
+    );
     this.list = h('ul', { class: 'list', 'aria-live': 'polite' });
     this.all = h('ul', { class: 'all', hidden: true, id: 'all-findings' });
-    this.more = h('button', { type: 'button', class: 'more', hidden: true, 'aria-expanded': 'false', 'aria-controls': 'all-findings', onclick: () => this.#toggle(Boolean(this.all.hidden)) });
-    root.append(this.verdict, h('div', { class: 'findings', 'data-testid': 'findings' }, this.list, this.more, this.all));
+    this.more = h('button', {
+      type: 'button',
+      class: 'more',
+      hidden: true,
+      'aria-expanded': 'false',
+      'aria-controls': 'all-findings',
+      onclick: () => this.#toggle(Boolean(this.all.hidden)),
+    });
+    root.append(
+      this.verdict,
+      h('div', { class: 'findings', 'data-testid': 'findings' }, this.list, this.more, this.all),
+    );
     root.addEventListener('keydown', (e) => e.key === 'Escape' && this.#toggle(false));
-    document.addEventListener('pointerdown', (e) => !root.contains(/** @type {Node} */ (e.target)) && this.#toggle(false));
+    document.addEventListener(
+      'pointerdown',
+      (e) => !root.contains(/** @type {Node} */ (e.target)) && this.#toggle(false),
+    );
   }
 
   /** @param {boolean} open */
@@ -61,9 +97,19 @@ export class FindingsPanel {
   /** @param {import('../types.js').Finding} f */
   #item(f) {
     const severity = f.severity in ICON ? f.severity : 'info';
-    const words = [h('span', { class: 'icon', 'aria-hidden': 'true' }, ICON[severity]), h('span', { class: 'sr' }, `${t(WORD[severity])}: `), h('span', { class: 'message' }, f.message)];
+    const words = [
+      h('span', { class: 'icon', 'aria-hidden': 'true' }, ICON[severity]),
+      h('span', { class: 'sr' }, `${t(WORD[severity])}: `),
+      h('span', { class: 'message' }, f.message),
+    ];
     const place = placeOf(f.code, this.store.state);
-    const lead = place ? h('button', { type: 'button', class: 'finding', title: say`${f.message} Go there.`, onclick: () => this.#lead(f.code) }, words) : words;
+    const lead = place
+      ? h(
+          'button',
+          { type: 'button', class: 'finding', title: say`${f.message} Go there.`, onclick: () => this.#lead(f.code) },
+          words,
+        )
+      : words;
     return h('li', { class: severity, title: place ? undefined : f.message, 'data-code': f.code }, lead);
   }
 
@@ -79,16 +125,30 @@ export class FindingsPanel {
     this.verdict.className = `verdict ${kind}${uneasy ? ' uneasy' : ''}`;
     setText(this.icon, uneasy ? ICON.warning : { refused: '!', waiting: '…', stable: '✓', unstable: '✕' }[kind]);
     setText(this.word, { refused: 'Not computed', waiting: 'Waiting', stable: 'Stable', unstable: 'Unstable' }[kind]);
-    setText(this.detail, problem && reply ? 'figures: last computed design' : !reply || problem ? '' : reply.stable ? say`slowest of ${poles.length} poles at Re ${fixed(worst)}` : say`worst of ${reply.loop_poles.length} poles at Re ${fixed(worst)}`);
+    setText(
+      this.detail,
+      problem && reply
+        ? 'figures: last computed design'
+        : !reply || problem
+          ? ''
+          : reply.stable
+            ? say`slowest of ${poles.length} poles at Re ${fixed(worst)}`
+            : say`worst of ${reply.loop_poles.length} poles at Re ${fixed(worst)}`,
+    );
 
-    const calm = state.design?.scenario.saturation === false ? 'No warnings. Voltage limits are off in this experiment.' : 'No warnings. Motor voltages stay within their limits.';
+    const calm =
+      state.design?.scenario.saturation === false
+        ? 'No warnings. Voltage limits are off in this experiment.'
+        : 'No warnings. Motor voltages stay within their limits.';
     const key = JSON.stringify([kind, findings, calm]);
     if (key === this.#key) return;
     this.#key = key;
     const none = h('li', { class: 'none' }, h('span', { class: 'message' }, reply ? calm : ''));
     this.list.replaceChildren(...(findings.length ? findings.slice(0, SHOWN).map((f) => this.#item(f)) : [none]));
     this.all.replaceChildren(...findings.map((f) => this.#item(f)));
-    const cut = [...this.list.querySelectorAll('.message')].some((m) => m.scrollHeight > m.clientHeight + 1 || m.scrollWidth > m.clientWidth + 1);
+    const cut = [...this.list.querySelectorAll('.message')].some(
+      (m) => m.scrollHeight > m.clientHeight + 1 || m.scrollWidth > m.clientWidth + 1,
+    );
     this.more.hidden = findings.length <= SHOWN && !cut;
     setText(this.more, findings.length > SHOWN ? say`${findings.length - SHOWN} more` : 'Read all');
     if (this.more.hidden) this.#toggle(false);

@@ -12,23 +12,61 @@ export class HeaderPanel {
   /** @param {HTMLElement} root @param {import('../model/store.js').Store} store @param {import('../link/address.js').Address} address @param {{tour: (from: HTMLElement) => void, projector: import('../ui/projector.js').Projector}} aids */
   constructor(root, store, address, { tour, projector }) {
     this.store = store;
-    this.select = h('select', { 'data-testid': 'preset', 'aria-label': 'Rig and parameter set', onchange: () => this.#choose() });
+    this.select = h('select', {
+      'data-testid': 'preset',
+      'aria-label': 'Rig and parameter set',
+      onchange: () => this.#choose(),
+    });
     this.source = h('span', { class: 'source', 'data-testid': 'source' });
-    const button = (/** @type {string} */ id, /** @type {string} */ text, /** @type {string} */ title, /** @type {() => void} */ act) =>
-      h('button', { type: 'button', 'data-testid': id, title, onclick: act }, text);
+    const button = (
+      /** @type {string} */ id,
+      /** @type {string} */ text,
+      /** @type {string} */ title,
+      /** @type {() => void} */ act,
+    ) => h('button', { type: 'button', 'data-testid': id, title, onclick: act }, text);
     this.undo = button('undo', 'Undo', 'Undo (Ctrl+Z)', () => store.undo());
     this.redo = button('redo', 'Redo', 'Redo (Ctrl+Shift+Z)', () => store.redo());
-    this.reset = button('reset', 'Reset', "Back to this preset's parameters, poles, loops and steps", () => this.#reset());
-    this.pin = button('pin', 'Pin', 'Keep this design beside those that follow: its poles, responses and figures', () => store.pin());
+    this.reset = button('reset', 'Reset', "Back to this preset's parameters, poles, loops and steps", () =>
+      this.#reset(),
+    );
+    this.pin = button('pin', 'Pin', 'Keep this design beside those that follow: its poles, responses and figures', () =>
+      store.pin(),
+    );
     this.rig = new RigPanel(store);
     this.tour = button('tour-open', 'Tour', 'Five hints on what can be done here', () => tour(this.tour));
-    this.projector = button('projector', 'Aa', 'Projector: large type and thick lines', () => this.projector.setAttribute('aria-pressed', String(projector.toggle())));
+    this.projector = button('projector', 'Aa', 'Projector: large type and thick lines', () =>
+      this.projector.setAttribute('aria-pressed', String(projector.toggle())),
+    );
     this.projector.setAttribute('aria-pressed', String(projector.on));
     setAttr(this.projector, 'aria-label', 'Projector mode');
     this.share = new ShareButtons(store, address);
     this.locked = h('span', { class: 'locked', hidden: true, 'data-testid': 'locked' });
-    this.status = h('span', { class: 'connection', role: 'status', 'data-testid': 'connection' }, h('span', { class: 'dot', 'aria-hidden': 'true' }), (this.word = h('span')), (this.kept = h('span', { class: 'kept', hidden: true }, 'your changes are kept')));
-    root.append(h('div', { class: 'rig' }, this.select, this.rig.node, this.locked, this.source), h('div', { class: 'buttons' }, this.undo, this.redo, this.reset, this.pin, this.share.node, exportMenu(store, address), h('a', { class: 'button', href: '#compare', title: 'Methods side by side' }, 'Compare'), h('a', { class: 'button', href: '#formulas' }, 'Formulas'), h('a', { class: 'button', href: '#paper', title: 'The paper, step by step' }, 'Paper'), this.tour, this.projector), this.status);
+    this.status = h(
+      'span',
+      { class: 'connection', role: 'status', 'data-testid': 'connection' },
+      h('span', { class: 'dot', 'aria-hidden': 'true' }),
+      (this.word = h('span')),
+      (this.kept = h('span', { class: 'kept', hidden: true }, 'your changes are kept')),
+    );
+    root.append(
+      h('div', { class: 'rig' }, this.select, this.rig.node, this.locked, this.source),
+      h(
+        'div',
+        { class: 'buttons' },
+        this.undo,
+        this.redo,
+        this.reset,
+        this.pin,
+        this.share.node,
+        exportMenu(store, address),
+        h('a', { class: 'button', href: '#compare', title: 'Methods side by side' }, 'Compare'),
+        h('a', { class: 'button', href: '#formulas' }, 'Formulas'),
+        h('a', { class: 'button', href: '#paper', title: 'The paper, step by step' }, 'Paper'),
+        this.tour,
+        this.projector,
+      ),
+      this.status,
+    );
     document.addEventListener('keydown', (e) => this.#key(e));
   }
 
@@ -57,7 +95,8 @@ export class HeaderPanel {
   render(state) {
     const { presets, design, connection, canUndo, canRedo, locks } = state;
     this.rig.render(state);
-    if (this.select.options.length !== presets.length) this.select.replaceChildren(...presets.map((p) => h('option', { value: p.name, title: p.source }, p.title)));
+    if (this.select.options.length !== presets.length)
+      this.select.replaceChildren(...presets.map((p) => h('option', { value: p.name, title: p.source }, p.title)));
     if (design) this.select.value = design.preset;
     const source = presetOf({ presets, design })?.source ?? '';
     setText(this.source, source);

@@ -7,7 +7,8 @@ const usable = (node) => node.checkVisibility?.() !== false && !(/** @type {HTML
 export function leadTo(selector, page = document) {
   /** @type {HTMLElement|SVGElement|null} */ let node = selector ? page.querySelector(selector) : null;
   if (!node) return false;
-  for (let outer = node.closest('details'); outer; outer = outer.parentElement?.closest('details') ?? null) outer.open = true;
+  for (let outer = node.closest('details'); outer; outer = outer.parentElement?.closest('details') ?? null)
+    outer.open = true;
   if (!usable(node)) {
     node = /** @type {HTMLElement|null} */ (node.closest('.panel, .plot, section'));
     if (!node) return false;

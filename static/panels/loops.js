@@ -12,8 +12,25 @@ const optionsOf = (options) => options.map(([value, name, title]) => h('option',
 /** @param {import('../types.js').Method[]} methods */
 const groupsOf = (methods) => [
   h('optgroup', { label: 'Full-rank' }, optionsOf(STRUCTURES)),
-  h('optgroup', { label: 'Other methods' }, methods.filter((m) => m.name !== FULL_RANK).map((m) =>
-    h('option', { value: m.name, disabled: !m.available, title: m.available ? `${m.title}: ${m.source}` : `${m.title} needs the package ${m.needs ?? ''}, which this server has not` }, nameOf({ method: m.name, title: m.title })))),
+  h(
+    'optgroup',
+    { label: 'Other methods' },
+    methods
+      .filter((m) => m.name !== FULL_RANK)
+      .map((m) =>
+        h(
+          'option',
+          {
+            value: m.name,
+            disabled: !m.available,
+            title: m.available
+              ? `${m.title}: ${m.source}`
+              : `${m.title} needs the package ${m.needs ?? ''}, which this server has not`,
+          },
+          nameOf({ method: m.name, title: m.title }),
+        ),
+      ),
+  ),
 ];
 
 export class LoopsPanel {
@@ -24,21 +41,64 @@ export class LoopsPanel {
   /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
     this.store = store;
-    this.outer = new Choice({ label: 'Outer loop', testid: 'outer', onChange: (v) => this.#set({ outer: /** @type {any} */ (v) }),
-      options: [['none', 'Inner loop alone', 'v = Ĝ(0)⁻¹ r: the placed poles, and no others'], ['pi', 'PI loops', 'a PI controller on each axis, which moves the placed poles']] });
-    this.suggest = h('button', { type: 'button', 'data-testid': 'suggest-pi', title: 'Suggest PI values that suit these poles', 'aria-label': 'Suggest PI for these poles', onclick: () => this.#suggest() }, 'Suggest PI');
+    this.outer = new Choice({
+      label: 'Outer loop',
+      testid: 'outer',
+      onChange: (v) => this.#set({ outer: /** @type {any} */ (v) }),
+      options: [
+        ['none', 'Inner loop alone', 'v = Ĝ(0)⁻¹ r: the placed poles, and no others'],
+        ['pi', 'PI loops', 'a PI controller on each axis, which moves the placed poles'],
+      ],
+    });
+    this.suggest = h(
+      'button',
+      {
+        type: 'button',
+        'data-testid': 'suggest-pi',
+        title: 'Suggest PI values that suit these poles',
+        'aria-label': 'Suggest PI for these poles',
+        onclick: () => this.#suggest(),
+      },
+      'Suggest PI',
+    );
     this.note = h('p', { class: 'note', 'data-testid': 'loops-note', 'aria-live': 'polite' });
     this.method = this.#select('Method', 'method', [], partOf);
-    this.pairing = this.#select('Pairing', 'pairing', [['diagonal', 'diagonal', 'pitch error to the pitch motor'], ['cross', 'crosswise', 'pitch error to the yaw motor']], (value) => ({ pairing: /** @type {any} */ (value) }));
-    this.decoupler = h('input', { type: 'checkbox', 'data-testid': 'decoupler', 'data-field': 'decoupler', onchange: () => this.#set({ decoupler: this.decoupler.checked }) });
+    this.pairing = this.#select(
+      'Pairing',
+      'pairing',
+      [
+        ['diagonal', 'diagonal', 'pitch error to the pitch motor'],
+        ['cross', 'crosswise', 'pitch error to the yaw motor'],
+      ],
+      (value) => ({ pairing: /** @type {any} */ (value) }),
+    );
+    this.decoupler = h('input', {
+      type: 'checkbox',
+      'data-testid': 'decoupler',
+      'data-field': 'decoupler',
+      onchange: () => this.#set({ decoupler: this.decoupler.checked }),
+    });
     this.axes = AXES.map((axis) => this.#axis(axis));
     for (const event of ['pointerdown', 'keydown']) document.addEventListener(event, () => setText(this.note, ''));
     root.append(
       h('div', { class: 'row spread' }, this.outer.node, this.suggest),
-      h('div', { class: 'pis' }, this.axes.map((a) => a.node)),
+      h(
+        'div',
+        { class: 'pis' },
+        this.axes.map((a) => a.node),
+      ),
       h('div', { class: 'row advanced' }, this.method.node),
-      h('div', { class: 'row advanced' }, this.pairing.node,
-        h('label', { class: 'check', title: 'static decoupler Ĝ(0)⁻¹ between the PI loops and the motors' }, this.decoupler, 'decoupler')),
+      h(
+        'div',
+        { class: 'row advanced' },
+        this.pairing.node,
+        h(
+          'label',
+          { class: 'check', title: 'static decoupler Ĝ(0)⁻¹ between the PI loops and the motors' },
+          this.decoupler,
+          'decoupler',
+        ),
+      ),
       this.note,
     );
   }
@@ -50,21 +110,49 @@ export class LoopsPanel {
 
   /** @param {string} text @param {string} key @param {string[][]} options value, name, explanation @param {(value: string) => Partial<import('../types.js').Design>} read */
   #select(text, key, options, read) {
-    const select = h('select', { 'data-testid': key, 'data-field': key, onchange: () => this.#set(read(select.value)) }, optionsOf(options));
+    const select = h(
+      'select',
+      { 'data-testid': key, 'data-field': key, onchange: () => this.#set(read(select.value)) },
+      optionsOf(options),
+    );
     return { select, node: h('label', { class: 'select' }, h('span', {}, text), select) };
   }
 
   /** @param {Axis} axis */
   #axis(axis) {
-    const field = (/** @type {'kp'|'ti'} */ key, /** @type {Node} */ mark, /** @type {string} */ unit, /** @type {string} */ words, /** @type {{min: number, max: number, log: true}} */ slider) =>
+    const field = (
+      /** @type {'kp'|'ti'} */ key,
+      /** @type {Node} */ mark,
+      /** @type {string} */ unit,
+      /** @type {string} */ words,
+      /** @type {{min: number, max: number, log: true}} */ slider,
+    ) =>
       new NumberField({
-        label: `${axis} ${words}`, mark, unit, testid: `${key}-${axis}`, field: `loops.${axis}.${key}`, min: key === 'kp' ? 0 : 1e-4, max: 1e5, positive: key === 'ti', slider,
-        onInput: (v, stamp) => this.store.edit((d) => ({ ...d, loops: { ...d.loops, [axis]: { ...d.loops[axis], [key]: v } } }), { gesture: `${key}-${axis}`, stamp }),
+        label: `${axis} ${words}`,
+        mark,
+        unit,
+        testid: `${key}-${axis}`,
+        field: `loops.${axis}.${key}`,
+        min: key === 'kp' ? 0 : 1e-4,
+        max: 1e5,
+        positive: key === 'ti',
+        slider,
+        onInput: (v, stamp) =>
+          this.store.edit((d) => ({ ...d, loops: { ...d.loops, [axis]: { ...d.loops[axis], [key]: v } } }), {
+            gesture: `${key}-${axis}`,
+            stamp,
+          }),
         onCommit: () => this.store.commit(),
       });
     const kp = field('kp', symbol('k', 'p'), 'V/rad', 'proportional gain', { min: 0.5, max: 200, log: true });
     const ti = field('ti', symbol('T', 'i'), 's', 'integral time', { min: 0.01, max: 10, log: true });
-    const node = h('fieldset', { class: `pi ${axis}` }, h('legend', {}, h('span', { class: `shape ${axis}`, 'aria-hidden': 'true' }), `${axis} PI`), kp.node, ti.node);
+    const node = h(
+      'fieldset',
+      { class: `pi ${axis}` },
+      h('legend', {}, h('span', { class: `shape ${axis}`, 'aria-hidden': 'true' }), `${axis} PI`),
+      kp.node,
+      ti.node,
+    );
     return { axis, kp, ti, node };
   }
 

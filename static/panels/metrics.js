@@ -1,5 +1,17 @@
 /** How well it does, in figures: one column for the step of each axis, from the nonlinear rig; the linear model's in parentheses where they differ. */
-import { brief, decibel, DEGREE, degrees, differs, fixed, percent, say, seconds, significant, t } from '../text/index.js';
+import {
+  brief,
+  decibel,
+  DEGREE,
+  degrees,
+  differs,
+  fixed,
+  percent,
+  say,
+  seconds,
+  significant,
+  t,
+} from '../text/index.js';
 import { AXES, verdictOf } from '../model/index.js';
 import { h, recall, remember, setAttr, setText, symbol } from '../ui/index.js';
 
@@ -56,58 +68,224 @@ export const notSettled = (m, axis) => (m?.[axis]?.settled === false ? t('not se
 
 /** @param {Motor} name @returns {Figure[]} */
 const motorRows = (name) => [
-  { id: name, group: 'motors', name: () => [symbol('V', name[2]), ' peak'], title: `Largest voltage of the ${name === 'V_p' ? 'pitch' : 'yaw'} motor, trim included; or the share of time at its limit. In parentheses what the linear model asks for.`,
-    text: volts, value: (m) => motor(m, name).peak, least: 0.5, linear: (step) => linearPeak(step, name), most: (m) => limitText(m, name) },
-  { id: `effort-${name}`, group: 'motors', more: true, name: () => [symbol('V', name[2]), ' effort, V²s'], title: '∫ (V − V_trim)² dt over the time shown: what control costs beyond holding still; the inputs’ part of the quadratic cost (Anderson and Moore, Optimal Control, 1990)',
-    text: effort, value: (m) => motor(m, name).effort, least: 0.05 },
+  {
+    id: name,
+    group: 'motors',
+    name: () => [symbol('V', name[2]), ' peak'],
+    title: `Largest voltage of the ${name === 'V_p' ? 'pitch' : 'yaw'} motor, trim included; or the share of time at its limit. In parentheses what the linear model asks for.`,
+    text: volts,
+    value: (m) => motor(m, name).peak,
+    least: 0.5,
+    linear: (step) => linearPeak(step, name),
+    most: (m) => limitText(m, name),
+  },
+  {
+    id: `effort-${name}`,
+    group: 'motors',
+    more: true,
+    name: () => [symbol('V', name[2]), ' effort, V²s'],
+    title:
+      '∫ (V − V_trim)² dt over the time shown: what control costs beyond holding still; the inputs’ part of the quadratic cost (Anderson and Moore, Optimal Control, 1990)',
+    text: effort,
+    value: (m) => motor(m, name).effort,
+    least: 0.05,
+  },
 ];
 
 /** @type {Figure[]} */
 const FIGURES = [
-  { id: 'rise', group: 'response', name: () => ['Rise time'], title: `Time from 10 % to 90 % of the step (${OGATA})`, text: seconds, value: (m, a) => m?.[a]?.rise_time, least: 0.01 },
-  { id: 'settling', group: 'response', name: () => ['Settling time'], title: `Time after which the angle stays within 2 % of the step around its reference (${OGATA})`, text: seconds, value: (m, a) => m?.[a]?.settling_time, least: 0.01, most: notSettled },
-  { id: 'overshoot', group: 'response', name: () => ['Overshoot'], title: `Largest excess beyond the reference, in percent of the step (${OGATA})`, text: (v) => (v === undefined ? '–' : `${fixed(v, 1)} %`), value: (m, a) => m?.[a]?.overshoot, least: 1 },
-  { id: 'undershoot', group: 'response', more: true, name: () => ['Undershoot'], title: 'Largest excursion from the start away from the reference, in percent of the step (Skogestad and Postlethwaite, Multivariable Feedback Control, 2005, section 5.6)', text: (v) => (v === undefined ? '–' : `${fixed(v, 1)} %`), value: (m, a) => m?.[a]?.undershoot, least: 1 },
-  { id: 'error', group: 'response', name: () => ['Error at the end'], title: 'Reference minus the last angle shown', text: (v) => degrees(v, 2), value: (m, a) => m?.[a]?.steady_state_error, least: 1e-3 },
-  { id: 'coupling', group: 'response', name: () => ['Other axis moves'], title: 'Largest deviation of the axis that is not stepped', text: (v) => degrees(v, 2), value: (m) => m?.coupling_peak, least: 1e-3 },
-  { id: 'iae', group: 'response', more: true, name: () => ['IAE, °s'], title: `∫ |e| dt, integral of the absolute error over the time shown (${GRAHAM})`, text: angleTime, value: (m, a) => m?.[a]?.iae, least: 1e-4 },
-  { id: 'itae', group: 'response', more: true, name: () => ['ITAE, °s²'], title: `∫ t |e| dt, the absolute error weighted with time, over the time shown (${GRAHAM})`, text: angleTime, value: (m, a) => m?.[a]?.itae, least: 1e-4 },
-  ...motorRows('V_p'), ...motorRows('V_y'),
+  {
+    id: 'rise',
+    group: 'response',
+    name: () => ['Rise time'],
+    title: `Time from 10 % to 90 % of the step (${OGATA})`,
+    text: seconds,
+    value: (m, a) => m?.[a]?.rise_time,
+    least: 0.01,
+  },
+  {
+    id: 'settling',
+    group: 'response',
+    name: () => ['Settling time'],
+    title: `Time after which the angle stays within 2 % of the step around its reference (${OGATA})`,
+    text: seconds,
+    value: (m, a) => m?.[a]?.settling_time,
+    least: 0.01,
+    most: notSettled,
+  },
+  {
+    id: 'overshoot',
+    group: 'response',
+    name: () => ['Overshoot'],
+    title: `Largest excess beyond the reference, in percent of the step (${OGATA})`,
+    text: (v) => (v === undefined ? '–' : `${fixed(v, 1)} %`),
+    value: (m, a) => m?.[a]?.overshoot,
+    least: 1,
+  },
+  {
+    id: 'undershoot',
+    group: 'response',
+    more: true,
+    name: () => ['Undershoot'],
+    title:
+      'Largest excursion from the start away from the reference, in percent of the step (Skogestad and Postlethwaite, Multivariable Feedback Control, 2005, section 5.6)',
+    text: (v) => (v === undefined ? '–' : `${fixed(v, 1)} %`),
+    value: (m, a) => m?.[a]?.undershoot,
+    least: 1,
+  },
+  {
+    id: 'error',
+    group: 'response',
+    name: () => ['Error at the end'],
+    title: 'Reference minus the last angle shown',
+    text: (v) => degrees(v, 2),
+    value: (m, a) => m?.[a]?.steady_state_error,
+    least: 1e-3,
+  },
+  {
+    id: 'coupling',
+    group: 'response',
+    name: () => ['Other axis moves'],
+    title: 'Largest deviation of the axis that is not stepped',
+    text: (v) => degrees(v, 2),
+    value: (m) => m?.coupling_peak,
+    least: 1e-3,
+  },
+  {
+    id: 'iae',
+    group: 'response',
+    more: true,
+    name: () => ['IAE, °s'],
+    title: `∫ |e| dt, integral of the absolute error over the time shown (${GRAHAM})`,
+    text: angleTime,
+    value: (m, a) => m?.[a]?.iae,
+    least: 1e-4,
+  },
+  {
+    id: 'itae',
+    group: 'response',
+    more: true,
+    name: () => ['ITAE, °s²'],
+    title: `∫ t |e| dt, the absolute error weighted with time, over the time shown (${GRAHAM})`,
+    text: angleTime,
+    value: (m, a) => m?.[a]?.itae,
+    least: 1e-4,
+  },
+  ...motorRows('V_p'),
+  ...motorRows('V_y'),
 ];
 
 /** @type {Robustness[]} */
 const ROBUSTNESS = [
-  { id: 'margin', group: 'robustness', name: () => ['Gain · phase margin'], title: 'Smallest factor on this axis’ own motor, and smallest phase change there, that make the loop unstable, everything else closed (Ogata, Modern Control Engineering, 2010, section 7.7)',
-    margin: (g) => (g?.gain_margin === undefined && g?.phase_margin === undefined ? '–' : `${g.gain_margin === undefined ? '∞' : decibel(g.gain_margin)} · ${degrees(g.phase_margin, 0)}`) },
-  { id: 'delay', group: 'robustness', name: () => ['Delay margin'], title: 'Smallest dead time at this axis’ own motor that makes the loop unstable: phase margin over crossover frequency', margin: (g) => seconds(g?.delay_margin) },
-  { id: 'disk', group: 'robustness', more: true, name: () => ['Disk margin'], title: 'Size α of the disks of gain and phase changes, at both motors at once and independent of each other, that the loop tolerates (Seiler, Packard and Gahinet, IEEE Control Systems 40 (2020) 78)',
-    both: (s) => `${fixed(s.disk_margin)}: × ${fixed(s.gain_low)} to ${s.gain_high === undefined ? '∞' : fixed(s.gain_high)}, ± ${degrees(s.phase, 0)}` },
-  { id: 'sensitivity', group: 'robustness', more: true, name: () => ['Sensitivity peak'], title: 'Largest singular value of S(jω) over all frequencies, at the motors: its inverse is the distance to instability under an additive change of the loop (Skogestad and Postlethwaite, Multivariable Feedback Control, 2005, section 2.4.3)',
-    both: (s) => (s.peak < 1.005 ? fixed(s.peak) : `${fixed(s.peak)} at ${significant(s.peak_frequency, 3)} rad/s`) },
+  {
+    id: 'margin',
+    group: 'robustness',
+    name: () => ['Gain · phase margin'],
+    title:
+      'Smallest factor on this axis’ own motor, and smallest phase change there, that make the loop unstable, everything else closed (Ogata, Modern Control Engineering, 2010, section 7.7)',
+    margin: (g) =>
+      g?.gain_margin === undefined && g?.phase_margin === undefined
+        ? '–'
+        : `${g.gain_margin === undefined ? '∞' : decibel(g.gain_margin)} · ${degrees(g.phase_margin, 0)}`,
+  },
+  {
+    id: 'delay',
+    group: 'robustness',
+    name: () => ['Delay margin'],
+    title:
+      'Smallest dead time at this axis’ own motor that makes the loop unstable: phase margin over crossover frequency',
+    margin: (g) => seconds(g?.delay_margin),
+  },
+  {
+    id: 'disk',
+    group: 'robustness',
+    more: true,
+    name: () => ['Disk margin'],
+    title:
+      'Size α of the disks of gain and phase changes, at both motors at once and independent of each other, that the loop tolerates (Seiler, Packard and Gahinet, IEEE Control Systems 40 (2020) 78)',
+    both: (s) =>
+      `${fixed(s.disk_margin)}: × ${fixed(s.gain_low)} to ${s.gain_high === undefined ? '∞' : fixed(s.gain_high)}, ± ${degrees(s.phase, 0)}`,
+  },
+  {
+    id: 'sensitivity',
+    group: 'robustness',
+    more: true,
+    name: () => ['Sensitivity peak'],
+    title:
+      'Largest singular value of S(jω) over all frequencies, at the motors: its inverse is the distance to instability under an additive change of the loop (Skogestad and Postlethwaite, Multivariable Feedback Control, 2005, section 2.4.3)',
+    both: (s) => (s.peak < 1.005 ? fixed(s.peak) : `${fixed(s.peak)} at ${significant(s.peak_frequency, 3)} rad/s`),
+  },
 ];
 
 /** The disk margin in words. @param {Reply['sensitivity']} s */
-const bothMotors = (s) => (s ? say`both motors at once: gains × ${fixed(s.gain_low)} to ${s.gain_high === undefined ? '∞' : fixed(s.gain_high)}, phases ± ${degrees(s.phase, 0)} (disk margin ${fixed(s.disk_margin)}); sensitivity peak ${fixed(s.peak)}` : '');
+const bothMotors = (s) =>
+  s
+    ? say`both motors at once: gains × ${fixed(s.gain_low)} to ${s.gain_high === undefined ? '∞' : fixed(s.gain_high)}, phases ± ${degrees(s.phase, 0)} (disk margin ${fixed(s.disk_margin)}); sensitivity peak ${fixed(s.peak)}`
+    : '';
 
 /** @param {{id: string, more?: boolean, name: () => (Node|string)[], title: string}} row @param {HTMLElement[]} cells */
-const tableRow = ({ more, name, title }, cells) => h('tr', { class: more ? 'more-figures' : undefined }, h('th', { scope: 'row', title }, name()), cells);
+const tableRow = ({ more, name, title }, cells) =>
+  h('tr', { class: more ? 'more-figures' : undefined }, h('th', { scope: 'row', title }, name()), cells);
 
 export class MetricsPanel {
   /** @param {HTMLElement} root */
   constructor(root) {
     this.root = root;
-    this.figures = FIGURES.map((row) => AXES.map((axis) => {
-      const own = h('span', { 'data-testid': `metric-${row.id}-${axis}` });
-      const linear = h('span', { class: 'linear', title: 'the linear model, without limits', 'data-testid': `metric-${row.id}-${axis}-linear` });
-      return { own, linear, cell: h('td', {}, linear, own) };
-    }));
-    this.robustness = ROBUSTNESS.map((row) => (row.both ? [h('td', { colspan: 2, 'data-testid': `metric-${row.id}` })] : AXES.map((axis) => h('td', { 'data-testid': `metric-${row.id}-${axis}` }))));
-    this.key = h('span', { class: 'linear', title: 'in parentheses: the linear model, where it differs by more than 5 %' }, '(linear)');
-    this.more = h('button', { type: 'button', class: 'quiet', 'data-testid': 'more-figures', onclick: () => this.#show(!this.root.classList.contains('all-figures')) });
-    const rows = [...FIGURES.map((row, i) => ({ row, cells: this.figures[i].map((f) => f.cell) })), ...ROBUSTNESS.map((row, i) => ({ row, cells: this.robustness[i] }))];
-    root.append(h('table', { class: 'metrics', 'data-testid': 'metrics' },
-      h('thead', {}, h('tr', {}, h('td', {}, this.more, ' ', this.key), h('th', { scope: 'col' }, h('span', { class: 'shape pitch', 'aria-hidden': 'true' }), 'pitch step'), h('th', { scope: 'col' }, h('span', { class: 'shape yaw', 'aria-hidden': 'true' }), 'yaw step'))),
-      [...new Set(rows.map(({ row }) => row.group))].map((group) => h('tbody', {}, rows.filter(({ row }) => row.group === group).map(({ row, cells }) => tableRow(row, cells))))));
+    this.figures = FIGURES.map((row) =>
+      AXES.map((axis) => {
+        const own = h('span', { 'data-testid': `metric-${row.id}-${axis}` });
+        const linear = h('span', {
+          class: 'linear',
+          title: 'the linear model, without limits',
+          'data-testid': `metric-${row.id}-${axis}-linear`,
+        });
+        return { own, linear, cell: h('td', {}, linear, own) };
+      }),
+    );
+    this.robustness = ROBUSTNESS.map((row) =>
+      row.both
+        ? [h('td', { colspan: 2, 'data-testid': `metric-${row.id}` })]
+        : AXES.map((axis) => h('td', { 'data-testid': `metric-${row.id}-${axis}` })),
+    );
+    this.key = h(
+      'span',
+      { class: 'linear', title: 'in parentheses: the linear model, where it differs by more than 5 %' },
+      '(linear)',
+    );
+    this.more = h('button', {
+      type: 'button',
+      class: 'quiet',
+      'data-testid': 'more-figures',
+      onclick: () => this.#show(!this.root.classList.contains('all-figures')),
+    });
+    const rows = [
+      ...FIGURES.map((row, i) => ({ row, cells: this.figures[i].map((f) => f.cell) })),
+      ...ROBUSTNESS.map((row, i) => ({ row, cells: this.robustness[i] })),
+    ];
+    root.append(
+      h(
+        'table',
+        { class: 'metrics', 'data-testid': 'metrics' },
+        h(
+          'thead',
+          {},
+          h(
+            'tr',
+            {},
+            h('td', {}, this.more, ' ', this.key),
+            h('th', { scope: 'col' }, h('span', { class: 'shape pitch', 'aria-hidden': 'true' }), 'pitch step'),
+            h('th', { scope: 'col' }, h('span', { class: 'shape yaw', 'aria-hidden': 'true' }), 'yaw step'),
+          ),
+        ),
+        [...new Set(rows.map(({ row }) => row.group))].map((group) =>
+          h(
+            'tbody',
+            {},
+            rows.filter(({ row }) => row.group === group).map(({ row, cells }) => tableRow(row, cells)),
+          ),
+        ),
+      ),
+    );
     this.#show(recall(OPEN) === 'all');
   }
 
@@ -133,7 +311,7 @@ export class MetricsPanel {
         const ideal = row.linear ? row.linear(pair?.linear, axis) : row.value(pair?.linear.metrics, axis);
         const most = row.most?.(metrics, axis);
         const missed = (row.id === 'settling' || row.id === 'overshoot') && verdict?.[row.id] === true;
-        setText(own, missed ? `✕ ${most ?? row.text(value)}` : most ?? row.text(value));
+        setText(own, missed ? `✕ ${most ?? row.text(value)}` : (most ?? row.text(value)));
         setAttr(own, 'title', missed ? 'misses the requirement' : '');
         const beside = showLinear && ideal !== undefined && (most !== undefined || differs(value, ideal, row.least));
         setText(linear, beside ? `(${brief(row.text(ideal)).replace(/ [V%s]$/, '')})` : '');
@@ -142,7 +320,8 @@ export class MetricsPanel {
       const margin = reply.margins?.[axis === 'theta' ? 'pitch' : 'yaw'];
       ROBUSTNESS.forEach((row, i) => {
         if (row.margin) setText(this.robustness[i][j], row.margin(margin));
-        else if (row.both && j === 0) setText(this.robustness[i][0], reply.sensitivity ? row.both(reply.sensitivity) : '–');
+        else if (row.both && j === 0)
+          setText(this.robustness[i][0], reply.sensitivity ? row.both(reply.sensitivity) : '–');
         if (row.id === 'margin') setAttr(this.robustness[i][j], 'title', bothMotors(reply.sensitivity));
       });
     });

@@ -9,7 +9,12 @@ class Line {
   /** @param {string} name @param {() => void} dismiss */
   constructor(name, dismiss) {
     this.text = h('span', { role: 'status', 'data-testid': name });
-    this.node = h('div', { class: 'notice', hidden: true }, this.text, h('button', { type: 'button', 'data-testid': `${name}-close`, onclick: dismiss }, 'Dismiss'));
+    this.node = h(
+      'div',
+      { class: 'notice', hidden: true },
+      this.text,
+      h('button', { type: 'button', 'data-testid': `${name}-close`, onclick: dismiss }, 'Dismiss'),
+    );
   }
 
   /** @param {string|null} words */
@@ -29,7 +34,11 @@ export class Notice {
     this.root = root;
     this.link = new Line('notice', () => store.set({ notice: null }));
     this.fault = new Line('fault', () => store.set({ fault: null }));
-    this.stale = h('div', { class: 'notice', role: 'status', hidden: true, 'data-testid': 'stale' }, 'No connection: responses and figures show the last answer. Your changes are kept and sent when it returns.');
+    this.stale = h(
+      'div',
+      { class: 'notice', role: 'status', hidden: true, 'data-testid': 'stale' },
+      'No connection: responses and figures show the last answer. Your changes are kept and sent when it returns.',
+    );
     root.className = 'notices';
     root.append(this.stale, this.fault.node, this.link.node);
   }

@@ -21,8 +21,12 @@ export function pairingWords(reply, pairing) {
   if (!rga?.rga) return { level: 'info', text: 'A pole lies at 0: there is no steady state, so no RGA.' };
   const n = pairing === 'cross' ? rga.niederlinski_cross : rga.niederlinski;
   const told = pairing === 'diagonal' && /Niederlinski/.test(rga.reason ?? '');
-  const index = n === undefined || told ? '' : ` Niederlinski ${fixed(n)}${n > 0 ? '' : ': unstable with integral action'}.`;
-  const verdict = advised === pairing ? `${NAMES[pairing]} pairing is right` : `${advised === 'cross' ? 'Crosswise' : 'Diagonal'} pairing is advised`;
+  const index =
+    n === undefined || told ? '' : ` Niederlinski ${fixed(n)}${n > 0 ? '' : ': unstable with integral action'}.`;
+  const verdict =
+    advised === pairing
+      ? `${NAMES[pairing]} pairing is right`
+      : `${advised === 'cross' ? 'Crosswise' : 'Diagonal'} pairing is advised`;
   return { level: advised === pairing ? 'good' : 'warning', text: `${verdict}: ${rga.reason ?? ''}${index}` };
 }
 
@@ -31,9 +35,21 @@ export function copied({ reply, design }) {
   if (!reply || !design) return [];
   const { K, A, B } = reply.gains;
   /** @type {import('../ui/copy_formats.js').Item[]} */ const items = [{ ...GAIN, matrix: K }];
-  if (reply.rga?.rga) items.push({ name: 'RGA', note: 'relative gain array at s = 0, rows theta, psi, columns v_p, v_y', matrix: reply.rga.rga });
-  if (A && B) items.push({ name: 'A', note: 'dx/dt = A x + B u, x = [theta, psi, theta_dot, psi_dot]', matrix: A }, { name: 'B', note: 'u = [V_p, V_y], deviations from trim in V', matrix: B });
-  items.push({ name: 'poles', note: 'of A - B K, rad/s', poles: reply.gains.closed_loop_poles }, { name: 'loop_poles', note: 'of the whole loop, rad/s', poles: reply.loop_poles });
+  if (reply.rga?.rga)
+    items.push({
+      name: 'RGA',
+      note: 'relative gain array at s = 0, rows theta, psi, columns v_p, v_y',
+      matrix: reply.rga.rga,
+    });
+  if (A && B)
+    items.push(
+      { name: 'A', note: 'dx/dt = A x + B u, x = [theta, psi, theta_dot, psi_dot]', matrix: A },
+      { name: 'B', note: 'u = [V_p, V_y], deviations from trim in V', matrix: B },
+    );
+  items.push(
+    { name: 'poles', note: 'of A - B K, rad/s', poles: reply.gains.closed_loop_poles },
+    { name: 'loop_poles', note: 'of the whole loop, rad/s', poles: reply.loop_poles },
+  );
   return items;
 }
 
@@ -46,9 +62,20 @@ export class NumbersPanel {
     this.k = gainMatrix('k-matrix', () => copied(store.state));
     this.rga = relativeGains('rga-matrix');
     this.words = h('span', { class: 'pairing-words', 'data-testid': 'pairing-words' });
-    this.pair = h('button', { type: 'button', class: 'pair-advised', hidden: true, 'data-testid': 'pair-advised', title: 'Pairs as the RGA advises, with PI values that suit the new pairs', onclick: () => this.#pair() });
+    this.pair = h('button', {
+      type: 'button',
+      class: 'pair-advised',
+      hidden: true,
+      'data-testid': 'pair-advised',
+      title: 'Pairs as the RGA advises, with PI values that suit the new pairs',
+      onclick: () => this.#pair(),
+    });
     this.note = h('p', { class: 'note', 'data-testid': 'pairing-note', role: 'status' });
-    root.append(h('div', { class: 'matrices' }, this.k.node, this.rga.node), h('p', { class: 'advice' }, this.words, ' ', this.pair), this.note);
+    root.append(
+      h('div', { class: 'matrices' }, this.k.node, this.rga.node),
+      h('p', { class: 'advice' }, this.words, ' ', this.pair),
+      this.note,
+    );
   }
 
   /** The PI values belong to the pairing, so both change in one step; where none are found, the pairing alone. */

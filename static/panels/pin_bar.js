@@ -14,7 +14,11 @@ export class PinBar {
     this.root = root;
     this.store = store;
     this.list = h('div', { class: 'chips' });
-    root.append(h('span', { class: 'caption' }, 'Pinned'), this.list, h('a', { class: 'button', href: '#pins', 'data-testid': 'pins-link' }, 'Differences'));
+    root.append(
+      h('span', { class: 'caption' }, 'Pinned'),
+      this.list,
+      h('a', { class: 'button', href: '#pins', 'data-testid': 'pins-link' }, 'Differences'),
+    );
   }
 
   /** @param {import('../types.js').State} state */
@@ -22,11 +26,47 @@ export class PinBar {
     if (pins !== this.#pins) {
       this.#pins = pins;
       this.root.hidden = !pins.length;
-      this.#chips = pins.map((pin) => h('span', { class: `chip ${colorOf(pin.index)}`, 'data-testid': `pin-chip-${pin.index}` },
-        h('button', { type: 'button', class: 'use', title: pin.refused ?? `Back to ${pin.name}`, onclick: () => this.store.usePin(pin.id) }, badge(pin.index), h('span', {}, pin.name), pin.refused ? ' (not computed)' : '', pin.reply && !pin.reply.stable ? h('b', { class: 'unstable-word', title: 'unstable' }, h('span', { 'aria-hidden': 'true' }, '✕'), h('span', { class: 'sr' }, 'unstable')) : null),
-        h('button', { type: 'button', class: 'remove', title: `Unpin ${pin.name}`, 'aria-label': `Unpin ${pin.name}`, onclick: () => this.store.unpin(pin.id) }, '×')));
+      this.#chips = pins.map((pin) =>
+        h(
+          'span',
+          { class: `chip ${colorOf(pin.index)}`, 'data-testid': `pin-chip-${pin.index}` },
+          h(
+            'button',
+            {
+              type: 'button',
+              class: 'use',
+              title: pin.refused ?? `Back to ${pin.name}`,
+              onclick: () => this.store.usePin(pin.id),
+            },
+            badge(pin.index),
+            h('span', {}, pin.name),
+            pin.refused ? ' (not computed)' : '',
+            pin.reply && !pin.reply.stable
+              ? h(
+                  'b',
+                  { class: 'unstable-word', title: 'unstable' },
+                  h('span', { 'aria-hidden': 'true' }, '✕'),
+                  h('span', { class: 'sr' }, 'unstable'),
+                )
+              : null,
+          ),
+          h(
+            'button',
+            {
+              type: 'button',
+              class: 'remove',
+              title: `Unpin ${pin.name}`,
+              'aria-label': `Unpin ${pin.name}`,
+              onclick: () => this.store.unpin(pin.id),
+            },
+            '×',
+          ),
+        ),
+      );
       this.list.replaceChildren(...this.#chips);
     }
-    this.#chips.forEach((chip, i) => setAttr(/** @type {Element} */ (chip.firstElementChild), 'aria-pressed', String(pins[i].design === design)));
+    this.#chips.forEach((chip, i) =>
+      setAttr(/** @type {Element} */ (chip.firstElementChild), 'aria-pressed', String(pins[i].design === design)),
+    );
   }
 }

@@ -8,10 +8,23 @@ import { badge } from './pin_bar.js';
 const PAIRS = { theta: 'pitch', psi: 'yaw' };
 
 /** @param {Design} design */
-const described = (design) => [design.poles.filter((p) => p.im >= 0).map((p) => complex(p).replace('+', '±')).join(', '), nameOf(design), design.outer === 'pi' ? 'PI' : 'inner loop alone'].join(' · ');
+const described = (design) =>
+  [
+    design.poles
+      .filter((p) => p.im >= 0)
+      .map((p) => complex(p).replace('+', '±'))
+      .join(', '),
+    nameOf(design),
+    design.outer === 'pi' ? 'PI' : 'inner loop alone',
+  ].join(' · ');
 
 /** @param {import('../model/pins.js').Figure} f */
-const heading = (f) => (f.sub ? f.name === '‖K‖' ? h('span', { class: 'sym' }, '‖', h('i', {}, 'K'), '‖', h('sub', {}, f.sub)) : h('span', {}, symbol(f.name, f.sub), ' peak') : f.name);
+const heading = (f) =>
+  f.sub
+    ? f.name === '‖K‖'
+      ? h('span', { class: 'sym' }, '‖', h('i', {}, 'K'), '‖', h('sub', {}, f.sub))
+      : h('span', {}, symbol(f.name, f.sub), ' peak')
+    : f.name;
 
 /** A figure and its difference, written in place while a pole moves. */
 class Cell {
@@ -53,14 +66,47 @@ export class PinsPanel {
     this.store = store;
     this.rows = h('tbody');
     this.unstable = h('b', { class: 'unstable-word' });
-    const group = (/** @type {'theta'|'psi'} */ axis) => h('th', { scope: 'colgroup', colspan: FIGURES.filter((f) => f.axis === axis).length, class: 'group' }, h('span', { class: `shape ${PAIRS[axis]}`, 'aria-hidden': 'true' }), ` ${PAIRS[axis]} step`);
-    const cell = (/** @type {import('../model/pins.js').Figure} */ f) => h('th', { scope: 'col', title: f.title, rowspan: f.axis ? 1 : 2 }, heading(f));
+    const group = (/** @type {'theta'|'psi'} */ axis) =>
+      h(
+        'th',
+        { scope: 'colgroup', colspan: FIGURES.filter((f) => f.axis === axis).length, class: 'group' },
+        h('span', { class: `shape ${PAIRS[axis]}`, 'aria-hidden': 'true' }),
+        ` ${PAIRS[axis]} step`,
+      );
+    const cell = (/** @type {import('../model/pins.js').Figure} */ f) =>
+      h('th', { scope: 'col', title: f.title, rowspan: f.axis ? 1 : 2 }, heading(f));
     const [first, last] = [FIGURES.findIndex((f) => f.axis), FIGURES.findLastIndex((f) => f.axis)];
-    const table = h('table', { class: 'compare-table pins-table', 'data-testid': 'pins-table' }, h('thead', {},
-      h('tr', {}, h('th', { scope: 'col', rowspan: 2, class: 'method-name' }, 'Design'), FIGURES.slice(0, first).map(cell), group('theta'), group('psi'), FIGURES.slice(last + 1).map(cell)),
-      h('tr', {}, FIGURES.slice(first, last + 1).map(cell))), this.rows);
-    root.append(h('p', { class: 'caption' }, 'Below each figure, how far it is from the present design’s: ▲ better, ▼ worse. The best of a column is in bold.'),
-      h('div', { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Table of the pinned designs' }, table));
+    const table = h(
+      'table',
+      { class: 'compare-table pins-table', 'data-testid': 'pins-table' },
+      h(
+        'thead',
+        {},
+        h(
+          'tr',
+          {},
+          h('th', { scope: 'col', rowspan: 2, class: 'method-name' }, 'Design'),
+          FIGURES.slice(0, first).map(cell),
+          group('theta'),
+          group('psi'),
+          FIGURES.slice(last + 1).map(cell),
+        ),
+        h('tr', {}, FIGURES.slice(first, last + 1).map(cell)),
+      ),
+      this.rows,
+    );
+    root.append(
+      h(
+        'p',
+        { class: 'caption' },
+        'Below each figure, how far it is from the present design’s: ▲ better, ▼ worse. The best of a column is in bold.',
+      ),
+      h(
+        'div',
+        { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Table of the pinned designs' },
+        table,
+      ),
+    );
     new IntersectionObserver((entries) => {
       this.#visible = entries[entries.length - 1].isIntersecting;
       this.render(store.state);
@@ -76,32 +122,76 @@ export class PinsPanel {
     this.#seen = now;
     if (pins !== this.#pins) this.#build(pins);
     setText(this.unstable, reply && !reply.stable ? UNSTABLE : '');
-    differenceTable([reply, ...pins.map((p) => p.reply)]).forEach((row, i) => row.forEach((c, j) => this.#cells[i][j].show(c)));
+    differenceTable([reply, ...pins.map((p) => p.reply)]).forEach((row, i) =>
+      row.forEach((c, j) => this.#cells[i][j].show(c)),
+    );
   }
 
   /** @param {Pin[]} pins */
   #build(pins) {
     this.#pins = pins;
     const focused = document.activeElement?.getAttribute('data-testid');
-    this.#cells = ['present', ...pins.map((p) => String(p.index))].map((id) => FIGURES.map((f) => new Cell(`pin-${id}-${f.id}`)));
+    this.#cells = ['present', ...pins.map((p) => String(p.index))].map((id) =>
+      FIGURES.map((f) => new Cell(`pin-${id}-${f.id}`)),
+    );
     const nodes = (/** @type {number} */ i) => this.#cells[i].map((c) => c.node);
-    this.rows.replaceChildren(h('tr', { class: 'current', 'data-testid': 'pin-row-present' }, h('th', { scope: 'row', class: 'method-name' }, h('span', {}, 'Present design'), ' ', this.unstable), nodes(0)), ...pins.map((pin, i) => this.#row(pin, nodes(i + 1))));
-    if (focused) /** @type {HTMLElement|null} */ (this.rows.querySelector(`[data-testid="${CSS.escape(focused)}"]`))?.focus({ preventScroll: true });
+    this.rows.replaceChildren(
+      h(
+        'tr',
+        { class: 'current', 'data-testid': 'pin-row-present' },
+        h('th', { scope: 'row', class: 'method-name' }, h('span', {}, 'Present design'), ' ', this.unstable),
+        nodes(0),
+      ),
+      ...pins.map((pin, i) => this.#row(pin, nodes(i + 1))),
+    );
+    if (focused)
+      /** @type {HTMLElement|null} */ (this.rows.querySelector(`[data-testid="${CSS.escape(focused)}"]`))?.focus({
+        preventScroll: true,
+      });
   }
 
   /** @param {Pin} pin @param {HTMLElement[]} cells */
   #row(pin, cells) {
-    const tool = (/** @type {string} */ id, /** @type {string} */ text, /** @type {string} */ label, /** @type {() => void} */ act) => h('button', { type: 'button', 'data-testid': `pin-${id}-${pin.index}`, 'aria-label': label, title: label, onclick: act }, text);
+    const tool = (
+      /** @type {string} */ id,
+      /** @type {string} */ text,
+      /** @type {string} */ label,
+      /** @type {() => void} */ act,
+    ) =>
+      h(
+        'button',
+        { type: 'button', 'data-testid': `pin-${id}-${pin.index}`, 'aria-label': label, title: label, onclick: act },
+        text,
+      );
     const name = h('span', { class: 'pin-name' }, pin.name);
-    const head = h('th', { scope: 'row', class: 'method-name', title: described(pin.design) }, badge(pin.index), ' ', name, pin.reply && !pin.reply.stable ? [' ', h('b', { class: 'unstable-word' }, UNSTABLE)] : null, h('small', {}, pin.refused ? `Not computed: ${pin.refused}` : described(pin.design)),
-      h('span', { class: 'tools' }, tool('use', 'Use', `Make ${pin.name} the present design`, () => this.store.usePin(pin.id)), tool('rename', 'Rename', `Rename ${pin.name}`, () => this.#rename(pin, name)), tool('delete', 'Unpin', `Unpin ${pin.name}`, () => this.store.unpin(pin.id))));
+    const head = h(
+      'th',
+      { scope: 'row', class: 'method-name', title: described(pin.design) },
+      badge(pin.index),
+      ' ',
+      name,
+      pin.reply && !pin.reply.stable ? [' ', h('b', { class: 'unstable-word' }, UNSTABLE)] : null,
+      h('small', {}, pin.refused ? `Not computed: ${pin.refused}` : described(pin.design)),
+      h(
+        'span',
+        { class: 'tools' },
+        tool('use', 'Use', `Make ${pin.name} the present design`, () => this.store.usePin(pin.id)),
+        tool('rename', 'Rename', `Rename ${pin.name}`, () => this.#rename(pin, name)),
+        tool('delete', 'Unpin', `Unpin ${pin.name}`, () => this.store.unpin(pin.id)),
+      ),
+    );
     return h('tr', { 'data-testid': `pin-row-${pin.index}` }, head, cells);
   }
 
   /** @param {Pin} pin @param {HTMLElement} name */
   #rename(pin, name) {
     this.#naming = pin.id;
-    const input = h('input', { class: 'pin-rename', maxlength: 60, 'aria-label': `Name of ${pin.name}`, 'data-testid': `pin-name-${pin.index}` });
+    const input = h('input', {
+      class: 'pin-rename',
+      maxlength: 60,
+      'aria-label': `Name of ${pin.name}`,
+      'data-testid': `pin-name-${pin.index}`,
+    });
     input.value = pin.name;
     const finish = (/** @type {boolean} */ keep) => {
       if (this.#naming !== pin.id) return;
@@ -116,7 +206,9 @@ export class PinsPanel {
     input.addEventListener('keydown', (e) => {
       if (e.key !== 'Enter' && e.key !== 'Escape') return;
       finish(e.key === 'Enter');
-      requestAnimationFrame(() => /** @type {HTMLElement|null} */ (this.rows.querySelector(`[data-testid="pin-rename-${pin.index}"]`))?.focus());
+      requestAnimationFrame(() =>
+        /** @type {HTMLElement|null} */ (this.rows.querySelector(`[data-testid="pin-rename-${pin.index}"]`))?.focus(),
+      );
     });
     input.addEventListener('blur', () => finish(true));
     name.replaceChildren(input);

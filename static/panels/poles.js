@@ -1,6 +1,16 @@
 /** The two pairs as numbers: real or complex, two values each, with sliders. */
 import { say } from '../text/index.js';
-import { AXES, isComplex, LIMIT, niceStep, placesPoles, setComplex, setMode, setReal, verdictOf } from '../model/index.js';
+import {
+  AXES,
+  isComplex,
+  LIMIT,
+  niceStep,
+  placesPoles,
+  setComplex,
+  setMode,
+  setReal,
+  verdictOf,
+} from '../model/index.js';
 import { Choice, h, NumberField, setAttr, setText } from '../ui/index.js';
 
 const NAMES = ['pitch', 'yaw'];
@@ -10,12 +20,24 @@ class PairEditor {
   constructor(pair, store) {
     this.pair = pair;
     const name = NAMES[pair];
-    this.mode = new Choice({ label: `${name} pair`, testid: `mode-${name}`, options: [['real', 'real', 'two real poles'], ['complex', 'complex', 'a conjugate pair']],
-      onChange: (v) => store.edit((d) => ({ ...d, poles: setMode(d.poles, pair, v === 'complex') })) });
+    this.mode = new Choice({
+      label: `${name} pair`,
+      testid: `mode-${name}`,
+      options: [
+        ['real', 'real', 'two real poles'],
+        ['complex', 'complex', 'a conjugate pair'],
+      ],
+      onChange: (v) => store.edit((d) => ({ ...d, poles: setMode(d.poles, pair, v === 'complex') })),
+    });
     this.fields = [0, 1].map((k) => this.#field(k, store));
-    this.node = h('fieldset', { class: `pair ${name}`, 'data-testid': `pair-${name}` },
-      h('legend', {}, h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }), name), this.mode.node, this.fields.map((f) => f.node),
-      (this.verdict = h('p', { class: 'pair-verdict', hidden: true, 'data-testid': `verdict-${name}` })));
+    this.node = h(
+      'fieldset',
+      { class: `pair ${name}`, 'data-testid': `pair-${name}` },
+      h('legend', {}, h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }), name),
+      this.mode.node,
+      this.fields.map((f) => f.node),
+      (this.verdict = h('p', { class: 'pair-verdict', hidden: true, 'data-testid': `verdict-${name}` })),
+    );
     this.marks = this.fields.map((f) => /** @type {HTMLElement} */ (f.node.querySelector('.mark')));
   }
 
@@ -23,9 +45,16 @@ class PairEditor {
   #field(k, store) {
     const index = 2 * this.pair + k;
     return new NumberField({
-      label: `${NAMES[this.pair]} pole ${index + 1}`, testid: `pole-field-${index}`, field: `poles.${index}`, min: -LIMIT, max: LIMIT, slider: { min: -20, max: 4 },
-      onInput: (v, stamp) => store.edit((d) => ({ ...d, poles: this.#changed(d.poles, k, v) }), { gesture: `pole-field-${index}`, stamp }),
-      onComplex: (p, stamp) => store.edit((d) => ({ ...d, poles: setComplex(d.poles, index, p) }), { gesture: `pole-field-${index}`, stamp }),
+      label: `${NAMES[this.pair]} pole ${index + 1}`,
+      testid: `pole-field-${index}`,
+      field: `poles.${index}`,
+      min: -LIMIT,
+      max: LIMIT,
+      slider: { min: -20, max: 4 },
+      onInput: (v, stamp) =>
+        store.edit((d) => ({ ...d, poles: this.#changed(d.poles, k, v) }), { gesture: `pole-field-${index}`, stamp }),
+      onComplex: (p, stamp) =>
+        store.edit((d) => ({ ...d, poles: setComplex(d.poles, index, p) }), { gesture: `pole-field-${index}`, stamp }),
       onCommit: () => store.commit(),
     });
   }
@@ -80,6 +109,7 @@ export class PolesPanel {
       const step = niceStep(2 * far, 4);
       this.#reach = Math.ceil((1.5 * far) / step) * step;
     }
-    for (const pair of this.pairs) pair.render(design.poles, this.#reach, verdictOf(reply, AXES[pair.pair], requirements));
+    for (const pair of this.pairs)
+      pair.render(design.poles, this.#reach, verdictOf(reply, AXES[pair.pair], requirements));
   }
 }

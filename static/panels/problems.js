@@ -18,12 +18,17 @@ export class FieldProblems {
     this.#marked?.removeAttribute('aria-description');
     this.#marked = problem?.field ? this.#find(problem.field) : null;
     this.#marked?.classList.add('refused');
-    if (this.#marked) setAttr(this.#marked, 'aria-description', [problem?.detail, problem?.hint].filter(Boolean).join(' '));
+    if (this.#marked)
+      setAttr(this.#marked, 'aria-description', [problem?.detail, problem?.hint].filter(Boolean).join(' '));
   }
 
   /** The field itself, or the one whose path begins or continues it ("poles.0", "poles"). @param {string} path */
   #find(path) {
     const fields = [...this.root.querySelectorAll('[data-field]')];
-    return fields.find((f) => path.startsWith(f.getAttribute('data-field') ?? '-')) ?? fields.find((f) => f.getAttribute('data-field')?.startsWith(path)) ?? null;
+    return (
+      fields.find((f) => path.startsWith(f.getAttribute('data-field') ?? '-')) ??
+      fields.find((f) => f.getAttribute('data-field')?.startsWith(path)) ??
+      null
+    );
   }
 }

@@ -3,7 +3,12 @@ import { remarksOf } from '../model/index.js';
 import { h, setAttr, setText } from '../ui/index.js';
 
 /** After which element each stands. */
-const SPOTS = /** @type {const} */ ([['loops', '#loops .select:has([data-testid=pairing])'], ['theta', '[data-testid=plot-theta] .what'], ['V_p', '[data-testid=plot-V_p] .what'], ['V_y', '[data-testid=plot-V_y] .what']]);
+const SPOTS = /** @type {const} */ ([
+  ['loops', '#loops .select:has([data-testid=pairing])'],
+  ['theta', '[data-testid=plot-theta] .what'],
+  ['V_p', '[data-testid=plot-V_p] .what'],
+  ['V_y', '[data-testid=plot-V_y] .what'],
+]);
 
 export class Remarks {
   /** @param {Document} document in which the panels have been built */

@@ -1,6 +1,16 @@
 /** The rig's parameters and limits as fields, each beside what the preset says. Folded away; the header's line says how many differ. */
 import { inField, say } from '../text/index.js';
-import { asProposed, changedWords, isChanged, presetOf, proposedShown, quantities, valueOf, without, withValue } from '../model/index.js';
+import {
+  asProposed,
+  changedWords,
+  isChanged,
+  presetOf,
+  proposedShown,
+  quantities,
+  valueOf,
+  without,
+  withValue,
+} from '../model/index.js';
 import { h, NumberField, setAttr, setText, symbol } from '../ui/index.js';
 
 const CONCERNED = /^(parameters|limits)(\.|$)/;
@@ -19,13 +29,31 @@ class Row {
     const id = `rig-${q.kind === 'limits' ? 'limit-' : ''}${q.name}`;
     this.was = h('span', { class: 'was', 'data-testid': `${id}-preset` });
     this.field = new NumberField({
-      label: `${q.name}: ${q.meaning}, ${q.unit === '°' ? 'degrees; empty: free' : q.unit}`, testid: id, field: `${q.kind}.${q.name}`, unit: q.unit, min: q.min, max: q.max, optional: q.free,
+      label: `${q.name}: ${q.meaning}, ${q.unit === '°' ? 'degrees; empty: free' : q.unit}`,
+      testid: id,
+      field: `${q.kind}.${q.name}`,
+      unit: q.unit,
+      min: q.min,
+      max: q.max,
+      optional: q.free,
       mark: h('span', { class: 'about' }, symbolOf(q.name), h('span', { class: 'meaning' }, q.meaning), this.was),
-      onInput: (v, stamp) => store.edit((d) => (panel.preset ? withValue(d, panel.preset, q, v) : d), { gesture: id, stamp }), onCommit: () => store.commit() });
-    this.reset = h('button', { type: 'button', class: 'quiet', 'data-testid': `rig-reset-${q.kind}-${q.name}`, onclick: () => {
-      store.edit((d) => without(d, q));
-      this.field.input.focus();
-    } }, '↺');
+      onInput: (v, stamp) =>
+        store.edit((d) => (panel.preset ? withValue(d, panel.preset, q, v) : d), { gesture: id, stamp }),
+      onCommit: () => store.commit(),
+    });
+    this.reset = h(
+      'button',
+      {
+        type: 'button',
+        class: 'quiet',
+        'data-testid': `rig-reset-${q.kind}-${q.name}`,
+        onclick: () => {
+          store.edit((d) => without(d, q));
+          this.field.input.focus();
+        },
+      },
+      '↺',
+    );
     if (q.free) this.field.setBlank('free', 45);
     this.node = h('div', { class: 'rig-row' }, this.field.node, this.reset);
   }
@@ -53,13 +81,45 @@ export class RigPanel {
     this.name = h('span');
     this.summary = h('summary', { 'data-testid': 'rig', title: 'The rig’s parameters and limits' }, this.name);
     this.source = h('p', { class: 'rig-source', 'data-testid': 'rig-source' });
-    this.all = h('button', { type: 'button', class: 'quiet', 'data-testid': 'rig-reset', title: 'All parameters and limits back to the preset’s; poles and loops stay', onclick: () => this.#reset() }, 'Reset all');
-    const close = h('button', { type: 'button', class: 'quiet', 'data-testid': 'rig-close', 'aria-label': 'Close the parameters', title: 'Close (Esc)', onclick: () => this.#close() }, '✕');
+    this.all = h(
+      'button',
+      {
+        type: 'button',
+        class: 'quiet',
+        'data-testid': 'rig-reset',
+        title: 'All parameters and limits back to the preset’s; poles and loops stay',
+        onclick: () => this.#reset(),
+      },
+      'Reset all',
+    );
+    const close = h(
+      'button',
+      {
+        type: 'button',
+        class: 'quiet',
+        'data-testid': 'rig-close',
+        'aria-label': 'Close the parameters',
+        title: 'Close (Esc)',
+        onclick: () => this.#close(),
+      },
+      '✕',
+    );
     this.problem = h('p', { class: 'experiment-warning', role: 'status', 'data-testid': 'rig-problem' });
     this.parameters = h('fieldset', { 'aria-label': 'Parameters' });
     this.limits = h('fieldset', { 'aria-label': 'Limits' });
-    this.node = h('details', { class: 'rig-details' }, this.summary,
-      h('div', { class: 'rig-body', 'data-testid': 'rig-body' }, h('div', { class: 'row' }, this.source, this.all, close), this.problem, this.parameters, this.limits));
+    this.node = h(
+      'details',
+      { class: 'rig-details' },
+      this.summary,
+      h(
+        'div',
+        { class: 'rig-body', 'data-testid': 'rig-body' },
+        h('div', { class: 'row' }, this.source, this.all, close),
+        this.problem,
+        this.parameters,
+        this.limits,
+      ),
+    );
     this.node.addEventListener('keydown', (e) => e.key === 'Escape' && this.#close());
   }
 
@@ -80,7 +140,11 @@ export class RigPanel {
     this.preset = preset;
     if (!this.rows.length) {
       this.rows = quantities(preset).map((q) => new Row(q, this));
-      for (const [kind, node] of /** @type {const} */ ([['parameters', this.parameters], ['limits', this.limits]])) node.append(...this.rows.filter((r) => r.q.kind === kind).map((r) => r.node));
+      for (const [kind, node] of /** @type {const} */ ([
+        ['parameters', this.parameters],
+        ['limits', this.limits],
+      ]))
+        node.append(...this.rows.filter((r) => r.q.kind === kind).map((r) => r.node));
     }
     const changed = changedWords(design);
     setText(this.name, changed || 'Parameters');

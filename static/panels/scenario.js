@@ -10,30 +10,106 @@ export class ScenarioPanel {
     this.store = store;
     this.theta = this.#step('theta', 'pitch step', 'θ');
     this.psi = this.#step('psi', 'yaw step', 'ψ');
-    this.duration = new NumberField({ label: 'duration in seconds', mark: 'over', unit: 's', testid: 'duration', field: 'scenario.duration', min: 0.1, max: 60, positive: true,
-      onInput: (v, stamp) => store.edit((d) => ({ ...d, scenario: { ...d.scenario, duration: v } }), { gesture: 'duration', stamp }), onCommit: () => store.commit() });
-    this.theta0 = new NumberField({ label: 'operating point in degrees', mark: h('span', { title: 'operating point: the pitch angle at which the rig rests and is linearized' }, 'from ', symbol('θ', '0')), unit: '°', testid: 'theta0',
-      field: 'operating_point.theta', min: -80, max: 80, onInput: (v, stamp) => store.edit((d) => ({ ...d, theta0: v / DEGREE }), { gesture: 'theta0', stamp }), onCommit: () => store.commit() });
-    this.linear = h('input', { type: 'checkbox', 'data-testid': 'show-linear', onchange: () => store.set({ showLinear: this.linear.checked }) });
-    this.marks = h('input', { type: 'checkbox', 'data-testid': 'show-marks', onchange: () => store.set({ showMarks: this.marks.checked }) });
-    const key = (/** @type {string} */ kind, /** @type {string} */ text, /** @type {string} */ title) => h('span', { class: 'key', title }, h('span', { class: `line ${kind}`, 'aria-hidden': 'true' }), text);
+    this.duration = new NumberField({
+      label: 'duration in seconds',
+      mark: 'over',
+      unit: 's',
+      testid: 'duration',
+      field: 'scenario.duration',
+      min: 0.1,
+      max: 60,
+      positive: true,
+      onInput: (v, stamp) =>
+        store.edit((d) => ({ ...d, scenario: { ...d.scenario, duration: v } }), { gesture: 'duration', stamp }),
+      onCommit: () => store.commit(),
+    });
+    this.theta0 = new NumberField({
+      label: 'operating point in degrees',
+      mark: h(
+        'span',
+        { title: 'operating point: the pitch angle at which the rig rests and is linearized' },
+        'from ',
+        symbol('θ', '0'),
+      ),
+      unit: '°',
+      testid: 'theta0',
+      field: 'operating_point.theta',
+      min: -80,
+      max: 80,
+      onInput: (v, stamp) => store.edit((d) => ({ ...d, theta0: v / DEGREE }), { gesture: 'theta0', stamp }),
+      onCommit: () => store.commit(),
+    });
+    this.linear = h('input', {
+      type: 'checkbox',
+      'data-testid': 'show-linear',
+      onchange: () => store.set({ showLinear: this.linear.checked }),
+    });
+    this.marks = h('input', {
+      type: 'checkbox',
+      'data-testid': 'show-marks',
+      onchange: () => store.set({ showMarks: this.marks.checked }),
+    });
+    const key = (/** @type {string} */ kind, /** @type {string} */ text, /** @type {string} */ title) =>
+      h('span', { class: 'key', title }, h('span', { class: `line ${kind}`, 'aria-hidden': 'true' }), text);
     root.append(
-      h('div', { class: 'row steps' }, h('span', { class: 'caption' }, 'Step'), this.theta0.node, h('span', { class: 'caption' }, 'to'), this.theta.node, this.psi.node, this.duration.node),
-      h('div', { class: 'row legend', 'data-testid': 'legend' },
-        key('pitch solid', 'pitch step', 'nonlinear rig, pitch reference stepped alone'), key('yaw solid', 'yaw step', 'nonlinear rig, yaw reference stepped alone'),
+      h(
+        'div',
+        { class: 'row steps' },
+        h('span', { class: 'caption' }, 'Step'),
+        this.theta0.node,
+        h('span', { class: 'caption' }, 'to'),
+        this.theta.node,
+        this.psi.node,
+        this.duration.node,
+      ),
+      h(
+        'div',
+        { class: 'row legend', 'data-testid': 'legend' },
+        key('pitch solid', 'pitch step', 'nonlinear rig, pitch reference stepped alone'),
+        key('yaw solid', 'yaw step', 'nonlinear rig, yaw reference stepped alone'),
         key('halo', 'shown in 3D', 'the motion that the 3D view shows'),
-        h('label', { class: 'key', title: 'The linear model has no voltage limits. Its voltages are deviations from the trim; the trim is added here, so that both models share one scale.' },
-          this.linear, h('span', { class: 'line pitch dashed', 'aria-hidden': 'true' }), h('span', { class: 'line yaw dotted', 'aria-hidden': 'true' }), 'linear'),
-        h('label', { class: 'key', title: 'Rise, peak and settling on each curve, and the largest motion of the other axis. Point at a mark to read it; click it to move the time there.' },
-          this.marks, h('span', { class: 'mark-sample', 'aria-hidden': 'true' }), 'marks')),
+        h(
+          'label',
+          {
+            class: 'key',
+            title:
+              'The linear model has no voltage limits. Its voltages are deviations from the trim; the trim is added here, so that both models share one scale.',
+          },
+          this.linear,
+          h('span', { class: 'line pitch dashed', 'aria-hidden': 'true' }),
+          h('span', { class: 'line yaw dotted', 'aria-hidden': 'true' }),
+          'linear',
+        ),
+        h(
+          'label',
+          {
+            class: 'key',
+            title:
+              'Rise, peak and settling on each curve, and the largest motion of the other axis. Point at a mark to read it; click it to move the time there.',
+          },
+          this.marks,
+          h('span', { class: 'mark-sample', 'aria-hidden': 'true' }),
+          'marks',
+        ),
+      ),
     );
   }
 
   /** @param {Axis} axis @param {string} label @param {string} mark */
   #step(axis, label, mark) {
     return new NumberField({
-      label: `${label} in degrees`, mark: symbol(mark), unit: '°', testid: `step-${axis}`, field: `scenario.reference.${axis}`, min: -360, max: 360,
-      onInput: (v, stamp) => this.store.edit((d) => ({ ...d, scenario: { ...d.scenario, reference: { ...d.scenario.reference, [axis]: v / DEGREE } } }), { gesture: `step-${axis}`, stamp }),
+      label: `${label} in degrees`,
+      mark: symbol(mark),
+      unit: '°',
+      testid: `step-${axis}`,
+      field: `scenario.reference.${axis}`,
+      min: -360,
+      max: 360,
+      onInput: (v, stamp) =>
+        this.store.edit(
+          (d) => ({ ...d, scenario: { ...d.scenario, reference: { ...d.scenario.reference, [axis]: v / DEGREE } } }),
+          { gesture: `step-${axis}`, stamp },
+        ),
       onCommit: () => this.store.commit(),
     });
   }

@@ -12,16 +12,41 @@ export class ShareButtons {
   constructor(store, address) {
     this.store = store;
     this.address = address;
-    this.copy = h('button', { type: 'button', class: 'copy-link', 'data-testid': 'copy-link', title: 'Copy a link that opens this design: rig, poles, loops, steps and pins', onclick: () => this.#copy(address.link) }, 'Copy link');
+    this.copy = h(
+      'button',
+      {
+        type: 'button',
+        class: 'copy-link',
+        'data-testid': 'copy-link',
+        title: 'Copy a link that opens this design: rig, poles, loops, steps and pins',
+        onclick: () => this.#copy(address.link),
+      },
+      'Copy link',
+    );
     this.told = h('span', { class: 'sr', role: 'status', 'data-testid': 'link-copied' });
-    this.node = h('span', { class: 'share' }, this.copy, popupButton({ label: 'A link that locks controls, for a class', text: '▾', testid: 'share', kind: 'share-more', content: () => this.#panel() }), this.told);
+    this.node = h(
+      'span',
+      { class: 'share' },
+      this.copy,
+      popupButton({
+        label: 'A link that locks controls, for a class',
+        text: '▾',
+        testid: 'share',
+        kind: 'share-more',
+        content: () => this.#panel(),
+      }),
+      this.told,
+    );
   }
 
   /** @param {string} hash */
   async #copy(hash) {
     const done = await copyText(`${location.origin}${location.pathname}${location.search}${hash}`);
     setText(this.copy, done ? 'Copied' : 'Not copied');
-    setText(this.told, done ? 'The link is in the clipboard.' : 'The browser blocked copying. The link is in the address bar.');
+    setText(
+      this.told,
+      done ? 'The link is in the clipboard.' : 'The browser blocked copying. The link is in the address bar.',
+    );
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => setText(this.copy, 'Copy link'), SHOWN_MS);
     return done;
@@ -29,18 +54,54 @@ export class ShareButtons {
 
   #panel() {
     const { locks, pins } = this.store.state;
-    const boxes = Object.entries(LOCKS).map(([name, { name: words }]) => ({ name, words, box: h('input', { type: 'checkbox', checked: locks.includes(name), 'data-testid': `lock-${name}`, onchange: () => show() }) }));
-    const address = h('input', { class: 'link', readonly: true, 'aria-label': 'Link', 'data-testid': 'share-link', onfocus: () => address.select() });
+    const boxes = Object.entries(LOCKS).map(([name, { name: words }]) => ({
+      name,
+      words,
+      box: h('input', {
+        type: 'checkbox',
+        checked: locks.includes(name),
+        'data-testid': `lock-${name}`,
+        onchange: () => show(),
+      }),
+    }));
+    const address = h('input', {
+      class: 'link',
+      readonly: true,
+      'aria-label': 'Link',
+      'data-testid': 'share-link',
+      onfocus: () => address.select(),
+    });
     const words = h('p', { class: 'caption', role: 'status' });
-    const copy = h('button', { type: 'button', 'data-testid': 'share-copy', onclick: async () => setText(words, (await this.#copy(link())) ? 'Copied.' : 'Not copied: select it and copy it by hand.') }, 'Copy this link');
+    const copy = h(
+      'button',
+      {
+        type: 'button',
+        'data-testid': 'share-copy',
+        onclick: async () =>
+          setText(words, (await this.#copy(link())) ? 'Copied.' : 'Not copied: select it and copy it by hand.'),
+      },
+      'Copy this link',
+    );
     const link = () => this.address.linkWith(boxes.filter((b) => b.box.checked).map((b) => b.name));
     const show = () => {
       address.value = `${location.origin}${location.pathname}${location.search}${link()}`;
-      const missing = pins.length && !link().includes('&pin=') ? ` The pins are left out: with them the link would exceed ${MOST}.` : '';
+      const missing =
+        pins.length && !link().includes('&pin=')
+          ? ` The pins are left out: with them the link would exceed ${MOST}.`
+          : '';
       setText(words, `${address.value.length} characters.${missing}`);
     };
     show();
-    return [h('h3', {}, 'Link for a class'), h('p', { class: 'caption' }, 'Anyone who opens it cannot change what is ticked:'),
-      h('div', { class: 'lock-list' }, boxes.map(({ words: text, box }) => h('label', { class: 'check' }, box, text))), address, h('div', { class: 'row spread' }, words, copy)];
+    return [
+      h('h3', {}, 'Link for a class'),
+      h('p', { class: 'caption' }, 'Anyone who opens it cannot change what is ticked:'),
+      h(
+        'div',
+        { class: 'lock-list' },
+        boxes.map(({ words: text, box }) => h('label', { class: 'check' }, box, text)),
+      ),
+      address,
+      h('div', { class: 'row spread' }, words, copy),
+    ];
   }
 }

@@ -11,11 +11,18 @@ const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const FONT = '12px system-ui, sans-serif';
 /** The first is drawn broad, since others lie upon it. @type {Record<string, {color: string, width: number, dash: number[]}>} */
 const LINES = {
-  corrected: { color: 'halo-strong', width: 7, dash: [] }, printed: { color: 'pitch', width: 2, dash: [9, 5] },
-  manual: { color: 'yaw', width: 2.2, dash: [2, 4] }, limited: { color: 'ink', width: 1.8, dash: [] },
+  corrected: { color: 'halo-strong', width: 7, dash: [] },
+  printed: { color: 'pitch', width: 2, dash: [9, 5] },
+  manual: { color: 'yaw', width: 2.2, dash: [2, 4] },
+  limited: { color: 'ink', width: 1.8, dash: [] },
 };
 /** How the saved picture draws them, on white. @type {Record<string, {kind: import('../plots/export.js').Kind, linear?: boolean}>} */
-const SAVED = { corrected: { kind: 'played' }, printed: { kind: 'pitch', linear: true }, manual: { kind: 'yaw', linear: true }, limited: { kind: 'yaw' } };
+const SAVED = {
+  corrected: { kind: 'played' },
+  printed: { kind: 'pitch', linear: true },
+  manual: { kind: 'yaw', linear: true },
+  limited: { kind: 'yaw' },
+};
 const styleOf = (/** @type {string} */ name) => LINES[name] ?? LINES.limited;
 
 export class PaperCurves {
@@ -34,7 +41,8 @@ export class PaperCurves {
 
   #readColors() {
     const style = getComputedStyle(document.getElementById('paper') ?? document.documentElement);
-    for (const name of ['pitch', 'yaw', 'panel', 'ink', 'muted', 'grid', 'halo-strong', 'danger', 'limit-fill']) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
+    for (const name of ['pitch', 'yaw', 'panel', 'ink', 'muted', 'grid', 'halo-strong', 'danger', 'limit-fill'])
+      this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
   }
 
   /** @param {Curves} figure */
@@ -42,26 +50,112 @@ export class PaperCurves {
     const greek = output === 'theta' ? 'θ' : 'ψ';
     const stop = output === 'theta' ? this.stop() : undefined;
     const body = h('div', { class: 'plot-body' });
-    const legend = h('ul', { class: 'legend' }, curves.map((c) => {
-      const { width, dash } = styleOf(c.name);
-      return h('li', {}, svg('svg', { class: `sample ${c.name}`, viewBox: '0 0 34 8', 'aria-hidden': 'true' }, svg('line', { x1: 1, y1: 4, x2: 33, y2: 4, 'stroke-width': width, 'stroke-dasharray': dash.join(' ') || undefined })), h('span', {}, rich(c.title)));
-    }));
+    const legend = h(
+      'ul',
+      { class: 'legend' },
+      curves.map((c) => {
+        const { width, dash } = styleOf(c.name);
+        return h(
+          'li',
+          {},
+          svg(
+            'svg',
+            { class: `sample ${c.name}`, viewBox: '0 0 34 8', 'aria-hidden': 'true' },
+            svg('line', {
+              x1: 1,
+              y1: 4,
+              x2: 33,
+              y2: 4,
+              'stroke-width': width,
+              'stroke-dasharray': dash.join(' ') || undefined,
+            }),
+          ),
+          h('span', {}, rich(c.title)),
+        );
+      }),
+    );
     const said = stop === undefined ? '' : ` The rig’s stop is at ${fixed(stop * DEGREE, 1)}°.`;
-    const figure = h('figure', { class: 'curves', 'data-testid': `fig-${number}-plot`, 'aria-label': `${greek} in degrees over time in seconds, for a step of 1 rad` }, legend, body,
-      h('figcaption', {}, `${greek} in degrees over seconds. ${CURVES}${said}`));
-    const lines = curves.map((c) => ({ name: c.title, ...(SAVED[c.name] ?? SAVED.limited), t, values: c.angle.map((v) => v * DEGREE) }));
+    const figure = h(
+      'figure',
+      {
+        class: 'curves',
+        'data-testid': `fig-${number}-plot`,
+        'aria-label': `${greek} in degrees over time in seconds, for a step of 1 rad`,
+      },
+      legend,
+      body,
+      h('figcaption', {}, `${greek} in degrees over seconds. ${CURVES}${said}`),
+    );
+    const lines = curves.map((c) => ({
+      name: c.title,
+      ...(SAVED[c.name] ?? SAVED.limited),
+      t,
+      values: c.angle.map((v) => v * DEGREE),
+    }));
     const color = (/** @type {string} */ name) => () => this.#colors[name];
     const top = 5 * Math.ceil((DEGREE * Math.max(1, ...curves.flatMap((c) => c.angle))) / 5);
-    const axis = (/** @type {any} */ more) => ({ stroke: color('muted'), font: FONT, grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, ...more });
-    const rules = [{ value: DEGREE, label: say`reference 1 rad = ${fixed(DEGREE, 1)}°`, danger: false }, ...(stop === undefined ? [] : [{ value: stop * DEGREE, label: say`stop ${fixed(stop * DEGREE, 1)}°`, danger: true }])];
-    legend.after(linesMenu(`fig-${number}`, `Fig. ${number}`, output === 'theta' ? 'theta' : 'psi', lines, { x: [0, t[t.length - 1]], y: [0, top], rules, subtitle: `Fig. ${number} of the paper, drawn anew` }));
-    const chart = followsPage(new Chart({
-      width: 300, height: 260, legend: { show: false }, cursor: { show: false }, padding: [() => 8 * pictureScale().type, () => 12 * pictureScale().type, 0, 0],
-      series: [{}, ...curves.map((c) => ({ stroke: color(styleOf(c.name).color), width: styleOf(c.name).width, dash: styleOf(c.name).dash, points: { show: false } }))],
-      scales: { x: { time: false }, y: { range: () => [0, top] } },
-      axes: [axis({ space: () => 50 * pictureScale().type, size: () => 26 * pictureScale().type, values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((s, i) => `${Number(s.toFixed(3))}${i === v.length - 1 ? ' s' : ''}`) }), axis({ space: () => 30 * pictureScale().type, size: () => 40 * pictureScale().type, values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((d) => `${d}°`) })],
-      hooks: { drawAxes: [(/** @type {any} */ u) => this.#under(u, rules)], draw: [(/** @type {any} */ u) => this.#over(u, rules)] },
-    }, [t, ...curves.map((c) => c.angle.map((v) => v * DEGREE))], body));
+    const axis = (/** @type {any} */ more) => ({
+      stroke: color('muted'),
+      font: FONT,
+      grid: { stroke: color('grid'), width: 1 },
+      ticks: { show: false },
+      gap: 5,
+      ...more,
+    });
+    const rules = [
+      { value: DEGREE, label: say`reference 1 rad = ${fixed(DEGREE, 1)}°`, danger: false },
+      ...(stop === undefined
+        ? []
+        : [{ value: stop * DEGREE, label: say`stop ${fixed(stop * DEGREE, 1)}°`, danger: true }]),
+    ];
+    legend.after(
+      linesMenu(`fig-${number}`, `Fig. ${number}`, output === 'theta' ? 'theta' : 'psi', lines, {
+        x: [0, t[t.length - 1]],
+        y: [0, top],
+        rules,
+        subtitle: `Fig. ${number} of the paper, drawn anew`,
+      }),
+    );
+    const chart = followsPage(
+      new Chart(
+        {
+          width: 300,
+          height: 260,
+          legend: { show: false },
+          cursor: { show: false },
+          padding: [() => 8 * pictureScale().type, () => 12 * pictureScale().type, 0, 0],
+          series: [
+            {},
+            ...curves.map((c) => ({
+              stroke: color(styleOf(c.name).color),
+              width: styleOf(c.name).width,
+              dash: styleOf(c.name).dash,
+              points: { show: false },
+            })),
+          ],
+          scales: { x: { time: false }, y: { range: () => [0, top] } },
+          axes: [
+            axis({
+              space: () => 50 * pictureScale().type,
+              size: () => 26 * pictureScale().type,
+              values: (/** @type {any} */ _u, /** @type {number[]} */ v) =>
+                v.map((s, i) => `${Number(s.toFixed(3))}${i === v.length - 1 ? ' s' : ''}`),
+            }),
+            axis({
+              space: () => 30 * pictureScale().type,
+              size: () => 40 * pictureScale().type,
+              values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((d) => `${d}°`),
+            }),
+          ],
+          hooks: {
+            drawAxes: [(/** @type {any} */ u) => this.#under(u, rules)],
+            draw: [(/** @type {any} */ u) => this.#over(u, rules)],
+          },
+        },
+        [t, ...curves.map((c) => c.angle.map((v) => v * DEGREE))],
+        body,
+      ),
+    );
     this.#charts.push(chart);
     new ResizeObserver(([entry]) => {
       const { width, height } = entry.contentRect;

@@ -7,7 +7,16 @@ import { SymbolCards } from './symbol_cards.js';
 import { walk } from './walk.js';
 
 const SUB = '₀₁₂₃₄';
-const OTHERS = [['RGA', 'Relative gain array at s = 0'], ['A', 'System matrix A'], ['B', 'Input matrix B'], ['T', 'Luenberger’s transformation T'], ['Q', 'Q'], ['closed_loop', 'Closed loop A − BK'], ['canonical_closed_loop', 'Closed loop in Luenberger’s basis, T(A − BK)T⁻¹'], ['G', 'Closed loop Ĝ(s)']];
+const OTHERS = [
+  ['RGA', 'Relative gain array at s = 0'],
+  ['A', 'System matrix A'],
+  ['B', 'Input matrix B'],
+  ['T', 'Luenberger’s transformation T'],
+  ['Q', 'Q'],
+  ['closed_loop', 'Closed loop A − BK'],
+  ['canonical_closed_loop', 'Closed loop in Luenberger’s basis, T(A − BK)T⁻¹'],
+  ['G', 'Closed loop Ĝ(s)'],
+];
 
 export class FormulasPanel {
   #structure = '';
@@ -20,8 +29,20 @@ export class FormulasPanel {
     this.store = store;
     this.body = h('div', { class: 'formulas-body', 'data-testid': 'formulas' });
     root.append(this.body);
-    this.cards = new SymbolCards(root, () => ({ parameters: { ...presetOf(store.state)?.parameters, ...store.state.design?.parameters }, components: {}, walk: this.#walk }));
-    this.lazy = new Lazy(root, h('div'), store, { wait: '', body: bodyOf, ask: walk, show: (answer) => { this.#walk = answer; this.cards.refresh(); } });
+    this.cards = new SymbolCards(root, () => ({
+      parameters: { ...presetOf(store.state)?.parameters, ...store.state.design?.parameters },
+      components: {},
+      walk: this.#walk,
+    }));
+    this.lazy = new Lazy(root, h('div'), store, {
+      wait: '',
+      body: bodyOf,
+      ask: walk,
+      show: (answer) => {
+        this.#walk = answer;
+        this.cards.refresh();
+      },
+    });
     new IntersectionObserver((entries) => {
       this.#visible = entries.some((e) => e.isIntersecting);
       this.render(store.state);
@@ -38,7 +59,8 @@ export class FormulasPanel {
       this.#structure = structure;
       this.#load(design.coupling, design.lead, structure);
     }
-    for (const { cell, i, j } of this.#values) setText(cell, reply && design.method === FULL_RANK ? significant(reply.gains.K[i][j], 6) : '–'); // another method's K is not this formula's
+    for (const { cell, i, j } of this.#values)
+      setText(cell, reply && design.method === FULL_RANK ? significant(reply.gains.K[i][j], 6) : '–'); // another method's K is not this formula's
   }
 
   /** @param {string} coupling @param {string} lead @param {string} structure */
@@ -50,7 +72,13 @@ export class FormulasPanel {
       if (structure === this.#structure) this.#show(symbolic);
     } catch (error) {
       this.#structure = '';
-      this.body.replaceChildren(h('p', { class: 'failure' }, `The formulas could not be fetched: ${error instanceof Error ? error.message : error}`));
+      this.body.replaceChildren(
+        h(
+          'p',
+          { class: 'failure' },
+          `The formulas could not be fetched: ${error instanceof Error ? error.message : error}`,
+        ),
+      );
     }
     this.body.removeAttribute('aria-busy');
   }
@@ -58,20 +86,84 @@ export class FormulasPanel {
   /** @param {any} symbolic */
   #show(symbolic) {
     this.#values = [];
-    const known = Object.fromEntries(Object.entries(symbolic.definitions ?? {}).map(([name, d]) => [name, /** @type {any} */ (d).sympy]));
-    const copy = (/** @type {string} */ name, /** @type {any} */ f) => copyButton(`formula-${name}`, () => [{ name, latex: f.latex, sympy: f.sympy, definitions: known }], `Copy the formula of ${name}`);
+    const known = Object.fromEntries(
+      Object.entries(symbolic.definitions ?? {}).map(([name, d]) => [name, /** @type {any} */ (d).sympy]),
+    );
+    const copy = (/** @type {string} */ name, /** @type {any} */ f) =>
+      copyButton(
+        `formula-${name}`,
+        () => [{ name, latex: f.latex, sympy: f.sympy, definitions: known }],
+        `Copy the formula of ${name}`,
+      );
     const entries = Object.entries(symbolic.entries?.K ?? {});
     const gains = entries.length
-      ? h('div', { class: 'entries', 'data-testid': 'k-formulas' }, entries.map(([name, entry]) => this.#entry(name, /** @type {any} */ (entry), copy(name, entry))))
+      ? h(
+          'div',
+          { class: 'entries', 'data-testid': 'k-formulas' },
+          entries.map(([name, entry]) => this.#entry(name, /** @type {any} */ (entry), copy(name, entry))),
+        )
       : h('div', { class: 'scroll', 'data-testid': 'k-formulas' }, formula(symbolic.K?.mathml));
     const cards = OTHERS.filter(([key]) => symbolic[key]?.mathml).map(([key, title]) =>
-      h('section', { class: `card ${key === 'RGA' ? 'wide' : ''}` }, h('h3', {}, title, ' ', copy(key, symbolic[key])), h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': title, 'data-testid': `formula-${key}` }, formula(symbolic[key].mathml))));
+      h(
+        'section',
+        { class: `card ${key === 'RGA' ? 'wide' : ''}` },
+        h('h3', {}, title, ' ', copy(key, symbolic[key])),
+        h(
+          'div',
+          { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': title, 'data-testid': `formula-${key}` },
+          formula(symbolic[key].mathml),
+        ),
+      ),
+    );
     const marks = new Map((symbolic.symbols ?? []).map((/** @type {any} */ s) => [s.name, s.mathml]));
     const definitions = Object.entries(symbolic.definitions ?? {}).map(([name, d]) =>
-      h('div', { class: 'definition' }, formula(marks.get(name)), h('span', {}, '='), formula(/** @type {any} */ (d).mathml)));
-    const symbols = h('section', { class: 'card' }, h('h3', {}, 'Symbols'), h('table', { class: 'symbols' }, h('tbody', {},
-      (symbolic.symbols ?? []).map((/** @type {any} */ s) => h('tr', {}, h('th', { scope: 'row' }, s.mathml ? [h('span', { class: 'sr' }, s.name), h('span', { 'aria-hidden': 'true' }, formula(s.mathml))] : s.name), h('td', {}, s.meaning), h('td', {}, s.unit))))));
-    this.body.replaceChildren(h('section', { class: 'card gains' }, h('h3', {}, 'State feedback K, u = −Kx + v ', symbolic.K ? copy('K', symbolic.K) : null), gains, h('div', { class: 'definitions' }, 'with', definitions)), ...cards, symbols);
+      h(
+        'div',
+        { class: 'definition' },
+        formula(marks.get(name)),
+        h('span', {}, '='),
+        formula(/** @type {any} */ (d).mathml),
+      ),
+    );
+    const symbols = h(
+      'section',
+      { class: 'card' },
+      h('h3', {}, 'Symbols'),
+      h(
+        'table',
+        { class: 'symbols' },
+        h(
+          'tbody',
+          {},
+          (symbolic.symbols ?? []).map((/** @type {any} */ s) =>
+            h(
+              'tr',
+              {},
+              h(
+                'th',
+                { scope: 'row' },
+                s.mathml
+                  ? [h('span', { class: 'sr' }, s.name), h('span', { 'aria-hidden': 'true' }, formula(s.mathml))]
+                  : s.name,
+              ),
+              h('td', {}, s.meaning),
+              h('td', {}, s.unit),
+            ),
+          ),
+        ),
+      ),
+    );
+    this.body.replaceChildren(
+      h(
+        'section',
+        { class: 'card gains' },
+        h('h3', {}, 'State feedback K, u = −Kx + v ', symbolic.K ? copy('K', symbolic.K) : null),
+        gains,
+        h('div', { class: 'definitions' }, 'with', definitions),
+      ),
+      ...cards,
+      symbols,
+    );
     this.cards.learn(symbolic.symbols ?? []);
     for (const part of this.body.querySelectorAll('.card')) this.cards.mark(part);
     this.render(this.store.state);
@@ -82,6 +174,16 @@ export class FormulasPanel {
     const [i, j] = [...(name.match(/\d/g) ?? ['1', '1'])].map((d) => Number(d));
     const cell = h('output', { class: 'value' });
     this.#values.push({ cell, i: i - 1, j: j - 1 });
-    return h('div', { class: 'entry' }, h('span', { class: 'sym' }, h('i', {}, 'k'), `${SUB[i]}${SUB[j]} =`), h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': `k${SUB[i]}${SUB[j]}` }, formula(entry.mathml)), h('span', { class: 'equals' }, '= ', cell, ' ', tool));
+    return h(
+      'div',
+      { class: 'entry' },
+      h('span', { class: 'sym' }, h('i', {}, 'k'), `${SUB[i]}${SUB[j]} =`),
+      h(
+        'div',
+        { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': `k${SUB[i]}${SUB[j]}` },
+        formula(entry.mathml),
+      ),
+      h('span', { class: 'equals' }, '= ', cell, ' ', tool),
+    );
   }
 }

@@ -24,7 +24,15 @@ const MATRICES = {
   'Eq. 13': [{ key: 'A', name: bar('A'), rows: rates, columns: states, unit: '' }],
   'Eq. 14': [{ key: 'B', name: bar('B'), rows: rates, columns: motors, unit: '' }],
   'Eq. 16': [{ key: 'closed_loop', name: () => h('span'), above: '$A − BK$', rows: rates, columns: states, unit: '' }],
-  controllability: [{ key: 'controllability_matrix', name: () => h('span'), rows: states, columns: () => pairs(['b', 'Ab', 'A²b', 'A³b']), unit: '' }],
+  controllability: [
+    {
+      key: 'controllability_matrix',
+      name: () => h('span'),
+      rows: states,
+      columns: () => pairs(['b', 'Ab', 'A²b', 'A³b']),
+      unit: '',
+    },
+  ],
   transformation: [
     { key: 'T', name: bar('T'), rows: () => chain('z'), columns: states, unit: '' },
     { key: 'Q', name: bar('Q'), rows: ends, columns: motors, unit: '' },
@@ -35,29 +43,54 @@ const MATRICES = {
   ],
   'gain in z': [{ key: 'K_bar', name: bar('K̄'), rows: ends, columns: () => chain('z'), unit: '' }],
   'Eqs. 21, 22': [{ key: 'K', name: bar('K'), rows: motors, columns: states, unit: 'θ, ψ: V/rad; rates: V·s/rad' }],
-  'closed loop': [{ key: 'closed_loop_bar', name: () => h('span'), above: '$T(A − BK)T$⁻¹', rows: () => chain('ż'), columns: () => chain('z'), unit: '' }],
+  'closed loop': [
+    {
+      key: 'closed_loop_bar',
+      name: () => h('span'),
+      above: '$T(A − BK)T$⁻¹',
+      rows: () => chain('ż'),
+      columns: () => chain('z'),
+      unit: '',
+    },
+  ],
   'steady state': [{ key: 'G_0', name: bar('Ĝ(0)'), rows: outputs, columns: commands, unit: 'rad/V' }],
   'Eq. 23': [{ key: 'rga', name: bar('RGA'), rows: outputs, columns: commands, unit: '' }],
 };
 /** @type {Record<string, [string, string, string, string][]>} step → group, key, as written, unit */
 const CONSTANTS = {
   'Eq. 12': [['constants', 'gravity_torque', 'held at rest', 'N·m']],
-  trim: [['trim', 'V_p', 'V_p', 'V'], ['trim', 'V_y', 'V_y', 'V']],
-  'Eq. 15': [['constants', 'alpha', 'α', 'kg·m²'], ['constants', 'beta_0', 'β_0', 'kg·m²'], ['constants', 'gamma_', 'γ', '(N·m/V)²'], ['constants', 'a', 'a', 's⁻²']],
-  'desired polynomials': [['coefficients', 'd_10', 'd_10 = p_1 p_2', 's⁻²'], ['coefficients', 'd_11', 'd_11 = −p_1 − p_2', 's⁻¹'], ['coefficients', 'd_20', 'd_20 = p_3 p_4', 's⁻²'], ['coefficients', 'd_21', 'd_21 = −p_3 − p_4', 's⁻¹']],
+  trim: [
+    ['trim', 'V_p', 'V_p', 'V'],
+    ['trim', 'V_y', 'V_y', 'V'],
+  ],
+  'Eq. 15': [
+    ['constants', 'alpha', 'α', 'kg·m²'],
+    ['constants', 'beta_0', 'β_0', 'kg·m²'],
+    ['constants', 'gamma_', 'γ', '(N·m/V)²'],
+    ['constants', 'a', 'a', 's⁻²'],
+  ],
+  'desired polynomials': [
+    ['coefficients', 'd_10', 'd_10 = p_1 p_2', 's⁻²'],
+    ['coefficients', 'd_11', 'd_11 = −p_1 − p_2', 's⁻¹'],
+    ['coefficients', 'd_20', 'd_20 = p_3 p_4', 's⁻²'],
+    ['coefficients', 'd_21', 'd_21 = −p_3 − p_4', 's⁻¹'],
+  ],
 };
 /** @type {Record<string, (answer: any) => string>} step → what is said in words */
 const LINES = {
-  controllability: ({ controllability_indices: [p, y] }) => `Indices: ${p} for the pitch motor, ${y} for the yaw motor.`,
+  controllability: ({ controllability_indices: [p, y] }) =>
+    `Indices: ${p} for the pitch motor, ${y} for the yaw motor.`,
   'Eq. 18': ({ asked }) => `Requested: ${polesText(asked.poles, 4)} rad/s.`,
-  'closed loop': ({ closed_loop_poles: poles, pole_error: error }) => `Eigenvalues of A − BK: ${polesText(poles, 4)} rad/s${error === undefined ? '' : `; largest distance from those asked for ${figure(error, 2)}`}.`,
+  'closed loop': ({ closed_loop_poles: poles, pole_error: error }) =>
+    `Eigenvalues of A − BK: ${polesText(poles, 4)} rad/s${error === undefined ? '' : `; largest distance from those asked for ${figure(error, 2)}`}.`,
 };
 const OWN = new Set(['T', 'Q', 'A_bar', 'B_bar', 'K_bar', 'closed_loop_bar', 'coefficients']);
 const DIAGRAMS = { 'Fig. 2': stateFeedback, 'Fig. 3': outerLoops };
 
 /** Why a step has no numbers. @param {string} key @param {any} answer */
 function whyNot(key, { asked }) {
-  if (OWN.has(key)) return `The method chosen above, ${nameOf(asked)}, has no such step. Choose the full-rank method to see its numbers.`;
+  if (OWN.has(key))
+    return `The method chosen above, ${nameOf(asked)}, has no such step. Choose the full-rank method to see its numbers.`;
   return 'There is none: with a pole at 0 the closed loop has no steady state.';
 }
 
@@ -73,7 +106,13 @@ export class LiveNumbers {
   /** The block of a step. @param {string} number @returns {Element|null} */
   at(number) {
     const matrices = (MATRICES[number] ?? []).map((spec, i) => this.#matrix(spec, i === 0));
-    const parts = [...this.#diagram(number), ...this.#constants(number), ...(matrices.length ? [h('div', { class: 'numerics' }, matrices)] : []), ...this.#line(number), ...(number === 'Fig. 3' ? [this.loop] : [])];
+    const parts = [
+      ...this.#diagram(number),
+      ...this.#constants(number),
+      ...(matrices.length ? [h('div', { class: 'numerics' }, matrices)] : []),
+      ...this.#line(number),
+      ...(number === 'Fig. 3' ? [this.loop] : []),
+    ];
     if (number === 'Table I') return this.#block([this.machine.table]);
     if (number === 'Eq. 1' || number === 'Eq. 8') return this.#block([this.machine.example(number)]);
     if (!parts.length) return null;
@@ -81,7 +120,9 @@ export class LiveNumbers {
     const why = h('p', { class: 'refused-words', hidden: true });
     block.append(why);
     this.#fill.push((answer) => {
-      const missing = answer.refused ?? (number in CONSTANTS && !answer[CONSTANTS[number][0][0]] ? whyNot(CONSTANTS[number][0][0], answer) : '');
+      const missing =
+        answer.refused ??
+        (number in CONSTANTS && !answer[CONSTANTS[number][0][0]] ? whyNot(CONSTANTS[number][0][0], answer) : '');
       why.hidden = !missing;
       block.classList.toggle('refused-block', Boolean(missing));
       setText(why, missing);
@@ -99,7 +140,9 @@ export class LiveNumbers {
     const draw = DIAGRAMS[/** @type {keyof typeof DIAGRAMS} */ (number)];
     if (!draw) return [];
     const node = h('div', { class: 'diagram' });
-    this.#fill.push((answer) => { if (!answer.refused) node.replaceChildren(draw(answer)); });
+    this.#fill.push((answer) => {
+      if (!answer.refused) node.replaceChildren(draw(answer));
+    });
     return [node];
   }
 
@@ -116,16 +159,29 @@ export class LiveNumbers {
   #constants(number) {
     const list = CONSTANTS[number];
     if (!list) return [];
-    return [h('dl', { class: 'constants' }, list.map(([group, key, name, unit]) => {
-      const value = h('span', { 'data-testid': `paper-${key}` });
-      this.#fill.push((answer) => setText(value, figure(answer[group]?.[key])));
-      return h('div', {}, h('dt', {}, rich(name)), h('dd', {}, value, ` ${unit}`));
-    }))];
+    return [
+      h(
+        'dl',
+        { class: 'constants' },
+        list.map(([group, key, name, unit]) => {
+          const value = h('span', { 'data-testid': `paper-${key}` });
+          this.#fill.push((answer) => setText(value, figure(answer[group]?.[key])));
+          return h('div', {}, h('dt', {}, rich(name)), h('dd', {}, value, ` ${unit}`));
+        }),
+      ),
+    ];
   }
 
   /** @param {Spec} spec @param {boolean} first of its step: it tells why there are none */
   #matrix({ key, name, rows, columns, unit, above }, first) {
-    const matrix = new Matrix(`paper-${key}`, name(), rows(), columns(), (i, j) => `${key}, row ${i + 1}, column ${j + 1}`, { name: key === 'rga' ? 'RGA' : key, note: unit || undefined });
+    const matrix = new Matrix(
+      `paper-${key}`,
+      name(),
+      rows(),
+      columns(),
+      (i, j) => `${key}, row ${i + 1}, column ${j + 1}`,
+      { name: key === 'rga' ? 'RGA' : key, note: unit || undefined },
+    );
     const none = h('p', { class: 'refused-words', hidden: true });
     this.#fill.push((answer) => {
       const missing = !answer.refused && !answer[key];
@@ -135,8 +191,20 @@ export class LiveNumbers {
       matrix.render(clean(answer[key]), (v) => figure(v, key === 'K' ? 6 : 5));
     });
     const whose = key === 'K' ? h('p', { class: 'unit-line', hidden: true }) : null;
-    if (whose) this.#fill.push(({ asked, refused }) => { whose.hidden = Boolean(refused) || asked.method === FULL_RANK; setText(whose, `As ${nameOf(asked)} computes it, not by this formula.`); });
-    return h('div', { class: 'numeric' }, above ? h('p', { class: 'above' }, rich(above)) : null, h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': key }, matrix.node), unit ? h('p', { class: 'unit-line' }, unit) : null, whose, none);
+    if (whose)
+      this.#fill.push(({ asked, refused }) => {
+        whose.hidden = Boolean(refused) || asked.method === FULL_RANK;
+        setText(whose, `As ${nameOf(asked)} computes it, not by this formula.`);
+      });
+    return h(
+      'div',
+      { class: 'numeric' },
+      above ? h('p', { class: 'above' }, rich(above)) : null,
+      h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': key }, matrix.node),
+      unit ? h('p', { class: 'unit-line' }, unit) : null,
+      whose,
+      none,
+    );
   }
 
   /** The walkthrough's answer, or why there is none. @param {any} answer */
@@ -150,12 +218,25 @@ export class LiveNumbers {
     const preset = presets.find((p) => p.name === design.preset);
     this.machine.render(presets, preset, design.parameters);
     const changed = Object.keys(design.parameters).length;
-    const facts = [preset?.title ?? design.preset, ...(changed ? [`${changed} value${changed > 1 ? 's' : ''} changed`] : []),
-      `θ₀ = ${figure(design.theta0 * DEGREE, 4)}°`, `poles ${polesText(design.poles, 2)}`, nameOf(design)];
+    const facts = [
+      preset?.title ?? design.preset,
+      ...(changed ? [`${changed} value${changed > 1 ? 's' : ''} changed`] : []),
+      `θ₀ = ${figure(design.theta0 * DEGREE, 4)}°`,
+      `poles ${polesText(design.poles, 2)}`,
+      nameOf(design),
+    ];
     if (this.rig.textContent !== facts.join('')) this.rig.replaceChildren(...facts.map((text) => h('li', {}, text)));
-    const controllers = Object.entries(design.loops).map(([axis, { kp, ti }]) => `${axis} ${figure(kp)} (1 + 1/(${figure(ti)} s))`).join(', ');
+    const controllers = Object.entries(design.loops)
+      .map(([axis, { kp, ti }]) => `${axis} ${figure(kp)} (1 + 1/(${figure(ti)} s))`)
+      .join(', ');
     const own = reply?.gains && 'integral' in reply.gains;
-    setText(this.loop, own ? `The method’s own integral action takes the place of the PI loops. Poles of the whole loop: ${polesText(/** @type {any} */ (reply).loop_poles, 2)} rad/s.` : design.outer === 'pi' ? `PI: ${controllers}. Poles of the whole loop: ${reply ? polesText(reply.loop_poles, 2) : '–'} rad/s.` : `No PI loops now. Poles of the loop: ${reply ? polesText(reply.loop_poles, 2) : '–'} rad/s.`);
+    setText(
+      this.loop,
+      own
+        ? `The method’s own integral action takes the place of the PI loops. Poles of the whole loop: ${polesText(/** @type {any} */ (reply).loop_poles, 2)} rad/s.`
+        : design.outer === 'pi'
+          ? `PI: ${controllers}. Poles of the whole loop: ${reply ? polesText(reply.loop_poles, 2) : '–'} rad/s.`
+          : `No PI loops now. Poles of the loop: ${reply ? polesText(reply.loop_poles, 2) : '–'} rad/s.`,
+    );
   }
 }
-

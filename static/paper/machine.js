@@ -15,7 +15,10 @@ export class Machine {
 
   /** @param {string} number */
   example(number) {
-    return (this.#examples[number] = h('div', { class: 'worked', 'data-testid': `paper-worked-${number === 'Eq. 1' ? 'l' : 'K'}` }));
+    return (this.#examples[number] = h('div', {
+      class: 'worked',
+      'data-testid': `paper-worked-${number === 'Eq. 1' ? 'l' : 'K'}`,
+    }));
   }
 
   /** @param {any[]} presets @param {any} preset @param {Record<string, number>} overrides */
@@ -24,22 +27,67 @@ export class Machine {
     if (!preset || key === this.#key) return;
     this.#key = key;
     const values = { ...preset.parameters, ...overrides };
-    this.table.replaceChildren(h('tbody', {}, Object.entries(preset.parameter_info ?? {}).map(([name, info]) => h('tr', {},
-      h('th', { scope: 'row' }, named(name)), h('td', {}, /** @type {any} */ (info).meaning), h('td', { class: name in overrides ? 'changed' : '' }, figure(values[name], 7)), h('td', { class: 'aside' }, /** @type {any} */ (info).unit)))));
-    const owner = Object.keys(preset.components ?? {}).length ? preset : presets.find((p) => Object.keys(p.components ?? {}).length);
+    this.table.replaceChildren(
+      h(
+        'tbody',
+        {},
+        Object.entries(preset.parameter_info ?? {}).map(([name, info]) =>
+          h(
+            'tr',
+            {},
+            h('th', { scope: 'row' }, named(name)),
+            h('td', {}, /** @type {any} */ (info).meaning),
+            h('td', { class: name in overrides ? 'changed' : '' }, figure(values[name], 7)),
+            h('td', { class: 'aside' }, /** @type {any} */ (info).unit),
+          ),
+        ),
+      ),
+    );
+    const owner = Object.keys(preset.components ?? {}).length
+      ? preset
+      : presets.find((p) => Object.keys(p.components ?? {}).length);
     for (const [number, node] of Object.entries(this.#examples)) {
       if (!owner) setText(node, 'No parameter set here lists its components.');
-      else node.replaceChildren(...this.#steps(number === 'Eq. 1' ? centreSteps(owner.components) : thrustSteps(owner.components), values, owner === preset ? '' : owner.title));
+      else
+        node.replaceChildren(
+          ...this.#steps(
+            number === 'Eq. 1' ? centreSteps(owner.components) : thrustSteps(owner.components),
+            values,
+            owner === preset ? '' : owner.title,
+          ),
+        );
     }
   }
 
   /** @param {Step[]} steps @param {Record<string, number>} values @param {string} other whose components they are, where not the present rig's */
   #steps(steps, values, other) {
-    const compare = steps.filter(({ name }) => name in values).map(({ name }) => [...named(name), ` = ${figure(values[name])}`]);
+    const compare = steps
+      .filter(({ name }) => name in values)
+      .map(({ name }) => [...named(name), ` = ${figure(values[name])}`]);
     return [
-      h('div', { class: 'steps' }, steps.map(({ name, symbols, figures, value, unit, digits }) => h('div', { class: 'step' },
-        h('span', { class: 'what' }, named(name)), h('span', { class: 'as' }, ' = ', rich(symbols)), figures ? h('span', { class: 'with' }, ' = ', figures.replace(/ (?=[A-Za-zΩ])/g, '\u00a0')) : null, h('b', {}, ` = ${figure(value, digits)} ${unit}`)))),
-      h('p', { class: 'live-note' }, other ? `The present rig’s components are not listed; these are of “${other}”. The present rig has ` : 'The present rig has ', compare.flatMap((part, i) => (i ? [', ', ...part] : part)), '.'),
+      h(
+        'div',
+        { class: 'steps' },
+        steps.map(({ name, symbols, figures, value, unit, digits }) =>
+          h(
+            'div',
+            { class: 'step' },
+            h('span', { class: 'what' }, named(name)),
+            h('span', { class: 'as' }, ' = ', rich(symbols)),
+            figures ? h('span', { class: 'with' }, ' = ', figures.replace(/ (?=[A-Za-zΩ])/g, '\u00a0')) : null,
+            h('b', {}, ` = ${figure(value, digits)} ${unit}`),
+          ),
+        ),
+      ),
+      h(
+        'p',
+        { class: 'live-note' },
+        other
+          ? `The present rig’s components are not listed; these are of “${other}”. The present rig has `
+          : 'The present rig has ',
+        compare.flatMap((part, i) => (i ? [', ', ...part] : part)),
+        '.',
+      ),
     ];
   }
 }

@@ -52,14 +52,21 @@ export function countsOf({ numbers, errata, equations }) {
   const having = (/** @type {string} */ verdict) => numbers.filter((n) => n.verdict === verdict).length;
   const [reproduced, differs, given] = ['reproduced', 'differs', 'given'].map(having);
   return {
-    reproduced, differs, given, derivable: reproduced + differs, numbers: numbers.length,
-    errata: errata.filter((e) => e.standing === 'confirmed').length, unclear: errata.filter((e) => e.standing !== 'confirmed').length, proofs: errata.filter((e) => e.proof.holds).length,
+    reproduced,
+    differs,
+    given,
+    derivable: reproduced + differs,
+    numbers: numbers.length,
+    errata: errata.filter((e) => e.standing === 'confirmed').length,
+    unclear: errata.filter((e) => e.standing !== 'confirmed').length,
+    proofs: errata.filter((e) => e.proof.holds).length,
     status: Object.fromEntries(groupBy(equations, (e) => e.status).map(([status, list]) => [status, list.length])),
   };
 }
 
 /** @param {Pick<PrintedNumber, 'digits'|'digits_printed'>} n */
-export const digitsText = ({ digits, digits_printed }) => (digits === undefined ? '–' : `${digits} of ${digits_printed}`);
+export const digitsText = ({ digits, digits_printed }) =>
+  digits === undefined ? '–' : `${digits} of ${digits_printed}`;
 
 /** ASCII minus before a digit → minus. @param {string} text */
 export const minus = (text) => text.replace(/(^|[\s(=,])-(?=\d)/g, `$1${MINUS}`);
@@ -87,7 +94,10 @@ export function clean(matrix) {
 
 /** A conjugate pair is written once, with ±. @param {Complex[]} poles @param {number} [decimals] */
 export const polesText = (poles, decimals = 3) =>
-  poles.filter((p) => p.im >= 0).map((p) => complex(p, decimals).replace('+', '±').replaceAll(' ', FIRM)).join(', ');
+  poles
+    .filter((p) => p.im >= 0)
+    .map((p) => complex(p, decimals).replace('+', '±').replaceAll(' ', FIRM))
+    .join(', ');
 
 /** @param {Complex} p */
 export const dampingRatio = (p) => -p.re / Math.hypot(p.re, p.im);
@@ -98,10 +108,18 @@ const f = (/** @type {number} */ v) => figure(v, 7);
 /** Eq. 8 with the components' values. @param {Record<string, number>} c @returns {Step[]} */
 export function thrustSteps(c) {
   const arm = (/** @type {'p'|'y'} */ a) => ({
-    name: `K_${a}${a}`, symbols: `K_f,${a} r_${a}`, figures: `${f(c[`K_f${a}`])} N/V × ${f(c[`r_${a}`])} m`, value: c[`K_f${a}`] * c[`r_${a}`], unit: 'N·m/V',
+    name: `K_${a}${a}`,
+    symbols: `K_f,${a} r_${a}`,
+    figures: `${f(c[`K_f${a}`])} N/V × ${f(c[`r_${a}`])} m`,
+    value: c[`K_f${a}`] * c[`r_${a}`],
+    unit: 'N·m/V',
   });
   const drag = (/** @type {string} */ name, /** @type {'p'|'y'} */ a) => ({
-    name, symbols: `K_t,${a} / R_m,${a}`, figures: `${f(c[`K_t${a}`])} N·m/A / ${f(c[`R_${a}`])} Ω`, value: c[`K_t${a}`] / c[`R_${a}`], unit: 'N·m/V',
+    name,
+    symbols: `K_t,${a} / R_m,${a}`,
+    figures: `${f(c[`K_t${a}`])} N·m/A / ${f(c[`R_${a}`])} Ω`,
+    value: c[`K_t${a}`] / c[`R_${a}`],
+    unit: 'N·m/V',
   });
   return [arm('p'), arm('y'), drag('K_py', 'y'), drag('K_yp', 'p')];
 }
@@ -110,8 +128,21 @@ export function thrustSteps(c) {
 export function centreSteps({ m_p, m_y, m_shield, r_p, r_y }) {
   const [above, below] = [(m_p + m_shield) * r_p + (m_y + m_shield) * r_y, m_p + m_y + 2 * m_shield];
   return [
-    { name: 'numerator', symbols: '(m_m,p + m_shield) r_p + (m_m,y + m_shield) r_y', figures: `${f(m_p + m_shield)} kg × ${f(r_p)} m + ${f(m_y + m_shield)} kg × ${f(r_y)} m`, value: above, unit: 'kg·m', digits: 6 },
-    { name: 'denominator', symbols: 'm_m,p + m_m,y + 2 m_shield', figures: `${f(m_p)} kg + ${f(m_y)} kg + 2 × ${f(m_shield)} kg`, value: below, unit: 'kg' },
+    {
+      name: 'numerator',
+      symbols: '(m_m,p + m_shield) r_p + (m_m,y + m_shield) r_y',
+      figures: `${f(m_p + m_shield)} kg × ${f(r_p)} m + ${f(m_y + m_shield)} kg × ${f(r_y)} m`,
+      value: above,
+      unit: 'kg·m',
+      digits: 6,
+    },
+    {
+      name: 'denominator',
+      symbols: 'm_m,p + m_m,y + 2 m_shield',
+      figures: `${f(m_p)} kg + ${f(m_y)} kg + 2 × ${f(m_shield)} kg`,
+      value: below,
+      unit: 'kg',
+    },
     { name: 'l', symbols: 'numerator / denominator', figures: '', value: above / below, unit: 'm' },
   ];
 }

@@ -20,7 +20,8 @@ import { MARKS, MEANINGS } from './words.js';
 /** @typedef {import('./math.js').Paper} Paper */
 /** The place in this section to which the address leads. */
 const place = () => placeIn(location.hash)?.match(/^(paper|eq|fig|table|erratum)\b.*/)?.[0];
-const WAIT = 'Reading the paper: its formulas are derived, its numbers recomputed, its errata proved. The first time this takes some seconds.';
+const WAIT =
+  'Reading the paper: its formulas are derived, its numbers recomputed, its errata proved. The first time this takes some seconds.';
 
 /** Prints this section alone. */
 function print() {
@@ -41,7 +42,12 @@ export class PaperPanel {
     this.body = h('div', { class: 'paper-body', 'data-testid': 'paper' });
     root.append(this.body);
     this.cards = new SymbolCards(root, () => this.#now());
-    this.lazy = new Lazy(root, this.body, store, { wait: WAIT, body: () => 'paper', ask: getPaper, show: (paper) => this.#show(paper) });
+    this.lazy = new Lazy(root, this.body, store, {
+      wait: WAIT,
+      body: () => 'paper',
+      ask: getPaper,
+      show: (paper) => this.#show(paper),
+    });
     if (place()) root.scrollIntoView();
   }
 
@@ -55,7 +61,11 @@ export class PaperPanel {
   /** What the symbols are worth. @returns {import('./symbols.js').Now} */
   #now() {
     const preset = /** @type {any} */ (presetOf(this.store.state));
-    return { parameters: { ...preset?.parameters, ...this.store.state.design?.parameters }, components: preset?.components ?? {}, walk: this.#walk };
+    return {
+      parameters: { ...preset?.parameters, ...this.store.state.design?.parameters },
+      components: preset?.components ?? {},
+      walk: this.#walk,
+    };
   }
 
   /** @param {Paper} paper */
@@ -66,13 +76,40 @@ export class PaperPanel {
     const figures = new Map(paper.figures.map((f) => [`Fig. ${f.number}`, f]));
     const chosen = new StructureForms((part, chapter) => this.cards.mark(part, chapter));
     const list = new SymbolList(paper.symbols);
-    const text = h('div', { class: 'paper-text' }, this.#introduction(paper),
-      chapters(paper, { live: (number) => live.at(number), curves: (number) => { const f = figures.get(number); return f ? curves.draw(f) : null; }, structure: (e) => chosen.at(e) }),
-      numbers(paper), errata(paper), consequence(paper),
-      h('section', { class: 'chapter', id: 'paper-symbols', 'aria-labelledby': 'paper-symbols-title' }, h('h3', { id: 'paper-symbols-title' }, 'Symbols'),
-        h('p', { class: 'prose' }, 'What the formulas’ symbols mean, with their values on the present rig. In a formula each shows this under the pointer, at a tap, and with the arrow keys.'), list.node));
-    for (const step of text.querySelectorAll('article.eq')) this.cards.mark(step, /** @type {HTMLElement} */ (step).dataset.chapter);
-    const nav = contents(paper.equations, h('div', { class: 'present-box' }, h('h3', {}, 'The present rig'), live.rig), h('button', { type: 'button', class: 'print', onclick: print }, 'Print this section'));
+    const text = h(
+      'div',
+      { class: 'paper-text' },
+      this.#introduction(paper),
+      chapters(paper, {
+        live: (number) => live.at(number),
+        curves: (number) => {
+          const f = figures.get(number);
+          return f ? curves.draw(f) : null;
+        },
+        structure: (e) => chosen.at(e),
+      }),
+      numbers(paper),
+      errata(paper),
+      consequence(paper),
+      h(
+        'section',
+        { class: 'chapter', id: 'paper-symbols', 'aria-labelledby': 'paper-symbols-title' },
+        h('h3', { id: 'paper-symbols-title' }, 'Symbols'),
+        h(
+          'p',
+          { class: 'prose' },
+          'What the formulas’ symbols mean, with their values on the present rig. In a formula each shows this under the pointer, at a tap, and with the arrow keys.',
+        ),
+        list.node,
+      ),
+    );
+    for (const step of text.querySelectorAll('article.eq'))
+      this.cards.mark(step, /** @type {HTMLElement} */ (step).dataset.chapter);
+    const nav = contents(
+      paper.equations,
+      h('div', { class: 'present-box' }, h('h3', {}, 'The present rig'), live.rig),
+      h('button', { type: 'button', class: 'print', onclick: print }, 'Print this section'),
+    );
     this.body.replaceChildren(nav, text);
     follow(nav, text);
     const show = (/** @type {any} */ answer) => {
@@ -83,7 +120,12 @@ export class PaperPanel {
     };
     this.#lazy = [
       new Lazy(this.body, h('div'), this.store, { wait: '', body: bodyOf, ask: walk, show }),
-      new Lazy(this.body, h('div'), this.store, { wait: '', body: structureOf, ask: askStructure, show: (answer) => chosen.show(answer) }),
+      new Lazy(this.body, h('div'), this.store, {
+        wait: '',
+        body: structureOf,
+        ask: askStructure,
+        show: (answer) => chosen.show(answer),
+      }),
     ];
     for (const { status } of this.#lazy) live.rig.after(status);
     live.render(this.store.state);
@@ -94,10 +136,32 @@ export class PaperPanel {
   /** @param {Paper} paper */
   #introduction(paper) {
     const c = countsOf(paper);
-    return h('div', { class: 'prose introduction' },
+    return h(
+      'div',
+      { class: 'prose introduction' },
       h('p', { class: 'cited' }, h('cite', {}, paper.title), h('br'), paper.authors),
-      h('p', {}, rich('The paper places the four poles of a laboratory helicopter by a state feedback that is written out in symbols, and closes PI loops around it. Here the derivation is followed step by step, from the energies to $K$, the relative gain array and the PI loops. Every formula is derived again and every number recomputed; where paper and derivation differ, both are shown. Beside the formulas stand their values for the rig and poles chosen above. Point at a symbol for its name, value and unit.')),
-      h('p', { class: 'tally', 'data-testid': 'paper-tally' }, h('b', {}, `${c.reproduced} of ${c.derivable}`), ` numbers that follow from a formula come out to every printed digit. `, h('b', {}, String(c.errata)), ` errata are confirmed by the paper’s own numbers; ${c.unclear} more places are unclear in our copy. ${c.proofs === c.errata + c.unclear ? 'Each has its proof.' : `${c.proofs} of them are proved.`}`),
-      h('ul', { class: 'marks' }, Object.keys(MARKS).map((status) => h('li', {}, mark(status), h('span', {}, `${MEANINGS[status]} (${c.status[status] ?? 0})`)))));
+      h(
+        'p',
+        {},
+        rich(
+          'The paper places the four poles of a laboratory helicopter by a state feedback that is written out in symbols, and closes PI loops around it. Here the derivation is followed step by step, from the energies to $K$, the relative gain array and the PI loops. Every formula is derived again and every number recomputed; where paper and derivation differ, both are shown. Beside the formulas stand their values for the rig and poles chosen above. Point at a symbol for its name, value and unit.',
+        ),
+      ),
+      h(
+        'p',
+        { class: 'tally', 'data-testid': 'paper-tally' },
+        h('b', {}, `${c.reproduced} of ${c.derivable}`),
+        ` numbers that follow from a formula come out to every printed digit. `,
+        h('b', {}, String(c.errata)),
+        ` errata are confirmed by the paper’s own numbers; ${c.unclear} more places are unclear in our copy. ${c.proofs === c.errata + c.unclear ? 'Each has its proof.' : `${c.proofs} of them are proved.`}`,
+      ),
+      h(
+        'ul',
+        { class: 'marks' },
+        Object.keys(MARKS).map((status) =>
+          h('li', {}, mark(status), h('span', {}, `${MEANINGS[status]} (${c.status[status] ?? 0})`)),
+        ),
+      ),
+    );
   }
 }

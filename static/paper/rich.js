@@ -6,7 +6,12 @@ const PIECE = /\$([^$]+)\$|([A-Za-zα-ωΑ-Ω])_([A-Za-z0-9]+(?:,[a-z])?)|(\b(?:
 const LETTERS = /([A-Za-zα-ωΑ-Ω]\p{Mn}?|\p{L})/u;
 
 /** Mathematics in a line: letters in italics, all else upright. @param {string} text */
-const inline = (text) => h('span', { class: 'sym inline' }, text.split(LETTERS).map((part, i) => (i % 2 ? h('i', {}, part) : part)));
+const inline = (text) =>
+  h(
+    'span',
+    { class: 'sym inline' },
+    text.split(LETTERS).map((part, i) => (i % 2 ? h('i', {}, part) : part)),
+  );
 
 /** @param {string} text @param {string} [self] the anchor where it stands, to which it need not lead @returns {(Node|string)[]} */
 export function rich(text, self) {

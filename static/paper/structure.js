@@ -7,13 +7,30 @@ import { typeset } from './forms.js';
 
 /** @typedef {import('../types.js').Design} Design @typedef {import('./math.js').Equation} Equation */
 /** @type {Record<string, string>} what stands before a formula, as rich text */
-const NAMES = { T: '$T$ =', Q: '$Q$ =', A_bar: '$Ā$ =', B_bar: '$B̄$ =', K_bar: '$K̄$ =', K: '$K$ =', canonical_closed_loop: '$T(A − BK)T$⁻¹ =', G: '$Ĝ(s)$ =', G_0: '$Ĝ(0)$ =', RGA: 'RGA =' };
+const NAMES = {
+  T: '$T$ =',
+  Q: '$Q$ =',
+  A_bar: '$Ā$ =',
+  B_bar: '$B̄$ =',
+  K_bar: '$K̄$ =',
+  K: '$K$ =',
+  canonical_closed_loop: '$T(A − BK)T$⁻¹ =',
+  G: '$Ĝ(s)$ =',
+  G_0: '$Ĝ(0)$ =',
+  RGA: 'RGA =',
+};
 
 /** The structure whose formulas are missing: none where it is the paper's, or where another method has no structure. @param {Design} design */
-export const structureOf = ({ method, coupling, lead }) => (method === FULL_RANK && (coupling !== 'triangular' || lead !== 'pitch') ? { coupling, lead: coupling === 'triangular' ? lead : /** @type {const} */ ('pitch') } : null);
+export const structureOf = ({ method, coupling, lead }) =>
+  method === FULL_RANK && (coupling !== 'triangular' || lead !== 'pitch')
+    ? { coupling, lead: coupling === 'triangular' ? lead : /** @type {const} */ ('pitch') }
+    : null;
 
 /** @param {ReturnType<typeof structureOf>} structure */
-export const askStructure = async (structure) => ({ structure, formulas: structure ? await getSymbolic(structure.coupling, structure.lead) : null });
+export const askStructure = async (structure) => ({
+  structure,
+  formulas: structure ? await getSymbolic(structure.coupling, structure.lead) : null,
+});
 
 export class StructureForms {
   /** @type {{names: string[], node: HTMLElement, number: string, chapter: string}[]} */ #places = [];
@@ -37,8 +54,17 @@ export class StructureForms {
       node.hidden = !formulas;
       if (!formulas || !structure) continue;
       const title = nameOf(/** @type {any} */ ({ method: FULL_RANK, ...structure }));
-      node.replaceChildren(h('figcaption', {}, `in the structure chosen above: ${title}`),
-        ...names.map((name) => h('div', { class: 'named-formula' }, h('span', { class: 'before' }, rich(NAMES[name] ?? name)), typeset(formulas[name], `${number}, ${name}, ${title}`))));
+      node.replaceChildren(
+        h('figcaption', {}, `in the structure chosen above: ${title}`),
+        ...names.map((name) =>
+          h(
+            'div',
+            { class: 'named-formula' },
+            h('span', { class: 'before' }, rich(NAMES[name] ?? name)),
+            typeset(formulas[name], `${number}, ${name}, ${title}`),
+          ),
+        ),
+      );
       this.mark(node, chapter);
     }
   }

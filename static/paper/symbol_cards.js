@@ -19,13 +19,30 @@ const HINT = 'symbol-hint';
 
 /** @param {HTMLElement} root it is drawn above all, so any landmark will do */
 function make(root) {
-  const node = h('div', { class: 'symbol-card', id: 'symbol-card', role: 'tooltip', popover: 'manual', 'data-testid': 'symbol-card' });
+  const node = h('div', {
+    class: 'symbol-card',
+    id: 'symbol-card',
+    role: 'tooltip',
+    popover: 'manual',
+    'data-testid': 'symbol-card',
+  });
   node.addEventListener('pointerenter', () => clearTimeout(leaving));
   node.addEventListener('pointerleave', leave);
-  root.append(node, h('p', { id: HINT, class: 'sr' }, 'The arrow keys walk through the symbols; each shows its name, meaning, value and unit.'));
+  root.append(
+    node,
+    h(
+      'p',
+      { id: HINT, class: 'sr' },
+      'The arrow keys walk through the symbols; each shows its name, meaning, value and unit.',
+    ),
+  );
   addEventListener('scroll', () => shown && place(), { passive: true, capture: true });
-  addEventListener('keydown', (e) => { if (e.key === 'Escape' && shown) close(); });
-  addEventListener('pointerdown', (e) => { if (shown && !(/** @type {Element} */ (e.target)).closest('[data-symbol], .symbol-card')) close(); });
+  addEventListener('keydown', (e) => {
+    if (e.key === 'Escape' && shown) close();
+  });
+  addEventListener('pointerdown', (e) => {
+    if (shown && !/** @type {Element} */ (e.target).closest('[data-symbol], .symbol-card')) close();
+  });
   return node;
 }
 
@@ -39,7 +56,9 @@ function close() {
 
 function leave() {
   clearTimeout(leaving);
-  leaving = setTimeout(() => { if (shown !== document.activeElement) close(); }, LEAVE_MS);
+  leaving = setTimeout(() => {
+    if (shown !== document.activeElement) close();
+  }, LEAVE_MS);
 }
 
 function place() {
@@ -61,12 +80,26 @@ export class SymbolCards {
   constructor(root, now) {
     this.root = root;
     this.now = now;
-    const at = (/** @type {Event} */ e) => /** @type {Element|null} */ (/** @type {Element} */ (e.target).closest?.('[data-symbol]'));
-    root.addEventListener('pointerover', (e) => { const symbol = at(e); if (symbol && e.pointerType !== 'touch') this.#open(symbol); });
-    root.addEventListener('pointerout', (e) => { if (at(e)) leave(); });
-    root.addEventListener('focusin', (e) => { const symbol = at(e); if (symbol) this.#open(symbol); });
-    root.addEventListener('focusout', (e) => { if (at(e) === shown) leave(); });
-    root.addEventListener('click', (e) => { const symbol = at(e); if (symbol) this.#open(symbol); });
+    const at = (/** @type {Event} */ e) =>
+      /** @type {Element|null} */ (/** @type {Element} */ (e.target).closest?.('[data-symbol]'));
+    root.addEventListener('pointerover', (e) => {
+      const symbol = at(e);
+      if (symbol && e.pointerType !== 'touch') this.#open(symbol);
+    });
+    root.addEventListener('pointerout', (e) => {
+      if (at(e)) leave();
+    });
+    root.addEventListener('focusin', (e) => {
+      const symbol = at(e);
+      if (symbol) this.#open(symbol);
+    });
+    root.addEventListener('focusout', (e) => {
+      if (at(e) === shown) leave();
+    });
+    root.addEventListener('click', (e) => {
+      const symbol = at(e);
+      if (symbol) this.#open(symbol);
+    });
     root.addEventListener('keydown', (e) => this.#walk(e));
   }
 
@@ -107,7 +140,8 @@ export class SymbolCards {
     this.#fill(symbol);
     symbol.setAttribute('aria-describedby', 'symbol-card');
     const name = symbol.getAttribute('data-symbol');
-    for (const other of symbol.closest('article, .card')?.querySelectorAll(`[data-symbol="${name}"]`) ?? []) other.classList.add('same-symbol');
+    for (const other of symbol.closest('article, .card')?.querySelectorAll(`[data-symbol="${name}"]`) ?? [])
+      other.classList.add('same-symbol');
     card?.showPopover();
     place();
   }
@@ -122,7 +156,13 @@ export class SymbolCards {
 
   /** Arrow keys from symbol to symbol of one formula; Escape leaves to the formula. @param {KeyboardEvent} e */
   #walk(e) {
-    if (e.altKey || e.ctrlKey || e.metaKey || !['ArrowLeft', 'ArrowRight', 'Home', 'End', 'Enter', 'Escape'].includes(e.key)) return;
+    if (
+      e.altKey ||
+      e.ctrlKey ||
+      e.metaKey ||
+      !['ArrowLeft', 'ArrowRight', 'Home', 'End', 'Enter', 'Escape'].includes(e.key)
+    )
+      return;
     const target = /** @type {Element} */ (e.target);
     const box = /** @type {HTMLElement|null} */ (target.closest('.scroll'));
     const inside = target.hasAttribute('data-symbol');
@@ -135,7 +175,14 @@ export class SymbolCards {
       return box.focus({ preventScroll: true });
     }
     const i = all.indexOf(/** @type {HTMLElement} */ (target));
-    const to = e.key === 'Home' || !inside ? (e.key === 'End' ? all.length - 1 : 0) : e.key === 'End' ? all.length - 1 : i + (e.key === 'ArrowRight' ? 1 : -1);
+    const to =
+      e.key === 'Home' || !inside
+        ? e.key === 'End'
+          ? all.length - 1
+          : 0
+        : e.key === 'End'
+          ? all.length - 1
+          : i + (e.key === 'ArrowRight' ? 1 : -1);
     const next = all[Math.max(0, Math.min(all.length - 1, to))];
     next.focus({ preventScroll: true });
     next.scrollIntoView({ block: 'nearest', inline: 'nearest' });
@@ -157,12 +204,35 @@ function cardOf(term, now) {
   const { text, matrix, of } = worthOf(term.name, now);
   const sign = signFor(term);
   const value = matrix ? small(matrix) : h('span', { class: 'worth' }, text ?? 'no value for this rig');
-  return [h('p', { class: 'meaning' }, h('span', { class: 'sign' }, sign), h('span', {}, rich(term.meaning))),
-    h('dl', {}, h('dt', {}, of ? `now, ${of}` : 'now'), h('dd', { 'data-testid': 'symbol-value' }, value), ...(term.unit ? [h('dt', {}, 'unit'), h('dd', { 'data-testid': 'symbol-unit' }, unitOf(term.unit))] : []))];
+  return [
+    h('p', { class: 'meaning' }, h('span', { class: 'sign' }, sign), h('span', {}, rich(term.meaning))),
+    h(
+      'dl',
+      {},
+      h('dt', {}, of ? `now, ${of}` : 'now'),
+      h('dd', { 'data-testid': 'symbol-value' }, value),
+      ...(term.unit ? [h('dt', {}, 'unit'), h('dd', { 'data-testid': 'symbol-unit' }, unitOf(term.unit))] : []),
+    ),
+  ];
 }
 
 /** @param {number[][]} matrix */
-const small = (matrix) => h('table', { class: 'small-matrix' }, h('tbody', {}, matrix.map((row) => h('tr', {}, row.map((v) => h('td', {}, figure(v, 4)))))));
+const small = (matrix) =>
+  h(
+    'table',
+    { class: 'small-matrix' },
+    h(
+      'tbody',
+      {},
+      matrix.map((row) =>
+        h(
+          'tr',
+          {},
+          row.map((v) => h('td', {}, figure(v, 4))),
+        ),
+      ),
+    ),
+  );
 
 /** All symbols as a list: the way to the cards' content without pointing at anything. */
 export class SymbolList {
@@ -170,11 +240,20 @@ export class SymbolList {
 
   /** @param {Term[]} terms */
   constructor(terms) {
-    this.node = h('dl', { class: 'symbol-list', 'data-testid': 'symbol-list' }, terms.map((term) => {
-      const cell = h('span', { class: 'worth' });
-      this.#values.push({ name: term.name, cell });
-      return h('div', {}, h('dt', {}, signFor(term)), h('dd', {}, rich(term.meaning), term.unit && term.unit !== '1' ? ` (${term.unit})` : '', cell));
-    }));
+    this.node = h(
+      'dl',
+      { class: 'symbol-list', 'data-testid': 'symbol-list' },
+      terms.map((term) => {
+        const cell = h('span', { class: 'worth' });
+        this.#values.push({ name: term.name, cell });
+        return h(
+          'div',
+          {},
+          h('dt', {}, signFor(term)),
+          h('dd', {}, rich(term.meaning), term.unit && term.unit !== '1' ? ` (${term.unit})` : '', cell),
+        );
+      }),
+    );
   }
 
   /** @param {Now} now */

@@ -47,7 +47,11 @@ export class Glossary {
       const first = parse(term.mathml);
       const [found] = symbolsIn(first, (sign, applied) => ({ sign, applied }));
       if (!found) continue;
-      for (const chapter of term.chapters?.length ? term.chapters : ['']) this.#terms.set(`${chapter}/${found.term.sign}${found.term.applied || text(first).endsWith('(') ? '(' : ''}`, term);
+      for (const chapter of term.chapters?.length ? term.chapters : [''])
+        this.#terms.set(
+          `${chapter}/${found.term.sign}${found.term.applied || text(first).endsWith('(') ? '(' : ''}`,
+          term,
+        );
     }
   }
 
@@ -61,7 +65,31 @@ export class Glossary {
   }
 }
 
-const SIGNALS = new Set(['theta', 'psi', 'theta_dot', 'psi_dot', 'theta_ddot', 'psi_ddot', 'V_p', 'V_y', 'x', 'x_dot', 'u', 'v', 'y', 'q', 'q_dot', 'q_ddot', 'forces', 'thrust', 'kinetic', 'potential', 'lagrangian', 'coriolis', 'gravity']);
+const SIGNALS = new Set([
+  'theta',
+  'psi',
+  'theta_dot',
+  'psi_dot',
+  'theta_ddot',
+  'psi_ddot',
+  'V_p',
+  'V_y',
+  'x',
+  'x_dot',
+  'u',
+  'v',
+  'y',
+  'q',
+  'q_dot',
+  'q_ddot',
+  'forces',
+  'thrust',
+  'kinetic',
+  'potential',
+  'lagrangian',
+  'coriolis',
+  'gravity',
+]);
 const INERTIAS = { beta: (/** @type {Record<string, number>} */ p) => p.J_y + p.m * p.l ** 2 };
 
 /** What a symbol is worth on the present rig. @param {string} name @param {Now} now @returns {Worth} */
@@ -74,7 +102,8 @@ export function worthOf(name, { parameters, components, walk }) {
   if (name === 'theta_0') return number(asked?.operating_point?.theta);
   const pole = /^p_(\d)$/.exec(name);
   if (pole) return asked ? { text: complex(asked.poles[Number(pole[1]) - 1], 3) } : {};
-  if (asked && (name === 'kp' || name === 'ti')) return { text: `${figure(asked.loops.pitch[name])}, ${figure(asked.loops.yaw[name])}` };
+  if (asked && (name === 'kp' || name === 'ti'))
+    return { text: `${figure(asked.loops.pitch[name])}, ${figure(asked.loops.yaw[name])}` };
   if (SIGNALS.has(name)) return { text: 'varies in time' };
   if (name === 's') return { text: 'any complex number' };
   if (!walk || walk.refused) return {};
@@ -93,6 +122,7 @@ export function worthOf(name, { parameters, components, walk }) {
 
 /** @param {Record<string, number>} coefficients @param {string} name */
 function polynomial(coefficients, name) {
-  const signed = (/** @type {number} */ v, /** @type {string} */ power) => `${v < 0 ? '−' : '+'} ${figure(Math.abs(v))}${power}`;
+  const signed = (/** @type {number} */ v, /** @type {string} */ power) =>
+    `${v < 0 ? '−' : '+'} ${figure(Math.abs(v))}${power}`;
   return `s² ${signed(coefficients[`${name}1`], ' s')} ${signed(coefficients[`${name}0`], '')}`;
 }

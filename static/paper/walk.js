@@ -21,6 +21,8 @@ export function walk(body) {
   if (last && wanted === key) return last;
   key = wanted;
   const answer = (last = ask(body));
-  answer.catch(() => { if (last === answer) last = undefined; }); // a lost connection is no answer
+  answer.catch(() => {
+    if (last === answer) last = undefined;
+  }); // a lost connection is no answer
   return answer;
 }

@@ -46,13 +46,34 @@ function ownMarks(step, axis) {
   const at = (/** @type {number} */ time) => valueAt(t, values, time) * DEGREE;
   /** @type {Mark[]} */ const marks = [];
   if (end !== undefined && m.rise_time !== undefined) {
-    marks.push({ kind: 'rise', axis, t: end, value: at(end), brief: say`rise ${seconds(m.rise_time)}`, text: say`Rise time ${seconds(m.rise_time)}: 10 % at ${seconds(end - m.rise_time)}, 90 % at ${seconds(end)}` });
+    marks.push({
+      kind: 'rise',
+      axis,
+      t: end,
+      value: at(end),
+      brief: say`rise ${seconds(m.rise_time)}`,
+      text: say`Rise time ${seconds(m.rise_time)}: 10 % at ${seconds(end - m.rise_time)}, 90 % at ${seconds(end)}`,
+    });
   }
   if (m.overshoot !== undefined && m.overshoot >= SEEN && m.peak !== undefined && m.peak_time !== undefined) {
-    marks.push({ kind: 'peak', axis, t: m.peak_time, value: m.peak * DEGREE, brief: say`peak ${degrees(m.peak, 2)}`, text: say`Peak ${degrees(m.peak, 2)} at ${seconds(m.peak_time)}: overshoot ${fixed(m.overshoot, 1)} %` });
+    marks.push({
+      kind: 'peak',
+      axis,
+      t: m.peak_time,
+      value: m.peak * DEGREE,
+      brief: say`peak ${degrees(m.peak, 2)}`,
+      text: say`Peak ${degrees(m.peak, 2)} at ${seconds(m.peak_time)}: overshoot ${fixed(m.overshoot, 1)} %`,
+    });
   }
   if (m.settling_time !== undefined) {
-    marks.push({ kind: 'settling', axis, t: m.settling_time, value: at(m.settling_time), brief: say`settles ${seconds(m.settling_time)}`, text: say`Settling time ${seconds(m.settling_time)}: from here on within 2 % of the step` });
+    marks.push({
+      kind: 'settling',
+      axis,
+      t: m.settling_time,
+      value: at(m.settling_time),
+      brief: say`settles ${seconds(m.settling_time)}`,
+      text: say`Settling time ${seconds(m.settling_time)}: from here on within 2 % of the step`,
+    });
   }
   return marks;
 }
@@ -65,8 +86,13 @@ function couplingMark(step, stepped, other) {
   const moved = (values[k] - values[0]) * DEGREE;
   if (!(Math.abs(moved) >= MOVES)) return [];
   const figure = `${fixed(Math.abs(step.metrics.coupling_peak * DEGREE || moved), 2)}°`; // the server's, for the samples may miss it
-  const text = stepped === 'theta' ? say`The pitch step moves yaw by ${figure} at ${seconds(step.t[k])}` : say`The yaw step moves pitch by ${figure} at ${seconds(step.t[k])}`;
-  return [{ kind: 'coupling', axis: stepped, t: step.t[k], value: values[k] * DEGREE, brief: say`moves ${figure}`, text }];
+  const text =
+    stepped === 'theta'
+      ? say`The pitch step moves yaw by ${figure} at ${seconds(step.t[k])}`
+      : say`The yaw step moves pitch by ${figure} at ${seconds(step.t[k])}`;
+  return [
+    { kind: 'coupling', axis: stepped, t: step.t[k], value: values[k] * DEGREE, brief: say`moves ${figure}`, text },
+  ];
 }
 
 /** The marks of a plot in the order of time; none where the loop is unstable, as then what is largest says only how long one has looked. @param {Reply|null} reply @param {Signal} signal @returns {Mark[]} */
@@ -75,5 +101,7 @@ export function marksOf(reply, signal) {
   const own = /** @type {'theta'|'psi'} */ (signal);
   const other = own === 'theta' ? 'psi' : 'theta';
   const [step, cross] = [reply.axis_steps?.[own]?.nonlinear, reply.axis_steps?.[other]?.nonlinear];
-  return [...(step ? ownMarks(step, own) : []), ...(cross ? couplingMark(cross, other, own) : [])].sort((a, b) => a.t - b.t);
+  return [...(step ? ownMarks(step, own) : []), ...(cross ? couplingMark(cross, other, own) : [])].sort(
+    (a, b) => a.t - b.t,
+  );
 }

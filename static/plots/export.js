@@ -11,7 +11,12 @@ import { isVoltage, letterOf, tracesOf } from '../model/index.js';
 import { ghostsOf } from './ghosts.js';
 
 export const NAMES = { theta: 'theta', psi: 'psi', V_p: 'V_p', V_y: 'V_y' };
-export const TITLES = { theta: 'Pitch angle θ', psi: 'Yaw angle ψ', V_p: 'Pitch motor voltage V_p', V_y: 'Yaw motor voltage V_y' };
+export const TITLES = {
+  theta: 'Pitch angle θ',
+  psi: 'Yaw angle ψ',
+  V_p: 'Pitch motor voltage V_p',
+  V_y: 'Yaw motor voltage V_y',
+};
 const STEPS = { theta: 'pitch step', psi: 'yaw step', both: 'both steps' };
 
 /** @param {Signal} signal */
@@ -22,10 +27,31 @@ export function linesOf({ reply, motion, showLinear, pins }, signal) {
   if (!reply) return [];
   const { t, plots } = tracesOf(reply, motion, showLinear);
   const [played, linearPitch, linearYaw, yaw, pitch] = plots[signal];
-  const line = (/** @type {string} */ name, /** @type {Kind} */ kind, /** @type {Series|undefined} */ values, linear = false) => (values ? [{ name: word(name), kind, linear, t, values }] : []);
-  const ghosts = ghostsOf(pins, signal).map(({ pin, axis, t: own, values }) => /** @type {Line} */ ({ name: `${letterOf(pin.index)} ${pin.name}, ${word(STEPS[axis])}`, kind: 'pin', index: pin.index, axis, t: own, values }));
-  return [...line(STEPS.theta, 'pitch', pitch), ...line(STEPS.psi, 'yaw', yaw), ...line('pitch step, linear', 'pitch', linearPitch, true), ...line('yaw step, linear', 'yaw', linearYaw, true),
-    ...ghosts, ...(motion === 'both' ? line(STEPS.both, 'played', played) : [])];
+  const line = (
+    /** @type {string} */ name,
+    /** @type {Kind} */ kind,
+    /** @type {Series|undefined} */ values,
+    linear = false,
+  ) => (values ? [{ name: word(name), kind, linear, t, values }] : []);
+  const ghosts = ghostsOf(pins, signal).map(
+    ({ pin, axis, t: own, values }) =>
+      /** @type {Line} */ ({
+        name: `${letterOf(pin.index)} ${pin.name}, ${word(STEPS[axis])}`,
+        kind: 'pin',
+        index: pin.index,
+        axis,
+        t: own,
+        values,
+      }),
+  );
+  return [
+    ...line(STEPS.theta, 'pitch', pitch),
+    ...line(STEPS.psi, 'yaw', yaw),
+    ...line('pitch step, linear', 'pitch', linearPitch, true),
+    ...line('yaw step, linear', 'yaw', linearYaw, true),
+    ...ghosts,
+    ...(motion === 'both' ? line(STEPS.both, 'played', played) : []),
+  ];
 }
 
 /** Single precision has no more digits than this. @param {number|undefined} v */
@@ -38,7 +64,8 @@ const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"
 const alike = (a, b) => a === b || (a.length === b.length && Math.abs(a[a.length - 1] - b[b.length - 1]) < 1e-6);
 
 /** RFC 4180 with units in the header; lines over another time get a column of that time before them. @param {Signal} signal @param {Line[]} lines */
-export const csvOf = (signal, lines) => tableOf(lines, 't [s]', (name) => `${NAMES[signal]}, ${name} [${unitOf(signal)}]`);
+export const csvOf = (signal, lines) =>
+  tableOf(lines, 't [s]', (name) => `${NAMES[signal]}, ${name} [${unitOf(signal)}]`);
 
 /** The same for lines over anything. @param {Line[]} lines @param {string} over the header of what they are over @param {(name: string) => string} header */
 export function tableOf(lines, over, header) {

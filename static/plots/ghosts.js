@@ -12,11 +12,14 @@ const AXES = /** @type {const} */ (['theta', 'psi']);
 const BADGE = 6; // px, half its size
 
 /** @param {Pin[]} pins @param {Signal} signal @returns {Ghost[]} */
-export const ghostsOf = (pins, signal) => pins.flatMap((pin) => AXES.flatMap((axis) => {
-  const step = pin.reply?.axis_steps?.[axis]?.nonlinear;
-  const values = trace(step, signal, false);
-  return step && values ? [{ pin, axis, t: step.t, values }] : [];
-}));
+export const ghostsOf = (pins, signal) =>
+  pins.flatMap((pin) =>
+    AXES.flatMap((axis) => {
+      const step = pin.reply?.axis_steps?.[axis]?.nonlinear;
+      const values = trace(step, signal, false);
+      return step && values ? [{ pin, axis, t: step.t, values }] : [];
+    }),
+  );
 
 export class PlotGhosts {
   /** @type {Ghost[]} */ ghosts = [];
@@ -56,12 +59,23 @@ export class PlotGhosts {
     const { canvas } = this;
     const [w, t] = [Math.round(width), Math.round(height)];
     if (canvas.width !== w || canvas.height !== t) Object.assign(canvas, { width: w, height: t });
-    Object.assign(canvas.style, { left: `${left / ratio}px`, top: `${top / ratio}px`, width: `${width / ratio}px`, height: `${height / ratio}px` });
+    Object.assign(canvas.style, {
+      left: `${left / ratio}px`,
+      top: `${top / ratio}px`,
+      width: `${width / ratio}px`,
+      height: `${height / ratio}px`,
+    });
     const ctx = canvas.getContext('2d');
     if (!ctx) return;
     ctx.clearRect(0, 0, w, t);
     if (!this.ghosts.length) return;
-    drawGhosts(ctx, this.ghosts, (v) => chart.valToPos(v, 'x', true) - left, (v) => chart.valToPos(v, 'y', true) - top, { width: w, type: ratio * scale.type, line: ratio * scale.line, color })();
+    drawGhosts(
+      ctx,
+      this.ghosts,
+      (v) => chart.valToPos(v, 'x', true) - left,
+      (v) => chart.valToPos(v, 'y', true) - top,
+      { width: w, type: ratio * scale.type, line: ratio * scale.line, color },
+    )();
   }
 }
 
@@ -78,7 +92,13 @@ export function drawGhosts(ctx, ghosts, px, py, { width, type, line, color }) {
     const aim = width * (0.06 + 0.4 * ((k * 0.381966 + 0.2) % 1)); // apart from one another, and early, where responses differ
     let i = 0;
     while (i < t.length - 1 && px(t[i]) < aim) i += 1;
-    return { x: px(t[i]), y: py(values[i]), round: axis === 'theta', letter: letterOf(pin.index), ink: ctx.strokeStyle };
+    return {
+      x: px(t[i]),
+      y: py(values[i]),
+      round: axis === 'theta',
+      letter: letterOf(pin.index),
+      ink: ctx.strokeStyle,
+    };
   });
   ctx.globalAlpha = 1;
   return () => drawBadges(ctx, badges, type, color('panel'));
@@ -86,7 +106,12 @@ export function drawGhosts(ctx, ghosts, px, py, { width, type, line, color }) {
 
 /** @param {CanvasRenderingContext2D} ctx @param {{x: number, y: number, round: boolean, letter: string, ink: string|CanvasGradient|CanvasPattern}[]} badges @param {number} ratio @param {string} paper */
 function drawBadges(ctx, badges, ratio, paper) {
-  Object.assign(ctx, { font: `700 ${9 * ratio}px system-ui, sans-serif`, textAlign: 'center', textBaseline: 'middle', lineWidth: 1.2 * ratio });
+  Object.assign(ctx, {
+    font: `700 ${9 * ratio}px system-ui, sans-serif`,
+    textAlign: 'center',
+    textBaseline: 'middle',
+    lineWidth: 1.2 * ratio,
+  });
   const r = BADGE * ratio;
   for (const { x, y, round, letter, ink } of badges) {
     ctx.beginPath();

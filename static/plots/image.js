@@ -11,8 +11,15 @@ import { isVoltage } from '../model/index.js';
 export function drawPlot(signal, lines, pins, { x, y, subtitle, rules, regions, marks }) {
   const symbol = TITLES[signal].split(' ').pop();
   return drawPicture({
-    title: t(TITLES[signal]), subtitle, lines, pins, rules, regions, marks,
-    x: { range: x, title: t('Time in s') }, y: { range: y, title: isVoltage(signal) ? `${symbol} in V` : say`${symbol} in degrees` },
+    title: t(TITLES[signal]),
+    subtitle,
+    lines,
+    pins,
+    rules,
+    regions,
+    marks,
+    x: { range: x, title: t('Time in s') },
+    y: { range: y, title: isVoltage(signal) ? `${symbol} in V` : say`${symbol} in degrees` },
   });
 }
 

@@ -11,13 +11,23 @@ export class PlotMarks {
   /** @param {any} chart @param {(t: number) => void} onSeek */
   constructor(chart, onSeek) {
     this.chart = chart;
-    this.points = Array.from({ length: MOST }, (_, i) => h('button', {
-      type: 'button', class: 'mark-point', hidden: true,
-      onclick: (/** @type {Event} */ e) => { e.stopPropagation(); onSeek(this.#marks[i].t); },
-      onmousedown: (/** @type {Event} */ e) => e.stopPropagation(), // or the plot begins to zoom
-      onpointerenter: () => this.#tell(i), onpointerleave: () => this.#tell(null), onfocus: () => this.#tell(i), onblur: () => this.#tell(null),
-      onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e),
-    }));
+    this.points = Array.from({ length: MOST }, (_, i) =>
+      h('button', {
+        type: 'button',
+        class: 'mark-point',
+        hidden: true,
+        onclick: (/** @type {Event} */ e) => {
+          e.stopPropagation();
+          onSeek(this.#marks[i].t);
+        },
+        onmousedown: (/** @type {Event} */ e) => e.stopPropagation(), // or the plot begins to zoom
+        onpointerenter: () => this.#tell(i),
+        onpointerleave: () => this.#tell(null),
+        onfocus: () => this.#tell(i),
+        onblur: () => this.#tell(null),
+        onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e),
+      }),
+    );
     this.tip = h('div', { class: 'mark-tip', hidden: true, 'aria-hidden': 'true' });
     chart.over.append(...this.points, this.tip);
   }
@@ -42,7 +52,8 @@ export class PlotMarks {
     this.points.forEach((point, i) => {
       const mark = this.#marks[i];
       point.hidden = !mark || !(mark.t >= x.min && mark.t <= x.max && mark.value >= y.min && mark.value <= y.max);
-      if (!point.hidden) point.style.transform = `translate(${chart.valToPos(mark.t, 'x').toFixed(1)}px, ${chart.valToPos(mark.value, 'y').toFixed(1)}px)`;
+      if (!point.hidden)
+        point.style.transform = `translate(${chart.valToPos(mark.t, 'x').toFixed(1)}px, ${chart.valToPos(mark.value, 'y').toFixed(1)}px)`;
     });
     if (this.#told !== null) this.#tell(this.points[this.#told].hidden ? null : this.#told);
   }

@@ -12,31 +12,73 @@ import { drawPlot, fileName } from './image.js';
 export function subtitle(store) {
   const { design } = store.state;
   if (!design) return '';
-  const poles = design.poles.filter((p) => p.im >= 0).map((p) => (p.im ? `${fixed(p.re)} ± ${fixed(p.im)}j` : fixed(p.re))).join(', ');
+  const poles = design.poles
+    .filter((p) => p.im >= 0)
+    .map((p) => (p.im ? `${fixed(p.re)} ± ${fixed(p.im)}j` : fixed(p.re)))
+    .join(', ');
   const about = say`${store.preset?.title ?? design.preset} · poles ${poles} rad/s · ${nameOf(design)}`;
   return design.outer === 'pi' ? say`${about}, PI loops` : about;
 }
 
-const WORDS = { PNG: 'Picture: what is seen, with title, axes and legend, on white', CSV: 'Numbers: time and every line, units in the header' };
+const WORDS = {
+  PNG: 'Picture: what is seen, with title, axes and legend, on white',
+  CSV: 'Numbers: time and every line, units in the header',
+};
 
 /** The button that saves as a picture or as numbers. @param {string} testid @param {string} title @param {{PNG: () => void, CSV: () => void}} save */
 function saveButton(testid, title, save) {
-  const content = () => [h('div', { class: 'row' }, h('span', { class: 'caption' }, `Save ${title}`), .../** @type {('PNG'|'CSV')[]} */ (['PNG', 'CSV']).map((kind) =>
-    h('button', { type: 'button', title: WORDS[kind], 'data-testid': `save-${testid}-${kind}`, onclick: save[kind] }, kind)))];
-  return popupButton({ label: `Save ${title} as picture or numbers`, text: icon('save'), testid: `save-${testid}`, content });
+  const content = () => [
+    h(
+      'div',
+      { class: 'row' },
+      h('span', { class: 'caption' }, `Save ${title}`),
+      .../** @type {('PNG'|'CSV')[]} */ (['PNG', 'CSV']).map((kind) =>
+        h(
+          'button',
+          { type: 'button', title: WORDS[kind], 'data-testid': `save-${testid}-${kind}`, onclick: save[kind] },
+          kind,
+        ),
+      ),
+    ),
+  ];
+  return popupButton({
+    label: `Save ${title} as picture or numbers`,
+    text: icon('save'),
+    testid: `save-${testid}`,
+    content,
+  });
 }
 
-const savePicture = (/** @type {HTMLCanvasElement} */ canvas, /** @type {string} */ name) => canvas.toBlob((blob) => blob && saveFile(`${name}.png`, blob), 'image/png');
-const saveNumbers = (/** @type {string} */ csv, /** @type {string} */ name) => saveFile(`${name}.csv`, new Blob([csv], { type: 'text/csv;charset=utf-8' }));
+const savePicture = (/** @type {HTMLCanvasElement} */ canvas, /** @type {string} */ name) =>
+  canvas.toBlob((blob) => blob && saveFile(`${name}.png`, blob), 'image/png');
+const saveNumbers = (/** @type {string} */ csv, /** @type {string} */ name) =>
+  saveFile(`${name}.csv`, new Blob([csv], { type: 'text/csv;charset=utf-8' }));
 
 /** @param {import('../model/store.js').Store} store @param {Signal} signal @param {string} title @param {() => Seen} seen */
-export const plotMenu = (store, signal, title, seen) => saveButton(signal, title, {
-  PNG: () => savePicture(drawPlot(signal, linesOf(store.state, signal), store.state.pins, { ...seen(), subtitle: subtitle(store) }), fileName(signal)),
-  CSV: () => saveNumbers(csvOf(signal, linesOf(store.state, signal)), fileName(signal)),
-});
+export const plotMenu = (store, signal, title, seen) =>
+  saveButton(signal, title, {
+    PNG: () =>
+      savePicture(
+        drawPlot(signal, linesOf(store.state, signal), store.state.pins, { ...seen(), subtitle: subtitle(store) }),
+        fileName(signal),
+      ),
+    CSV: () => saveNumbers(csvOf(signal, linesOf(store.state, signal)), fileName(signal)),
+  });
 
 /** The same for lines that are not the design's. @param {string} name of the file @param {string} title @param {Signal} signal @param {import('./export.js').Line[]} lines @param {Seen & {subtitle: string}} seen */
-export const linesMenu = (name, title, signal, lines, seen) => saveButton(name, title, { PNG: () => savePicture(drawPlot(signal, lines, [], seen), name), CSV: () => saveNumbers(csvOf(signal, lines), name) });
+export const linesMenu = (name, title, signal, lines, seen) =>
+  saveButton(name, title, {
+    PNG: () => savePicture(drawPlot(signal, lines, [], seen), name),
+    CSV: () => saveNumbers(csvOf(signal, lines), name),
+  });
 
 /** The same for what is not over time. @param {string} name of the file @param {string} title @param {() => Picture} picture @param {string} over header of what the lines are over */
-export const pictureMenu = (name, title, picture, over) => saveButton(name, title, { PNG: () => savePicture(drawPicture(picture()), name), CSV: () => saveNumbers(tableOf(picture().lines, over, (line) => line), name) });
+export const pictureMenu = (name, title, picture, over) =>
+  saveButton(name, title, {
+    PNG: () => savePicture(drawPicture(picture()), name),
+    CSV: () =>
+      saveNumbers(
+        tableOf(picture().lines, over, (line) => line),
+        name,
+      ),
+  });

@@ -14,7 +14,7 @@ export function corners(xs, ys, first, last, corner, tolerance = TOLERANCE) {
   let [anchor, low, high] = [first, -Infinity, Infinity];
   for (let i = first + 1; i <= last; i++) {
     let run = xs[i] - xs[anchor];
-    let slope = (ys[i] - ys[anchor]) / run;
+    const slope = (ys[i] - ys[anchor]) / run;
     if (slope < low || slope > high) {
       anchor = i - 1;
       corner(anchor);

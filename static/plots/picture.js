@@ -9,15 +9,38 @@ import { hatch } from './rules.js';
 /** @typedef {{title: string, subtitle: string, x: Axis, y: Axis, lines: Line[], rules?: Rule[], regions?: import('./rules.js').Region[], pins?: any[], marks?: (Mark & {to?: number})[]}} Picture  to: where a line leads from the mark. pins: those of the lines, for their letters */
 
 /** style.css's, sharing.css's and compare.css's own for a light page. @type {Record<string, string>} */
-const LIGHT = { panel: '#ffffff', ink: '#18222a', muted: '#4a5862', grid: '#e3e9ec', pitch: '#b94a2c', yaw: '#24689b', halo: '#dcdedf', danger: '#b3261e', warn: '#8a5a00', 'limit-fill': '#fbeeed', 'series-0': '#16726b', 'series-1': '#7a4bb0',
-  'pin-0': '#7a3fb0', 'pin-1': '#11706a', 'pin-2': '#8a5a00', 'pin-3': '#ab2468', 'pin-4': '#4a6a1c', 'pin-5': '#4d5a6b' };
+const LIGHT = {
+  panel: '#ffffff',
+  ink: '#18222a',
+  muted: '#4a5862',
+  grid: '#e3e9ec',
+  pitch: '#b94a2c',
+  yaw: '#24689b',
+  halo: '#dcdedf',
+  danger: '#b3261e',
+  warn: '#8a5a00',
+  'limit-fill': '#fbeeed',
+  'series-0': '#16726b',
+  'series-1': '#7a4bb0',
+  'pin-0': '#7a3fb0',
+  'pin-1': '#11706a',
+  'pin-2': '#8a5a00',
+  'pin-3': '#ab2468',
+  'pin-4': '#4a6a1c',
+  'pin-5': '#4d5a6b',
+};
 const SCALE = 2; // dots per pixel
 const [WIDTH, HEIGHT] = [800, 450];
 const [LEFT, TOP, RIGHT, BOTTOM] = [64, 46, 20, 50];
 const FONT = 'system-ui, sans-serif';
 const AXIS = { theta: 'pitch', psi: 'yaw' };
 /** Where a mark's words stand. @type {Record<Mark['kind'], [CanvasTextAlign, number, number]>} */
-const BESIDE = { peak: ['center', 0, -14], coupling: ['center', 0, -14], rise: ['left', 9, 5], settling: ['left', 7, 15] };
+const BESIDE = {
+  peak: ['center', 0, -14],
+  coupling: ['center', 0, -14],
+  rise: ['left', 9, 5],
+  settling: ['left', 7, 15],
+};
 
 /** @param {Line} line @returns {{color: string, width: number, dash: number[]}} as on the page */
 function styleOf({ kind, linear, index = 0, axis }) {
@@ -31,13 +54,15 @@ function styleOf({ kind, linear, index = 0, axis }) {
 
 /** Decades, or steps of a round number. @param {Axis} axis @param {number} about how many @returns {number[]} */
 function ticksOf({ range: [low, high], log, steps }, about) {
-  if (!log) return ticks(low, high, steps?.find((step) => (high - low) / step <= about + 1) ?? niceStep(high - low, about));
+  if (!log)
+    return ticks(low, high, steps?.find((step) => (high - low) / step <= about + 1) ?? niceStep(high - low, about));
   const [first, last] = [Math.ceil(Math.log10(low) - 1e-9), Math.floor(Math.log10(high) + 1e-9)];
   return Array.from({ length: Math.max(0, last - first + 1) }, (_, i) => 10 ** (first + i));
 }
 
 /** Where a value lies along an axis, 0…1. @param {Axis} axis @param {number} v */
-const share = ({ range: [low, high], log }, v) => (log ? Math.log(v / low) / Math.log(high / low) : (v - low) / (high - low));
+const share = ({ range: [low, high], log }, v) =>
+  log ? Math.log(v / low) / Math.log(high / low) : (v - low) / (high - low);
 
 /** @param {Picture} picture @returns {HTMLCanvasElement} */
 export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions = [], pins = [], marks = [] }) {
@@ -51,7 +76,14 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions 
   const box = { left: LEFT, top: TOP, right: WIDTH - RIGHT, bottom: HEIGHT - BOTTOM };
   const px = (/** @type {number} */ v) => box.left + share(x, v) * (box.right - box.left);
   const py = (/** @type {number} */ v) => box.bottom - share(y, v) * (box.bottom - box.top);
-  const text = (/** @type {string} */ words, /** @type {number} */ left, /** @type {number} */ top, /** @type {CanvasTextAlign} */ align, /** @type {string} */ font, /** @type {string} */ color) => {
+  const text = (
+    /** @type {string} */ words,
+    /** @type {number} */ left,
+    /** @type {number} */ top,
+    /** @type {CanvasTextAlign} */ align,
+    /** @type {string} */ font,
+    /** @type {string} */ color,
+  ) => {
     Object.assign(ctx, { textAlign: align, textBaseline: 'middle', font: `${font} ${FONT}`, fillStyle: color });
     ctx.fillText(words, left, top);
   };
@@ -61,7 +93,12 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions 
     const width = ctx.measureText(words).width + 4;
     ctx.globalAlpha = 0.82;
     ctx.fillStyle = LIGHT.panel;
-    ctx.fillRect(left - 2 - (align === 'right' ? width - 4 : align === 'center' ? width / 2 - 2 : 0), top - 7, width, 14);
+    ctx.fillRect(
+      left - 2 - (align === 'right' ? width - 4 : align === 'center' ? width / 2 - 2 : 0),
+      top - 7,
+      width,
+      14,
+    );
     ctx.globalAlpha = 1;
     text(words, left, top, align, font, color);
   };
@@ -79,16 +116,40 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions 
   ctx.beginPath();
   ctx.rect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   ctx.clip();
-  for (const r of regions) hatch(ctx, { left: px(r.left), right: px(r.right), inner: py(r.inner), outer: py(r.outer) }, LIGHT.warn, 1);
+  for (const r of regions)
+    hatch(ctx, { left: px(r.left), right: px(r.right), inner: py(r.inner), outer: py(r.outer) }, LIGHT.warn, 1);
   for (const line of lines.filter((l) => l.kind === 'played')) stroke(ctx, line, px, py);
-  const ghosts = lines.filter((l) => l.kind === 'pin').map((l) => ({ pin: pins.find((p) => p.index === l.index), axis: /** @type {'theta'|'psi'} */ (l.axis), t: l.t, values: l.values })).filter((g) => g.pin);
+  const ghosts = lines
+    .filter((l) => l.kind === 'pin')
+    .map((l) => ({
+      pin: pins.find((p) => p.index === l.index),
+      axis: /** @type {'theta'|'psi'} */ (l.axis),
+      t: l.t,
+      values: l.values,
+    }))
+    .filter((g) => g.pin);
   ctx.save();
   ctx.translate(box.left, 0);
-  const badges = drawGhosts(ctx, ghosts, (v) => px(v) - box.left, py, { width: box.right - box.left, type: 1, line: 1, color: (name) => LIGHT[name] });
+  const badges = drawGhosts(ctx, ghosts, (v) => px(v) - box.left, py, {
+    width: box.right - box.left,
+    type: 1,
+    line: 1,
+    color: (name) => LIGHT[name],
+  });
   ctx.restore();
   for (const line of lines.filter((l) => l.kind !== 'pin' && l.kind !== 'played').reverse()) stroke(ctx, line, px, py);
   for (const mark of marks) {
-    if (mark.to !== undefined) stroke(ctx, { t: [mark.t, mark.t], values: [mark.value, mark.to], style: { color: LIGHT[AXIS[mark.axis]], width: 1.5, dash: [] } }, px, py);
+    if (mark.to !== undefined)
+      stroke(
+        ctx,
+        {
+          t: [mark.t, mark.t],
+          values: [mark.value, mark.to],
+          style: { color: LIGHT[AXIS[mark.axis]], width: 1.5, dash: [] },
+        },
+        px,
+        py,
+      );
     drawMark(ctx, mark, px(mark.t), py(mark.value), label);
   }
   ctx.translate(box.left, 0);
@@ -96,8 +157,24 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions 
   ctx.restore();
   for (const { value, label: words, danger } of rules) {
     if (value < y.range[0] || value > y.range[1]) continue;
-    stroke(ctx, { t: x.range, values: [value, value], style: { color: danger ? LIGHT.danger : LIGHT.ink, width: 1.2, dash: danger ? [] : [1, 4] } }, px, py);
-    label(words, box.right - 4, py(value) + (value > 0 && !y.log ? 9 : -9), 'right', '11px', danger ? LIGHT.danger : LIGHT.ink);
+    stroke(
+      ctx,
+      {
+        t: x.range,
+        values: [value, value],
+        style: { color: danger ? LIGHT.danger : LIGHT.ink, width: 1.2, dash: danger ? [] : [1, 4] },
+      },
+      px,
+      py,
+    );
+    label(
+      words,
+      box.right - 4,
+      py(value) + (value > 0 && !y.log ? 9 : -9),
+      'right',
+      '11px',
+      danger ? LIGHT.danger : LIGHT.ink,
+    );
   }
   lines.forEach((line, i) => {
     const [left, top] = [box.left + (i % 3) * ((box.right - box.left) / 3), HEIGHT + 4 + 20 * Math.floor(i / 3)];
@@ -117,7 +194,11 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions 
 function drawMark(ctx, { kind, axis, brief }, x, y, text) {
   const color = LIGHT[AXIS[axis]];
   ctx.setLineDash([]);
-  for (const [size, fill] of /** @type {const} */ ([[5, color], [4, LIGHT.panel], [2.6, color]])) {
+  for (const [size, fill] of /** @type {const} */ ([
+    [5, color],
+    [4, LIGHT.panel],
+    [2.6, color],
+  ])) {
     ctx.beginPath();
     if (axis === 'theta') ctx.arc(x, y, size, 0, 2 * Math.PI);
     else ctx.rect(x - size, y - size, 2 * size, 2 * size);

@@ -13,7 +13,17 @@ import { PlotGhosts } from './ghosts.js';
 import { PlotMarks } from './marks.js';
 import { plotMenu } from './menu.js';
 import { plainPath } from './paths.js';
-import { drawBand, drawReference, drawRegions, drawShades, limitOf, referenceOf, regionsOf, rulesOf, rulesSeen } from './rules.js';
+import {
+  drawBand,
+  drawReference,
+  drawRegions,
+  drawShades,
+  limitOf,
+  referenceOf,
+  regionsOf,
+  rulesOf,
+  rulesSeen,
+} from './rules.js';
 import { PlotTexts } from './texts.js';
 
 /** @type {Record<Signal, {base: string, sub?: string, title: string, unit: string}>} */
@@ -48,7 +58,18 @@ export class Plots {
     this.at = h('span');
     this.played = h('span', { class: 'played' });
     this.when = h('span', { class: 'when', 'data-testid': 'plot-time' }, this.at, this.played);
-    this.unzoom = h('button', { type: 'button', class: 'unzoom', hidden: true, 'data-testid': 'unzoom', title: 'Show the whole time again (Escape)', onclick: () => this.#zoomTo(null) }, 'Whole time');
+    this.unzoom = h(
+      'button',
+      {
+        type: 'button',
+        class: 'unzoom',
+        hidden: true,
+        'data-testid': 'unzoom',
+        title: 'Show the whole time again (Escape)',
+        onclick: () => this.#zoomTo(null),
+      },
+      'Whole time',
+    );
     this.#readColors();
     this.plots = SIGNALS.map((signal) => this.#build(signal));
     for (const query of ['(prefers-color-scheme: dark)', '(prefers-contrast: more)']) {
@@ -62,47 +83,150 @@ export class Plots {
   #readColors() {
     const style = getComputedStyle(document.documentElement);
     const pins = Array.from({ length: COLORS }, (_, i) => colorOf(i));
-    for (const name of ['panel', 'pitch', 'yaw', 'ink', 'muted', 'grid', 'halo', 'danger', 'warn', 'limit-fill', ...pins]) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
+    for (const name of [
+      'panel',
+      'pitch',
+      'yaw',
+      'ink',
+      'muted',
+      'grid',
+      'halo',
+      'danger',
+      'warn',
+      'limit-fill',
+      ...pins,
+    ])
+      this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
   }
 
   /** @param {Signal} signal */
   #build(signal) {
     const about = ABOUT[signal];
-    const values = ['theta', 'psi'].map((axis) => h('span', { class: `at ${axis === 'theta' ? 'pitch' : 'yaw'}`, title: `${axis === 'theta' ? 'pitch' : 'yaw'} step` }));
-    const body = h('div', { class: 'plot-body', tabindex: 0, role: 'group', 'aria-label': `${about.title}: left and right move the time, plus and minus zoom, Escape shows the whole time`, onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e) });
+    const values = ['theta', 'psi'].map((axis) =>
+      h('span', {
+        class: `at ${axis === 'theta' ? 'pitch' : 'yaw'}`,
+        title: `${axis === 'theta' ? 'pitch' : 'yaw'} step`,
+      }),
+    );
+    const body = h('div', {
+      class: 'plot-body',
+      tabindex: 0,
+      role: 'group',
+      'aria-label': `${about.title}: left and right move the time, plus and minus zoom, Escape shows the whole time`,
+      onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e),
+    });
     const first = signal === SIGNALS[0] ? [this.when, this.unzoom] : [];
-    const menu = plotMenu(this.store, signal, `${about.title} over time`, () => ({ x: this.#zoom ?? this.#time, y: this.#ranges[signal] ?? [0, 1], rules: rulesOf(this.store.state.reply, signal), regions: regions(), marks: this.#marks(signal) }));
-    const figure = h('figure', { class: `plot ${isVoltage(signal) ? 'volts' : 'angle'}`, 'data-testid': `plot-${signal}`, 'data-signal': signal },
-      h('figcaption', {}, symbol(about.base, about.sub), h('span', { class: 'what' }, `${about.title}, ${about.unit.trim() === '°' ? 'deg' : 'V'}`), first, h('span', { class: 'values' }, values), menu), body);
+    const menu = plotMenu(this.store, signal, `${about.title} over time`, () => ({
+      x: this.#zoom ?? this.#time,
+      y: this.#ranges[signal] ?? [0, 1],
+      rules: rulesOf(this.store.state.reply, signal),
+      regions: regions(),
+      marks: this.#marks(signal),
+    }));
+    const figure = h(
+      'figure',
+      {
+        class: `plot ${isVoltage(signal) ? 'volts' : 'angle'}`,
+        'data-testid': `plot-${signal}`,
+        'data-signal': signal,
+      },
+      h(
+        'figcaption',
+        {},
+        symbol(about.base, about.sub),
+        h('span', { class: 'what' }, `${about.title}, ${about.unit.trim() === '°' ? 'deg' : 'V'}`),
+        first,
+        h('span', { class: 'values' }, values),
+        menu,
+      ),
+      body,
+    );
     this.root.append(figure);
     const color = (/** @type {string} */ name) => () => this.#colors[name];
     const ink = (/** @type {string} */ name) => this.#colors[name];
     const rules = () => rulesOf(this.store.state.reply, signal);
     const regions = () => regionsOf(this.store.state.reply, signal, this.store.state.requirements);
-    const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({ stroke: color(name), width, dash, auto: false, paths: plainPath, points: { show: false } });
+    const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({
+      stroke: color(name),
+      width,
+      dash,
+      auto: false,
+      paths: plainPath,
+      points: { show: false },
+    });
     const last = () => signal === 'V_y' || (signal === 'V_p' && this.root.classList.contains('two-columns'));
     /** @type {PlotGhosts|undefined} */ let ghosts;
     /** @type {PlotMarks|undefined} */ let marks;
     /** @type {PlotTexts|undefined} */ let texts;
     // auto: false, as the ranges are ours: no trace is searched for its extremes a second time.
-    const chart = followsPage(new Chart({
-      width: 300, height: 120, legend: { show: false }, pxAlign: 0, padding: [() => 6 * pictureScale().type, () => 12 * pictureScale().type, 2, 0],
-      series: [{}, { stroke: color('halo'), width: 7, auto: false, paths: plainPath, points: { show: false } }, line('pitch', 1.25, [7, 4]), line('yaw', 1.25, [2, 3]), line('yaw', 1.5), line('pitch', 2.4)],
-      scales: { x: { time: false, range: () => this.#zoom ?? this.#time }, y: { range: () => this.#ranges[signal] ?? [0, 1] } },
-      axes: [
-        { grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 4, space: () => 50 * pictureScale().type, size: () => (last() ? 22 * pictureScale().type : 4), values: () => [] },
-        { grid: { stroke: color('grid'), width: 1 }, ticks: { show: false }, gap: 5, size: () => AXIS_WIDTH * pictureScale().type, space: () => 26 * pictureScale().type, values: () => [] },
-      ],
-      cursor: { y: false, points: { show: false }, drag: { x: true, y: false, setScale: false },
-        sync: { key: 'heli2dof', filters: { pub: (/** @type {string} */ type) => type === 'mousemove' || type === 'mouseleave' } },
-        bind: { dblclick: () => () => this.#zoomTo(null) } },
-      hooks: {
-        drawAxes: [(/** @type {any} */ u) => drawShades(u, rules(), ink), (/** @type {any} */ u) => drawRegions(u, regions(), ink), (/** @type {any} */ u) => drawBand(u, signal, this.#cloud, ink)],
-        draw: [(/** @type {any} */ u) => drawReference(u, rules(), ink), (/** @type {any} */ u) => texts?.draw(rulesSeen(u, rules()), pictureScale().type), () => ghosts?.draw(ink), () => marks?.place()],
-        setCursor: [(/** @type {any} */ u) => this.#hovered(u)],
-        setSelect: [(/** @type {any} */ u) => this.#selected(u)],
-      },
-    }, [[0, 1], ...Array(5).fill([null, null])], body));
+    const chart = followsPage(
+      new Chart(
+        {
+          width: 300,
+          height: 120,
+          legend: { show: false },
+          pxAlign: 0,
+          padding: [() => 6 * pictureScale().type, () => 12 * pictureScale().type, 2, 0],
+          series: [
+            {},
+            { stroke: color('halo'), width: 7, auto: false, paths: plainPath, points: { show: false } },
+            line('pitch', 1.25, [7, 4]),
+            line('yaw', 1.25, [2, 3]),
+            line('yaw', 1.5),
+            line('pitch', 2.4),
+          ],
+          scales: {
+            x: { time: false, range: () => this.#zoom ?? this.#time },
+            y: { range: () => this.#ranges[signal] ?? [0, 1] },
+          },
+          axes: [
+            {
+              grid: { stroke: color('grid'), width: 1 },
+              ticks: { show: false },
+              gap: 4,
+              space: () => 50 * pictureScale().type,
+              size: () => (last() ? 22 * pictureScale().type : 4),
+              values: () => [],
+            },
+            {
+              grid: { stroke: color('grid'), width: 1 },
+              ticks: { show: false },
+              gap: 5,
+              size: () => AXIS_WIDTH * pictureScale().type,
+              space: () => 26 * pictureScale().type,
+              values: () => [],
+            },
+          ],
+          cursor: {
+            y: false,
+            points: { show: false },
+            drag: { x: true, y: false, setScale: false },
+            sync: {
+              key: 'heli2dof',
+              filters: { pub: (/** @type {string} */ type) => type === 'mousemove' || type === 'mouseleave' },
+            },
+            bind: { dblclick: () => () => this.#zoomTo(null) },
+          },
+          hooks: {
+            drawAxes: [
+              (/** @type {any} */ u) => drawShades(u, rules(), ink),
+              (/** @type {any} */ u) => drawRegions(u, regions(), ink),
+              (/** @type {any} */ u) => drawBand(u, signal, this.#cloud, ink),
+            ],
+            draw: [
+              (/** @type {any} */ u) => drawReference(u, rules(), ink),
+              (/** @type {any} */ u) => texts?.draw(rulesSeen(u, rules()), pictureScale().type),
+              () => ghosts?.draw(ink),
+              () => marks?.place(),
+            ],
+            setCursor: [(/** @type {any} */ u) => this.#hovered(u)],
+            setSelect: [(/** @type {any} */ u) => this.#selected(u)],
+          },
+        },
+        [[0, 1], ...Array(5).fill([null, null])],
+        body,
+      ),
+    );
     texts = new PlotTexts(chart, {
       time: (v, end) => (last() ? `${Number(v.toFixed(3))}${end ? ' s' : ''}` : ''),
       axis: (v) => String(Number(v.toPrecision(6))).replace('-', '\u2212'),
@@ -112,7 +236,8 @@ export class Plots {
     const head = h('div', { class: 'playhead' });
     chart.over.append(head);
     chart.over.addEventListener('click', () => {
-      if (chart.cursor.left !== undefined && chart.cursor.left >= 0) this.onSeek(chart.posToVal(chart.cursor.left, 'x'));
+      if (chart.cursor.left !== undefined && chart.cursor.left >= 0)
+        this.onSeek(chart.posToVal(chart.cursor.left, 'x'));
     });
     new ResizeObserver(([entry]) => {
       const { width, height } = entry.contentRect;
@@ -143,7 +268,9 @@ export class Plots {
       ghosts.take(state.pins);
       const [played, dashPitch, dashYaw, yaw, pitch] = data.plots[signal];
       this.#ranges[signal] = rangeOf({
-        solid: extent([played, yaw, pitch]), dashed: extent([dashPitch, dashYaw, ghosts.extent]), include: [0, referenceOf(state.reply, signal) ?? 0],
+        solid: extent([played, yaw, pitch]),
+        dashed: extent([dashPitch, dashYaw, ghosts.extent]),
+        include: [0, referenceOf(state.reply, signal) ?? 0],
         limit: limitOf(state.reply, signal),
         previous: fresh ? undefined : this.#ranges[signal],
       });
@@ -196,7 +323,10 @@ export class Plots {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[e.key];
     const factor = { '+': 0.5, '=': 0.5, '-': 2 }[e.key];
     if (e.ctrlKey || e.metaKey || e.altKey) return;
-    if (step) this.onSeek(Math.max(0, Math.min(this.#time[1], this.#playhead + (step * (to - from)) / (e.shiftKey ? 200 : 50))));
+    if (step)
+      this.onSeek(
+        Math.max(0, Math.min(this.#time[1], this.#playhead + (step * (to - from)) / (e.shiftKey ? 200 : 50))),
+      );
     else if (factor) {
       const width = Math.min(this.#time[1], factor * (to - from));
       const left = Math.max(0, Math.min(this.#time[1] - width, this.#playhead - width / 2));

@@ -29,8 +29,17 @@ const minus = (/** @type {number} */ v) => `${v < 0 ? '\u2212' : ''}${Math.abs(v
 /** The lines across a plot, with what they say. @param {Reply|null} reply @param {Signal} signal @returns {Rule[]} */
 export function rulesOf(reply, signal) {
   const [limit, reference] = [limitOf(reply, signal), referenceOf(reply, signal)];
-  const rules = limit === undefined ? [] : [limit, -limit].map((value) => ({ value, label: signal === 'theta' ? say`stop ${fixed(value, 1)}°` : say`limit ${minus(value)} V`, danger: true }));
-  return reference ? [...rules, { value: reference, label: say`reference ${fixed(reference, 1)}°`, danger: false }] : rules;
+  const rules =
+    limit === undefined
+      ? []
+      : [limit, -limit].map((value) => ({
+          value,
+          label: signal === 'theta' ? say`stop ${fixed(value, 1)}°` : say`limit ${minus(value)} V`,
+          danger: true,
+        }));
+  return reference
+    ? [...rules, { value: reference, label: say`reference ${fixed(reference, 1)}°`, danger: false }]
+    : rules;
 }
 
 const SETTLED = 0.02; // of the step
@@ -48,23 +57,39 @@ export function regionsOf(reply, signal, { settling, overshoot }) {
   const [from, to, end] = [step[axis][0] * DEGREE, step.reference[axis] * DEGREE, step.t[step.t.length - 1]];
   const size = to - from;
   if (Math.abs(size) < 1e-9) return [];
-  const wall = (/** @type {number} */ left, /** @type {number} */ right, /** @type {number} */ inner, /** @type {number} */ away) => (right > left ? [{ left, right, inner: to + inner * size, outer: to + (inner + away * WALL) * size }] : []);
+  const wall = (
+    /** @type {number} */ left,
+    /** @type {number} */ right,
+    /** @type {number} */ inner,
+    /** @type {number} */ away,
+  ) => (right > left ? [{ left, right, inner: to + inner * size, outer: to + (inner + away * WALL) * size }] : []);
   const most = overshoot === null ? undefined : overshoot / 100;
   const late = settling ?? end;
-  return [...(most === undefined ? [] : wall(0, Math.min(late, end), most, 1)), ...(settling === null ? [] : [...wall(late, end, Math.min(SETTLED, most ?? SETTLED), 1), ...wall(late, end, -SETTLED, -1)])];
+  return [
+    ...(most === undefined ? [] : wall(0, Math.min(late, end), most, 1)),
+    ...(settling === null
+      ? []
+      : [...wall(late, end, Math.min(SETTLED, most ?? SETTLED), 1), ...wall(late, end, -SETTLED, -1)]),
+  ];
 }
 
 /** Hatched as in the s-plane, over the grid and under the lines. @param {any} u @param {Region[]} regions @param {Color} color */
 export function drawRegions(u, regions, color) {
   const { ctx, bbox } = u;
   const size = devicePixelRatio * pictureScale().line;
-  const x = (/** @type {number} */ v) => Math.max(bbox.left, Math.min(bbox.left + bbox.width, u.valToPos(v, 'x', true)));
+  const x = (/** @type {number} */ v) =>
+    Math.max(bbox.left, Math.min(bbox.left + bbox.width, u.valToPos(v, 'x', true)));
   ctx.save();
   ctx.beginPath();
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
   ctx.clip();
   for (const region of regions) {
-    const [left, right, inner, outer] = [x(region.left), x(region.right), u.valToPos(region.inner, 'y', true), u.valToPos(region.outer, 'y', true)];
+    const [left, right, inner, outer] = [
+      x(region.left),
+      x(region.right),
+      u.valToPos(region.inner, 'y', true),
+      u.valToPos(region.outer, 'y', true),
+    ];
     hatch(ctx, { left, right, inner, outer }, color('warn'), size);
   }
   ctx.restore();
@@ -136,7 +161,11 @@ export function drawRule({ ctx, bbox }, y, stroke, dash) {
 export function drawLabel({ ctx, bbox }, y, label, side, ink, paper) {
   const size = devicePixelRatio * pictureScale().type;
   const [x, foot] = [bbox.left + bbox.width - 4 * size, y + side * 3 * size];
-  Object.assign(ctx, { font: `${10 * size}px system-ui, sans-serif`, textAlign: 'right', textBaseline: side > 0 ? 'top' : 'bottom' });
+  Object.assign(ctx, {
+    font: `${10 * size}px system-ui, sans-serif`,
+    textAlign: 'right',
+    textBaseline: side > 0 ? 'top' : 'bottom',
+  });
   const width = ctx.measureText(label).width;
   ctx.globalAlpha = 0.82;
   ctx.fillStyle = paper;
@@ -152,7 +181,8 @@ export function drawBand(u, signal, cloud, color) {
   const { t, envelopes } = cloud;
   const [low, , high] = envelopes[/** @type {'theta'|'psi'} */ (signal)];
   const { ctx, bbox } = u;
-  const at = (/** @type {number[]} */ band, /** @type {number} */ i) => /** @type {const} */ ([u.valToPos(t[i], 'x', true), u.valToPos(band[i] * DEGREE, 'y', true)]);
+  const at = (/** @type {number[]} */ band, /** @type {number} */ i) =>
+    /** @type {const} */ ([u.valToPos(t[i], 'x', true), u.valToPos(band[i] * DEGREE, 'y', true)]);
   ctx.save();
   ctx.beginPath();
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);

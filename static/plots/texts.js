@@ -38,17 +38,32 @@ export class PlotTexts {
     const { chart } = this;
     const [across, up] = chart.axes;
     const { left, right, bottom } = box(chart);
-    const times = (across._splits ?? []).map((/** @type {number} */ v, /** @type {number} */ i, /** @type {number[]} */ all) => (
-      { key: 'x', text: this.words.time(v, i === all.length - 1), x: Math.min(right, chart.valToPos(v, 'x') + left), y: bottom + GAP.x * size }));
-    const values = (up._splits ?? []).map((/** @type {number} */ v) => ({ key: 'y', text: this.words.axis(v), x: left - GAP.y * size, y: heightOf(chart, v) }));
+    const times = (across._splits ?? []).map(
+      (/** @type {number} */ v, /** @type {number} */ i, /** @type {number[]} */ all) => ({
+        key: 'x',
+        text: this.words.time(v, i === all.length - 1),
+        x: Math.min(right, chart.valToPos(v, 'x') + left),
+        y: bottom + GAP.x * size,
+      }),
+    );
+    const values = (up._splits ?? []).map((/** @type {number} */ v) => ({
+      key: 'y',
+      text: this.words.axis(v),
+      x: left - GAP.y * size,
+      y: heightOf(chart, v),
+    }));
     return [...times.filter((/** @type {Text} */ { text }) => text), ...values];
   }
 
   /** At the right end of their lines, away from zero's side. @param {Rule[]} rules @param {number} size @returns {Text[]} */
   #rules(rules, size) {
     const { right } = box(this.chart);
-    return rules.map(({ value, label, danger }) => (
-      { key: `rule ${value > 0 ? 'below' : 'above'} ${danger ? 'danger' : ''}`, text: label, x: right - FOOT * size, y: heightOf(this.chart, value) + (value > 0 ? 1 : -1) * GAP.rule * size }));
+    return rules.map(({ value, label, danger }) => ({
+      key: `rule ${value > 0 ? 'below' : 'above'} ${danger ? 'danger' : ''}`,
+      text: label,
+      x: right - FOOT * size,
+      y: heightOf(this.chart, value) + (value > 0 ? 1 : -1) * GAP.rule * size,
+    }));
   }
 }
 

@@ -1,6 +1,13 @@
 /** Asks the server about a recording and keeps its answers in the store: file, overlay, identification with progress and cancel. */
 import { bodyOf } from '../model/index.js';
-import { identifyAddress, joinRecordings, overlayRecording, ProblemError, sampleRecording, sendRecording } from '../net/index.js';
+import {
+  identifyAddress,
+  joinRecordings,
+  overlayRecording,
+  ProblemError,
+  sampleRecording,
+  sendRecording,
+} from '../net/index.js';
 import { guessed, identifyBody, isMapped, nothing, overlayBody } from './recordings.js';
 
 /** @typedef {import('../types.js').Recorded} Recorded */
@@ -23,7 +30,10 @@ export class RecordingFeed {
 
   /** @param {unknown} error */
   #fail(error) {
-    const problem = error instanceof ProblemError ? error.problem : { detail: 'The server cannot be reached.', hint: 'Try again when the connection is back.' };
+    const problem =
+      error instanceof ProblemError
+        ? error.problem
+        : { detail: 'The server cannot be reached.', hint: 'Try again when the connection is back.' };
     this.#set({ busy: '', problem });
   }
 

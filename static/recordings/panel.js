@@ -2,11 +2,27 @@
 import { significant } from '../text/index.js';
 import { h, setText, symbol } from '../ui/index.js';
 import { RecordingFeed } from './feed.js';
-import { adopted, curves, DRIVERS, estimateRows, fitText, freeAtFirst, IDENTIFIABLE, isMapped, missingWords, overlayWords, previewWords, progressWords } from './recordings.js';
+import {
+  adopted,
+  curves,
+  DRIVERS,
+  estimateRows,
+  fitText,
+  freeAtFirst,
+  IDENTIFIABLE,
+  isMapped,
+  missingWords,
+  overlayWords,
+  previewWords,
+  progressWords,
+} from './recordings.js';
 import { RecordingMapping } from './mapping.js';
 import { RecordingPlot } from './plot.js';
 
-const sym = (/** @type {string} */ name) => { const [base, sub] = name.split('_'); return symbol(base, sub); };
+const sym = (/** @type {string} */ name) => {
+  const [base, sub] = name.split('_');
+  return symbol(base, sub);
+};
 const AXES = /** @type {const} */ (['theta', 'psi']);
 
 export class RecordingsPanel {
@@ -18,16 +34,37 @@ export class RecordingsPanel {
   constructor(root, store) {
     this.store = store;
     this.feed = new RecordingFeed(store);
-    const button = (/** @type {string} */ id, /** @type {string} */ text, /** @type {() => void} */ act, title = '') => h('button', { type: 'button', 'data-testid': `recording-${id}`, title: title || undefined, onclick: act }, text);
-    this.file = h('input', { type: 'file', multiple: true, accept: '.csv,.txt,.tsv,.dat,.log,.asc,.gz,.xlsx,.mat,.h5,.hdf5,.json,.jsonl', title: 'One file, or one for each signal', 'data-testid': 'recording-file', onchange: () => this.#send() });
-    this.sample = button('sample', 'Try with a sample', () => this.#sample(), 'Thirty seconds of the present design on a digital rig whose parameters are off by up to 15 %');
-    this.save = h('a', { class: 'button', hidden: true, download: 'heli2dof-recording.csv', 'data-testid': 'recording-save' }, 'Save the sample');
+    const button = (/** @type {string} */ id, /** @type {string} */ text, /** @type {() => void} */ act, title = '') =>
+      h('button', { type: 'button', 'data-testid': `recording-${id}`, title: title || undefined, onclick: act }, text);
+    this.file = h('input', {
+      type: 'file',
+      multiple: true,
+      accept: '.csv,.txt,.tsv,.dat,.log,.asc,.gz,.xlsx,.mat,.h5,.hdf5,.json,.jsonl',
+      title: 'One file, or one for each signal',
+      'data-testid': 'recording-file',
+      onchange: () => this.#send(),
+    });
+    this.sample = button(
+      'sample',
+      'Try with a sample',
+      () => this.#sample(),
+      'Thirty seconds of the present design on a digital rig whose parameters are off by up to 15 %',
+    );
+    this.save = h(
+      'a',
+      { class: 'button', hidden: true, download: 'heli2dof-recording.csv', 'data-testid': 'recording-save' },
+      'Save the sample',
+    );
     this.status = h('p', { class: 'caption', role: 'status', 'data-testid': 'recording-status' });
     this.problem = h('p', { class: 'status failure', role: 'alert', hidden: true, 'data-testid': 'recording-problem' });
     this.mapping = new RecordingMapping(this.feed, store);
     this.noted = h('ul', { class: 'recording-remarks', 'data-testid': 'recording-findings' });
     this.plots = AXES.map((axis, i) => new RecordingPlot(axis, i ? 'yaw' : 'pitch'));
-    this.driver = h('select', { 'data-testid': 'recording-driver', onchange: () => this.feed.drive(this.driver.value) }, Object.entries(DRIVERS).map(([value, text]) => h('option', { value }, text)));
+    this.driver = h(
+      'select',
+      { 'data-testid': 'recording-driver', onchange: () => this.feed.drive(this.driver.value) },
+      Object.entries(DRIVERS).map(([value, text]) => h('option', { value }, text)),
+    );
     this.again = button('overlay', 'Simulate again', () => this.feed.overlay(), 'The design has changed since');
     this.about = h('p', { class: 'caption' });
     this.free = h('div', { class: 'lock-list' });
@@ -35,15 +72,80 @@ export class RecordingsPanel {
     this.cancel = button('cancel', 'Cancel', () => this.feed.cancel());
     this.progress = h('p', { class: 'caption', role: 'status', 'data-testid': 'recording-progress' });
     this.rows = h('tbody');
-    this.table = h('table', { class: 'compare-table', hidden: true, 'data-testid': 'recording-estimates' }, h('thead', {}, h('tr', {}, ['Parameter', 'Unit', 'Before', 'Found', '95 %', 'Interval'].map((text) => h('th', { scope: 'col' }, text)))), this.rows);
+    this.table = h(
+      'table',
+      { class: 'compare-table', hidden: true, 'data-testid': 'recording-estimates' },
+      h(
+        'thead',
+        {},
+        h(
+          'tr',
+          {},
+          ['Parameter', 'Unit', 'Before', 'Found', '95 %', 'Interval'].map((text) => h('th', { scope: 'col' }, text)),
+        ),
+      ),
+      this.rows,
+    );
     this.adopt = button('adopt', 'Adopt', () => this.#adopt(), "Make these the rig's parameters; Undo takes them back");
     this.remarks = h('ul', { class: 'recording-remarks' });
-    const card = (/** @type {string} */ title, /** @type {string} */ kind, /** @type {any[]} */ ...content) => h('div', { class: `card ${kind}` }, h('h3', {}, title), content);
-    this.overlayCard = card('Over the simulation', 'wide', h('div', { class: 'row' }, h('label', { class: 'row' }, h('span', {}, 'Driven by'), this.driver), this.again), this.about, this.noted, h('div', { class: 'frequency-plots' }, this.plots.map((p) => p.node)));
-    this.identifyCard = card('Identification', 'wide', h('p', { class: 'caption' }, 'Least squares on the nonlinear model under the recorded voltages. Intervals allow for correlated residuals. J, m and l are held fixed.'),
-      h('div', { class: 'row', role: 'group', 'aria-label': 'Free parameters' }, h('span', {}, 'Free'), this.free, this.run, this.cancel), this.progress, h('div', { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Identified parameters' }, this.table), this.remarks, this.adopt);
-    root.append(h('div', { class: 'row recording-file' }, h('label', { class: 'row' }, h('span', {}, 'File (CSV, .xlsx, .mat, HDF5)'), this.file), this.sample, this.save), this.status, this.problem, this.mapping.text,
-      h('div', { class: 'recording-body' }, this.columnsCard = card('Columns', 'wide', this.mapping.node), this.overlayCard, this.identifyCard));
+    const card = (/** @type {string} */ title, /** @type {string} */ kind, /** @type {any[]} */ ...content) =>
+      h('div', { class: `card ${kind}` }, h('h3', {}, title), content);
+    this.overlayCard = card(
+      'Over the simulation',
+      'wide',
+      h('div', { class: 'row' }, h('label', { class: 'row' }, h('span', {}, 'Driven by'), this.driver), this.again),
+      this.about,
+      this.noted,
+      h(
+        'div',
+        { class: 'frequency-plots' },
+        this.plots.map((p) => p.node),
+      ),
+    );
+    this.identifyCard = card(
+      'Identification',
+      'wide',
+      h(
+        'p',
+        { class: 'caption' },
+        'Least squares on the nonlinear model under the recorded voltages. Intervals allow for correlated residuals. J, m and l are held fixed.',
+      ),
+      h(
+        'div',
+        { class: 'row', role: 'group', 'aria-label': 'Free parameters' },
+        h('span', {}, 'Free'),
+        this.free,
+        this.run,
+        this.cancel,
+      ),
+      this.progress,
+      h(
+        'div',
+        { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Identified parameters' },
+        this.table,
+      ),
+      this.remarks,
+      this.adopt,
+    );
+    root.append(
+      h(
+        'div',
+        { class: 'row recording-file' },
+        h('label', { class: 'row' }, h('span', {}, 'File (CSV, .xlsx, .mat, HDF5)'), this.file),
+        this.sample,
+        this.save,
+      ),
+      this.status,
+      this.problem,
+      this.mapping.text,
+      h(
+        'div',
+        { class: 'recording-body' },
+        (this.columnsCard = card('Columns', 'wide', this.mapping.node)),
+        this.overlayCard,
+        this.identifyCard,
+      ),
+    );
   }
 
   #send() {
@@ -80,7 +182,13 @@ export class RecordingsPanel {
     this.#seen = now;
     this.#freeOf(design, presets);
     const mapped = isMapped(columns);
-    setText(this.status, busy || (preview ? [previewWords(preview), missingWords(columns)].filter(Boolean).join('. ') : 'A recording stays on the server for half an hour after its last use.'));
+    setText(
+      this.status,
+      busy ||
+        (preview
+          ? [previewWords(preview), missingWords(columns)].filter(Boolean).join('. ')
+          : 'A recording stays on the server for half an hour after its last use.'),
+    );
     this.problem.hidden = !problem;
     setText(this.problem, problem ? [problem.detail, problem.hint].filter(Boolean).join(' ') : '');
     this.columnsCard.hidden = !preview;
@@ -90,7 +198,8 @@ export class RecordingsPanel {
     this.#preview = preview;
     if (columns) this.mapping.render(columns);
     this.mapping.dialect(this.feed.dialect(recorded));
-    for (const option of this.driver.options) option.disabled = option.value === 'references' && !(columns?.names.theta_ref && columns.names.psi_ref);
+    for (const option of this.driver.options)
+      option.disabled = option.value === 'references' && !(columns?.names.theta_ref && columns.names.psi_ref);
     this.driver.value = driver;
     this.again.hidden = overlaid === design;
     if (overlay) {
@@ -101,7 +210,14 @@ export class RecordingsPanel {
     const searching = busy === 'Identifying…';
     this.run.disabled = searching;
     this.cancel.hidden = !searching;
-    setText(this.progress, searching ? progressWords(progress) : found ? `${found.evaluations} simulations in ${significant(found.seconds, 2)} s` : '');
+    setText(
+      this.progress,
+      searching
+        ? progressWords(progress)
+        : found
+          ? `${found.evaluations} simulations in ${significant(found.seconds, 2)} s`
+          : '',
+    );
     this.table.hidden = this.adopt.hidden = this.remarks.hidden = !found;
     this.adopt.disabled = Boolean(found) && foundFor?.preset !== design.preset;
     if (found) this.#show(found);
@@ -114,12 +230,39 @@ export class RecordingsPanel {
     if (!preset) return;
     this.#preset = design.preset;
     const first = freeAtFirst({ ...preset.parameters, .../** @type {Record<string, number>} */ (design.parameters) });
-    this.free.replaceChildren(...IDENTIFIABLE.map((name) => h('label', { class: 'check' }, h('input', { type: 'checkbox', value: name, checked: first.includes(name), 'data-testid': `recording-free-${name}` }), sym(name))));
+    this.free.replaceChildren(
+      ...IDENTIFIABLE.map((name) =>
+        h(
+          'label',
+          { class: 'check' },
+          h('input', {
+            type: 'checkbox',
+            value: name,
+            checked: first.includes(name),
+            'data-testid': `recording-free-${name}`,
+          }),
+          sym(name),
+        ),
+      ),
+    );
   }
 
   /** @param {any} found */
   #show(found) {
-    this.rows.replaceChildren(...estimateRows(found).map((e) => h('tr', { 'data-testid': `recording-estimate-${e.name}` }, h('th', { scope: 'row' }, sym(e.name)), h('td', { translate: 'no' }, e.unit), h('td', {}, e.before), h('td', { class: 'best' }, e.value), h('td', {}, e.width), h('td', {}, e.interval))));
+    this.rows.replaceChildren(
+      ...estimateRows(found).map((e) =>
+        h(
+          'tr',
+          { 'data-testid': `recording-estimate-${e.name}` },
+          h('th', { scope: 'row' }, sym(e.name)),
+          h('td', { translate: 'no' }, e.unit),
+          h('td', {}, e.before),
+          h('td', { class: 'best' }, e.value),
+          h('td', {}, e.width),
+          h('td', {}, e.interval),
+        ),
+      ),
+    );
     this.remarks.replaceChildren(...found.findings.map((/** @type {any} */ f) => h('li', {}, f.message)));
   }
 }

@@ -7,12 +7,20 @@ import { count, DEGREE, fixed, forField, say, significant } from '../text/index.
 import { bodyOf, initialState } from '../model/index.js';
 
 export const ROLES = [
-  { role: 'time', base: 't', title: 'time' }, { role: 'theta', base: 'θ', title: 'pitch angle' }, { role: 'psi', base: 'ψ', title: 'yaw angle' },
-  { role: 'V_p', base: 'V', sub: 'p', title: 'pitch motor' }, { role: 'V_y', base: 'V', sub: 'y', title: 'yaw motor' },
-  { role: 'theta_ref', base: 'θ', sub: 'ref', title: 'pitch reference', optional: true }, { role: 'psi_ref', base: 'ψ', sub: 'ref', title: 'yaw reference', optional: true },
+  { role: 'time', base: 't', title: 'time' },
+  { role: 'theta', base: 'θ', title: 'pitch angle' },
+  { role: 'psi', base: 'ψ', title: 'yaw angle' },
+  { role: 'V_p', base: 'V', sub: 'p', title: 'pitch motor' },
+  { role: 'V_y', base: 'V', sub: 'y', title: 'yaw motor' },
+  { role: 'theta_ref', base: 'θ', sub: 'ref', title: 'pitch reference', optional: true },
+  { role: 'psi_ref', base: 'ψ', sub: 'ref', title: 'yaw reference', optional: true },
 ];
 export const IDENTIFIABLE = ['K_pp', 'K_py', 'K_yp', 'K_yy', 'B_p', 'B_y', 'K_s'];
-export const DRIVERS = { segments: 'recorded voltages, in segments', voltages: 'recorded voltages, one run', references: 'recorded references, present loop' };
+export const DRIVERS = {
+  segments: 'recorded voltages, in segments',
+  voltages: 'recorded voltages, one run',
+  references: 'recorded references, present loop',
+};
 
 /** @returns {Recorded} */
 export const nothing = () => initialState().recorded;
@@ -23,31 +31,61 @@ export const DECIMALS = { point: 'point', comma: 'comma' };
 
 /** What the server guessed, as the controls hold it; without a column of time the sample time is for the user to say. @param {any} preview @returns {RecordingColumns} */
 export const guessed = ({ guess }) => ({
-  names: { ...guess.columns }, time_unit: guess.time_unit ?? 's', unit: guess.unit, units: { ...guess.units }, voltage_unit: guess.voltage_unit ?? 'V',
-  signs: { theta: 1, psi: 1 }, offsets: { theta: 0, psi: 0 }, sample_time: null, decimate: 1,
+  names: { ...guess.columns },
+  time_unit: guess.time_unit ?? 's',
+  unit: guess.unit,
+  units: { ...guess.units },
+  voltage_unit: guess.voltage_unit ?? 'V',
+  signs: { theta: 1, psi: 1 },
+  offsets: { theta: 0, psi: 0 },
+  sample_time: null,
+  decimate: 1,
 });
 
 /** The columns as the server takes them; the sample time only where no column is the time. @param {RecordingColumns} columns */
 export function columnsBody({ names, time_unit, unit, units, voltage_unit, signs, offsets, sample_time, decimate }) {
   const chosen = Object.fromEntries(Object.entries(names).filter(([, name]) => name));
-  return { ...chosen, unit, units, voltage_unit, signs, offsets, decimate, ...(chosen.time ? { time_unit } : { sample_time }) };
+  return {
+    ...chosen,
+    unit,
+    units,
+    voltage_unit,
+    signs,
+    offsets,
+    decimate,
+    ...(chosen.time ? { time_unit } : { sample_time }),
+  };
 }
 
 /** Whether all is chosen that is needed: the time too, as a column or as the time between two rows. @param {RecordingColumns|null} columns */
-export const isMapped = (columns) => Boolean(columns) && ROLES.every(({ role, optional }) => optional || columns?.names[role] || (role === 'time' && columns?.sample_time));
+export const isMapped = (columns) =>
+  Boolean(columns) &&
+  ROLES.every(({ role, optional }) => optional || columns?.names[role] || (role === 'time' && columns?.sample_time));
 
 /** @param {import('../types.js').Design} design @param {Recorded} recorded */
-export const overlayBody = (design, { columns, driver }) => ({ ...bodyOf(design), columns: columns && columnsBody(columns), driver });
+export const overlayBody = (design, { columns, driver }) => ({
+  ...bodyOf(design),
+  columns: columns && columnsBody(columns),
+  driver,
+});
 
 /** Free from the start: stiffness only where the rig has one. @param {Record<string, number>} parameters of the rig */
 export const freeAtFirst = (parameters) => IDENTIFIABLE.filter((name) => name !== 'K_s' || parameters.K_s);
 
 /** @param {import('../types.js').Design} design @param {Recorded} recorded @param {string[]} free */
-export const identifyBody = (design, { preview, columns }, free) => ({ ...bodyOf(design), recording: preview?.id, columns: columns && columnsBody(columns), free });
+export const identifyBody = (design, { preview, columns }, free) => ({
+  ...bodyOf(design),
+  recording: preview?.id,
+  columns: columns && columnsBody(columns),
+  free,
+});
 
 /** Measured and simulated, in degrees. @param {any} overlay @param {'theta'|'psi'} axis @returns {(number|null)[][]} t, measured, simulated, reference */
 export function curves(overlay, axis) {
-  const shown = (/** @type {(number|null)[]|undefined} */ values) => overlay.t.map((/** @type {number} */ _t, /** @type {number} */ i) => (typeof values?.[i] === 'number' ? /** @type {number} */ (values[i]) * DEGREE : null));
+  const shown = (/** @type {(number|null)[]|undefined} */ values) =>
+    overlay.t.map((/** @type {number} */ _t, /** @type {number} */ i) =>
+      typeof values?.[i] === 'number' ? /** @type {number} */ (values[i]) * DEGREE : null,
+    );
   return [overlay.t, shown(overlay.measured[axis]), shown(overlay.simulated[axis]), shown(overlay.references?.[axis])];
 }
 
@@ -60,10 +98,12 @@ export function rangeOfCurves([, measured, , reference]) {
 }
 
 /** @param {number|null} fit % */
-export const fitText = (fit) => (fit === null ? 'no fit: the axis never moves' : fit < -100 ? 'fit below −100 %' : `fit ${fixed(fit, 1)} %`);
+export const fitText = (fit) =>
+  fit === null ? 'no fit: the axis never moves' : fit < -100 ? 'fit below −100 %' : `fit ${fixed(fit, 1)} %`;
 
 /** A time in the unit in which it has one to three digits before the point. @param {number} seconds */
-const duration = (seconds) => (seconds < 1 ? say`${significant(1e3 * seconds, 3)} ms` : say`${significant(seconds, 3)} s`);
+const duration = (seconds) =>
+  seconds < 1 ? say`${significant(1e3 * seconds, 3)} ms` : say`${significant(seconds, 3)} s`;
 
 /** @param {any} preview */
 export function previewWords(preview) {
@@ -73,18 +113,25 @@ export function previewWords(preview) {
 
 /** What still has to be chosen, in words; empty where nothing is. @param {RecordingColumns|null} columns */
 export function missingWords(columns) {
-  const missing = ROLES.filter(({ role, optional }) => !optional && !columns?.names[role] && !(role === 'time' && columns?.sample_time)).map(({ role, title }) => (role === 'time' ? 'the time, or the sample time' : `the ${title}`));
+  const missing = ROLES.filter(
+    ({ role, optional }) => !optional && !columns?.names[role] && !(role === 'time' && columns?.sample_time),
+  ).map(({ role, title }) => (role === 'time' ? 'the time, or the sample time' : `the ${title}`));
   return missing.length ? say`Choose the column of ${missing.join(', ')}.` : '';
 }
 
 /** @param {any} overlay */
 export function overlayWords(overlay) {
   const about = say`${overlay.samples} samples in ${fixed(overlay.duration, 1)} s, ${duration(overlay.sample_time)} apart`;
-  return overlay.segments > 1 ? say`${about}, ${overlay.segments} segments, each from the state that fits it best` : about;
+  return overlay.segments > 1
+    ? say`${about}, ${overlay.segments} segments, each from the state that fits it best`
+    : about;
 }
 
 /** @param {any} progress */
-export const progressWords = (progress) => (progress ? say`Simulation ${progress.evaluations}: residuals ${significant(progress.rms.theta * DEGREE, 3)}° in pitch, ${significant(progress.rms.psi * DEGREE, 3)}° in yaw` : 'Identifying…');
+export const progressWords = (progress) =>
+  progress
+    ? say`Simulation ${progress.evaluations}: residuals ${significant(progress.rms.theta * DEGREE, 3)}° in pitch, ${significant(progress.rms.psi * DEGREE, 3)}° in yaw`
+    : 'Identifying…';
 
 /** As many decimals as two digits of the interval's half width need. @param {number} v @param {{low: number, high: number}} e */
 function as(v, { low, high }) {
@@ -95,9 +142,20 @@ function as(v, { low, high }) {
 /** One row per parameter. @param {any} found @returns {{name: string, unit: string, before: string, value: string, width: string, interval: string}[]} */
 export function estimateRows(found) {
   return found.estimates.map((/** @type {any} */ e) => ({
-    name: e.name, unit: e.unit, before: forField(e.before).replace('-', '\u2212'), value: as(e.value, e), width: `± ${as((e.high - e.low) / 2, e)}`, interval: `${as(e.low, e)} … ${as(e.high, e)}`,
+    name: e.name,
+    unit: e.unit,
+    before: forField(e.before).replace('-', '\u2212'),
+    value: as(e.value, e),
+    width: `± ${as((e.high - e.low) / 2, e)}`,
+    interval: `${as(e.low, e)} … ${as(e.high, e)}`,
   }));
 }
 
 /** The design on the rig that was found. @param {import('../types.js').Design} design @param {any} found @returns {import('../types.js').Design} */
-export const adopted = (design, found) => ({ ...design, parameters: { ...design.parameters, ...Object.fromEntries(found.estimates.map((/** @type {any} */ e) => [e.name, Number(e.adopted.toPrecision(7))])) } });
+export const adopted = (design, found) => ({
+  ...design,
+  parameters: {
+    ...design.parameters,
+    ...Object.fromEntries(found.estimates.map((/** @type {any} */ e) => [e.name, Number(e.adopted.toPrecision(7))])),
+  },
+});

@@ -10,20 +10,66 @@ export class SceneControls {
   constructor({ onCamera, onReset, onFlights, onSeen }) {
     this.#onCamera = onCamera;
     this.camera = cameraNamed(recall(CAMERA));
-    this.cameras = new Choice({ label: 'Camera', testid: 'camera', options: CAMERAS, onChange: (name) => this.#choose(cameraNamed(name)) });
+    this.cameras = new Choice({
+      label: 'Camera',
+      testid: 'camera',
+      options: CAMERAS,
+      onChange: (name) => this.#choose(cameraNamed(name)),
+    });
     this.cameras.set(this.camera);
-    this.reset = h('button', { type: 'button', class: 'quiet', title: 'Look at the rig as at first', 'aria-label': 'Reset the camera', 'data-testid': 'camera-reset', onclick: () => { this.freed(); onReset(); } }, '⌂');
+    this.reset = h(
+      'button',
+      {
+        type: 'button',
+        class: 'quiet',
+        title: 'Look at the rig as at first',
+        'aria-label': 'Reset the camera',
+        'data-testid': 'camera-reset',
+        onclick: () => {
+          this.freed();
+          onReset();
+        },
+      },
+      '⌂',
+    );
     const toggle = (/** @type {string} */ name, /** @type {boolean} */ standard) => {
-      const box = h('input', { type: 'checkbox', 'data-testid': name, checked: (recall(name) ?? String(standard)) === 'true', onchange: () => { remember(name, String(box.checked)); onFlights(); } });
+      const box = h('input', {
+        type: 'checkbox',
+        'data-testid': name,
+        checked: (recall(name) ?? String(standard)) === 'true',
+        onchange: () => {
+          remember(name, String(box.checked));
+          onFlights();
+        },
+      });
       return box;
     };
     this.linear = toggle(LINEAR, false);
     this.pins = toggle(PINS, true);
     this.seen = h('input', { type: 'checkbox', checked: true, 'data-testid': 'show-scene', onchange: onSeen });
-    this.pinsLabel = h('label', { class: 'check', title: 'Pinned designs fly beside the rig as ghosts', hidden: true }, this.pins, 'pins');
+    this.pinsLabel = h(
+      'label',
+      { class: 'check', title: 'Pinned designs fly beside the rig as ghosts', hidden: true },
+      this.pins,
+      'pins',
+    );
     const views = h('div', { class: 'scene-views' }, this.cameras.node, this.reset);
-    this.drawn = [views, h('label', { class: 'check', title: 'Show the linear model beside the rig, as a wire frame' }, this.linear, 'linear'), this.pinsLabel];
-    this.node = h('div', { class: 'scene-controls' }, this.drawn, h('label', { class: 'check', title: 'Draw the rig. Switch it off if graphics are slow.' }, this.seen, '3D'));
+    this.drawn = [
+      views,
+      h(
+        'label',
+        { class: 'check', title: 'Show the linear model beside the rig, as a wire frame' },
+        this.linear,
+        'linear',
+      ),
+      this.pinsLabel,
+    ];
+    this.node = h(
+      'div',
+      { class: 'scene-controls' },
+      this.drawn,
+      h('label', { class: 'check', title: 'Draw the rig. Switch it off if graphics are slow.' }, this.seen, '3D'),
+    );
   }
 
   /** @type {(camera: CameraName) => void} */

@@ -1,6 +1,6 @@
 // Designs that fly beside the rig as ghosts: the linear model and pinned designs. Pure.
-import { change, sampleTrajectory, show, turn } from "./pose.js";
-import { colorOf, COLORS, letterOf, motionOf } from "../model/index.js";
+import { change, sampleTrajectory, show, turn } from './pose.js';
+import { colorOf, COLORS, letterOf, motionOf } from '../model/index.js';
 
 /**
  * One ghost: its node under /ghosts, as app/scene/rig.py makes them, what is written at it and what
@@ -9,7 +9,7 @@ import { colorOf, COLORS, letterOf, motionOf } from "../model/index.js";
  *   trajectory: Pick<import("./pose.js").Trajectory, "t" | "theta" | "psi">}} Flight
  */
 
-export const SLOTS = ["linear", ...Array.from({ length: COLORS }, (_, k) => String(k))];
+export const SLOTS = ['linear', ...Array.from({ length: COLORS }, (_, k) => String(k))];
 
 /**
  * @param {string} text "#rrggbb", as the style sheets name colours
@@ -30,11 +30,12 @@ export function rgb(text) {
 export function flightsOf({ reply, motion, pins }, wanted, color) {
   const flights = [];
   const linear = reply && wanted.linear ? motionOf(reply, motion)?.linear : undefined;
-  if (linear) flights.push({ slot: "linear", label: "linear", color: rgb(color("ink")), trajectory: linear });
+  if (linear) flights.push({ slot: 'linear', label: 'linear', color: rgb(color('ink')), trajectory: linear });
   const ready = wanted.pins ? pins.filter((pin) => pin.reply).slice(0, COLORS) : [];
   ready.forEach((pin, k) => {
     const trajectory = pin.reply && motionOf(pin.reply, motion)?.nonlinear;
-    if (trajectory) flights.push({ slot: String(k), label: letterOf(pin.index), color: rgb(color(colorOf(pin.index))), trajectory });
+    if (trajectory)
+      flights.push({ slot: String(k), label: letterOf(pin.index), color: rgb(color(colorOf(pin.index))), trajectory });
   });
   return flights;
 }
@@ -54,8 +55,8 @@ export function ghostMessages(flights, time) {
     const { theta, psi } = sampleTrajectory({ ...trajectory, V_p: [], V_y: [] }, time);
     return [
       show(node, true),
-      turn(`${node}/yoke`, "z", -psi),
-      turn(`${node}/yoke/body`, "y", -theta),
+      turn(`${node}/yoke`, 'z', -psi),
+      turn(`${node}/yoke/body`, 'y', -theta),
       change(`${node}/yoke/shape`, { color }),
       change(`${node}/yoke/body/shape`, { color }),
       change(`${node}/yoke/body/label`, { text: label }),

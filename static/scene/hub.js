@@ -17,7 +17,8 @@ export class Hub {
   #others = 0;
   #busy = false;
   /** @type {any} */ #waiting = null;
-  /** The server's clock less ours, and how well it is known; seconds. @type {{offset: number, trip: number}|null} */ #clock = null;
+  /** The server's clock less ours, and how well it is known; seconds. @type {{offset: number, trip: number}|null} */ #clock =
+    null;
   /** @type {(() => void)[]} What needs the server's time. */ #later = [];
   #pings = 0;
   #attempt = 0;
@@ -34,7 +35,15 @@ export class Hub {
    * @param {(windows: Windows) => void} how.onWindows  also after every new connection
    * @param {() => number} [how.now]  seconds
    */
-  constructor({ open, always = false, onShown, onTransport, onEdits, onWindows, now = () => performance.now() / 1000 }) {
+  constructor({
+    open,
+    always = false,
+    onShown,
+    onTransport,
+    onEdits,
+    onWindows,
+    now = () => performance.now() / 1000,
+  }) {
     this.open = open;
     this.always = always;
     this.onShown = onShown;
@@ -65,7 +74,9 @@ export class Hub {
   run({ playing, time, speed, loop }) {
     if (!this.#heard) return;
     const since = this.now();
-    this.#timed((offset) => this.#send(JSON.stringify({ type: 'transport', playing, time, speed, loop, at: since + offset })));
+    this.#timed((offset) =>
+      this.#send(JSON.stringify({ type: 'transport', playing, time, speed, loop, at: since + offset })),
+    );
   }
 
   close() {

@@ -1,9 +1,9 @@
 // The page's end of the channel to the scene's frame: says what the frame shows, and sends it viser's messages.
-import { slotOf } from "./pose.js";
+import { slotOf } from './pose.js';
 
 /** @typedef {import("./pose.js").SceneMessage} SceneMessage */
 
-const CHANNEL = "heli2dof-scene";
+const CHANNEL = 'heli2dof-scene';
 
 export class SceneLink {
   /**
@@ -15,8 +15,8 @@ export class SceneLink {
     this.#iframe = iframe;
     this.#onRebuilt = onRebuilt;
     this.#onState = onState;
-    window.addEventListener("message", this.#listen);
-    this.post({ kind: "hello" }); // The scene may have been ready before the page.
+    window.addEventListener('message', this.#listen);
+    this.post({ kind: 'hello' }); // The scene may have been ready before the page.
   }
 
   /** @type {HTMLIFrameElement} */
@@ -28,7 +28,7 @@ export class SceneLink {
   /** Whether the scene shows the rig and is connected. */
   ready = false;
   /** Why it does not, where the server said so. */
-  reason = "";
+  reason = '';
   /** Whether the scene holds the rig's nodes: also while its connection is lost. */
   #drawn = false;
   /** @type {Map<string, string>} What each node was told last. */
@@ -47,7 +47,7 @@ export class SceneLink {
   post(message) {
     const data = { channel: CHANNEL, ...message };
     const { origin } = location;
-    this.#iframe.contentWindow?.dispatchEvent(new MessageEvent("message", { data, origin, source: window }));
+    this.#iframe.contentWindow?.dispatchEvent(new MessageEvent('message', { data, origin, source: window }));
   }
 
   /**
@@ -63,12 +63,12 @@ export class SceneLink {
       this.#sent.set(slot, value);
       return true;
     });
-    if (messages.length > 0) this.post({ kind: "pose", messages });
+    if (messages.length > 0) this.post({ kind: 'pose', messages });
   }
 
   /** Lets go of the page's events. */
   destroy() {
-    window.removeEventListener("message", this.#listen);
+    window.removeEventListener('message', this.#listen);
   }
 
   /** @param {MessageEvent} event */
@@ -76,9 +76,9 @@ export class SceneLink {
     const ours = event.source === this.#iframe.contentWindow && event.origin === location.origin;
     if (!ours || event.data?.channel !== CHANNEL || event.data.state === undefined) return;
     const { state, reason } = event.data;
-    this.ready = state === "ready";
-    this.#drawn = this.ready || (this.#drawn && state === "closed");
-    this.reason = reason ?? "";
+    this.ready = state === 'ready';
+    this.#drawn = this.ready || (this.#drawn && state === 'closed');
+    this.reason = reason ?? '';
     if (this.ready) {
       this.#sent.clear();
       this.#onRebuilt();

@@ -3,7 +3,12 @@ import { bodyOf, scenarioOf } from '../model/index.js';
 import { recordMotion, windowAddress } from '../net/index.js';
 import { copyText, h, popupButton, saveFile, setText, svg } from '../ui/index.js';
 
-const arrow = () => svg('svg', { class: 'icon-tool', viewBox: '0 0 12 12', 'aria-hidden': 'true' }, svg('path', { d: 'M 5 2 H 1.5 V 10.5 H 10 V 7 M 7 1.5 H 10.5 V 5 M 10.5 1.5 L 5.5 6.5' }));
+const arrow = () =>
+  svg(
+    'svg',
+    { class: 'icon-tool', viewBox: '0 0 12 12', 'aria-hidden': 'true' },
+    svg('path', { d: 'M 5 2 H 1.5 V 10.5 H 10 V 7 M 7 1.5 H 10.5 V 5 M 10.5 1.5 L 5.5 6.5' }),
+  );
 
 /** The motion that is played, as a call of its own: an axis that is not stepped has no reference. @param {import('../types.js').State} state */
 function requestOf({ design, motion }) {
@@ -19,8 +24,16 @@ export function sceneMenu(store, session) {
   const content = () => {
     const address = windowAddress(session);
     const told = h('p', { class: 'caption', role: 'status', 'data-testid': 'scene-told' });
-    const link = h('input', { class: 'link', readonly: true, value: address, 'aria-label': 'Link of the rig’s own window', 'data-testid': 'window-link', onfocus: () => link.select() });
-    const copy = async () => setText(told, (await copyText(address)) ? 'Copied.' : 'Not copied: select it and copy it by hand.');
+    const link = h('input', {
+      class: 'link',
+      readonly: true,
+      value: address,
+      'aria-label': 'Link of the rig’s own window',
+      'data-testid': 'window-link',
+      onfocus: () => link.select(),
+    });
+    const copy = async () =>
+      setText(told, (await copyText(address)) ? 'Copied.' : 'Not copied: select it and copy it by hand.');
     /** @param {'html'|'viser'} format */
     const save = async (format) => {
       const request = requestOf(store.state);
@@ -36,15 +49,54 @@ export function sceneMenu(store, session) {
     return [
       h('h3', {}, 'The rig in its own window'),
       h('p', { class: 'caption' }, 'For a second screen, a projector or a tablet: it plays in step.'),
-      h('p', { class: 'caption' }, 'Its sliders move this page too: anyone with the link can use them.'), link,
-      h('div', { class: 'row' }, h('button', { type: 'button', 'data-testid': 'open-window', onclick: () => open(address, '_blank', 'popup,width=1100,height=760,noopener') }, 'Open'),
-        h('button', { type: 'button', 'data-testid': 'copy-window-link', onclick: copy }, 'Copy link')),
+      h('p', { class: 'caption' }, 'Its sliders move this page too: anyone with the link can use them.'),
+      link,
+      h(
+        'div',
+        { class: 'row' },
+        h(
+          'button',
+          {
+            type: 'button',
+            'data-testid': 'open-window',
+            onclick: () => open(address, '_blank', 'popup,width=1100,height=760,noopener'),
+          },
+          'Open',
+        ),
+        h('button', { type: 'button', 'data-testid': 'copy-window-link', onclick: copy }, 'Copy link'),
+      ),
       h('h3', {}, 'Take the motion away'),
-      h('div', { class: 'row' },
-        h('button', { type: 'button', title: 'One file that plays in any browser, without a network', 'data-testid': 'save-motion-html', onclick: () => save('html') }, '3D page'),
-        h('button', { type: 'button', title: 'Viser’s own recording', 'data-testid': 'save-motion-viser', onclick: () => save('viser') }, h('span', { translate: 'no' }, '.viser'))),
+      h(
+        'div',
+        { class: 'row' },
+        h(
+          'button',
+          {
+            type: 'button',
+            title: 'One file that plays in any browser, without a network',
+            'data-testid': 'save-motion-html',
+            onclick: () => save('html'),
+          },
+          '3D page',
+        ),
+        h(
+          'button',
+          {
+            type: 'button',
+            title: 'Viser’s own recording',
+            'data-testid': 'save-motion-viser',
+            onclick: () => save('viser'),
+          },
+          h('span', { translate: 'no' }, '.viser'),
+        ),
+      ),
       told,
     ];
   };
-  return popupButton({ label: 'The rig in its own window, or its motion as a file', text: arrow(), testid: 'scene-menu', content });
+  return popupButton({
+    label: 'The rig in its own window, or its motion as a file',
+    text: arrow(),
+    testid: 'scene-menu',
+    content,
+  });
 }

@@ -10,7 +10,8 @@ const PAIRS = /** @type {const} */ (['pitch', 'yaw']);
 const LEAST_IM = 1e-3;
 
 /** @param {unknown} v @param {number} low @param {number} high @returns {number|null} */
-const within = (v, low, high) => (typeof v === 'number' && Number.isFinite(v) ? Math.min(Math.max(v, low), high) : null);
+const within = (v, low, high) =>
+  typeof v === 'number' && Number.isFinite(v) ? Math.min(Math.max(v, low), high) : null;
 
 /** @param {Poles} poles @param {0|1} pair @param {Edits} edits @returns {Poles} */
 function pairEdited(poles, pair, edits) {
@@ -22,7 +23,8 @@ function pairEdited(poles, pair, edits) {
     const re = within(edits[`${name}.re`], -LIMIT, LIMIT);
     const im = within(edits[`${name}.im`], LEAST_IM, LIMIT); // 0 would make it a real pair under the hand
     const { re: wasRe, im: wasIm } = next[index];
-    if (re !== null || im !== null) next = setComplex(next, index, { re: re ?? wasRe, im: im === null ? wasIm : Math.sign(wasIm) * im });
+    if (re !== null || im !== null)
+      next = setComplex(next, index, { re: re ?? wasRe, im: im === null ? wasIm : Math.sign(wasIm) * im });
   } else {
     const [a, b] = ['first', 'second'].map((k) => within(edits[`${name}.${k}`], -LIMIT, LIMIT));
     if (a !== null) next = setReal(next, index, a);
@@ -41,7 +43,8 @@ export function edited(design, edits) {
   for (const axis of PAIRS) {
     const kp = within(edits[`${axis}.kp`], 0, 1e5);
     const ti = within(edits[`${axis}.ti`], 1e-4, 1e5);
-    if (kp !== null || ti !== null) loops = { ...loops, [axis]: { kp: kp ?? loops[axis].kp, ti: ti ?? loops[axis].ti } };
+    if (kp !== null || ti !== null)
+      loops = { ...loops, [axis]: { kp: kp ?? loops[axis].kp, ti: ti ?? loops[axis].ti } };
   }
   return poles === design.poles && loops === design.loops ? design : { ...design, poles, loops };
 }
@@ -62,8 +65,16 @@ export function steer(player, edits) {
  * @param {{motion: string, rig: string, after: number}} more after: number of the panel's last message that the request contains
  */
 export function shownOf(request, reply, motion, more) {
-  const series = Object.fromEntries(/** @type {const} */ (['t', 'theta', 'psi', 'V_p', 'V_y']).map((name) => [name, Float32Array.from(motion[name])]));
-  return { design: request, K: reply.gains.K, limits: reply.limits, ...more, trajectory: { ...series, reference: motion.reference } };
+  const series = Object.fromEntries(
+    /** @type {const} */ (['t', 'theta', 'psi', 'V_p', 'V_y']).map((name) => [name, Float32Array.from(motion[name])]),
+  );
+  return {
+    design: request,
+    K: reply.gains.K,
+    limits: reply.limits,
+    ...more,
+    trajectory: { ...series, reference: motion.reference },
+  };
 }
 
 /** A trajectory from another window, if it is one. @param {any} shown @returns {import('./pose.js').Trajectory|null} */
@@ -71,5 +82,7 @@ export function trajectoryIn(shown) {
   const { trajectory } = shown ?? {};
   const series = ['t', 'theta', 'psi', 'V_p', 'V_y'].map((name) => trajectory?.[name]);
   const length = series[0]?.length;
-  return length > 1 && series.every((s) => s instanceof Float32Array && s.length === length && s.every(Number.isFinite)) ? trajectory : null;
+  return length > 1 && series.every((s) => s instanceof Float32Array && s.length === length && s.every(Number.isFinite))
+    ? trajectory
+    : null;
 }

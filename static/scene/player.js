@@ -1,9 +1,9 @@
 // The page's side of the scene: plays a trajectory in real time and moves the rig's nodes.
-import { cameraMessages, cameraPose } from "./cameras.js";
-import { SceneClock } from "./clock.js";
-import { ghostMessages } from "./ghosts.js";
-import { SceneLink } from "./link.js";
-import { interpolate, poseMessages, rotorAngles, sampleTrajectory, themeMessages } from "./pose.js";
+import { cameraMessages, cameraPose } from './cameras.js';
+import { SceneClock } from './clock.js';
+import { ghostMessages } from './ghosts.js';
+import { SceneLink } from './link.js';
+import { interpolate, poseMessages, rotorAngles, sampleTrajectory, themeMessages } from './pose.js';
 
 /** @typedef {import("./pose.js").Trajectory} Trajectory */
 /** @typedef {import("./pose.js").Sample} Sample */
@@ -42,7 +42,7 @@ export class ScenePlayer {
     this.#onFrame = onFrame;
     this.#onState = onState;
     this.#onTransport = onTransport;
-    document.addEventListener("visibilitychange", this.#visibility);
+    document.addEventListener('visibilitychange', this.#visibility);
     this.#link = new SceneLink(iframe, { onRebuilt: () => this.#retell(), onState: () => this.#report() });
   }
 
@@ -64,7 +64,7 @@ export class ScenePlayer {
   /** @type {Flight[]} */
   #flights = [];
   /** @type {CameraName} */
-  #camera = "free";
+  #camera = 'free';
   /** @type {RigView | null} */
   #view = null;
   /** @type {boolean | null} */
@@ -109,46 +109,46 @@ export class ScenePlayer {
       const { snapshot, since } = this.#awaited;
       this.#awaited = null;
       this.follow(snapshot, (performance.now() - since) / 1000);
-    } else this.#changed("load");
+    } else this.#changed('load');
   }
 
   /** Lets time run, from the start again if it had reached the end. */
   play() {
     if (this.playing || this.#trajectory === null) return;
     this.#clock.play();
-    this.#changed("play");
+    this.#changed('play');
   }
 
   /** Holds the pose. */
   pause() {
     if (!this.playing) return;
     this.#clock.pause();
-    this.#changed("pause");
+    this.#changed('pause');
   }
 
   /** Plays from the start. */
   replay() {
     this.#clock.restart();
     this.#before = NaN;
-    this.#changed("restart");
+    this.#changed('restart');
   }
 
   /** @param {number} time seconds, clamped to the trajectory */
   seek(time) {
     this.#clock.seek(time);
-    this.#changed("seek");
+    this.#changed('seek');
   }
 
   /** @param {number} speed seconds of the response per second; the nearest of SPEEDS is taken */
   setSpeed(speed) {
     this.#clock.setSpeed(speed);
-    this.#changed("speed");
+    this.#changed('speed');
   }
 
   /** @param {boolean} loop whether the end is followed by the start */
   setLoop(loop) {
     this.#clock.setLoop(loop);
-    this.#changed("loop");
+    this.#changed('loop');
   }
 
   /**
@@ -175,7 +175,7 @@ export class ScenePlayer {
   /** @param {boolean} dark whether the scene stands on a dark ground */
   setTheme(dark) {
     this.#dark = dark;
-    this.#link.post({ kind: "theme", dark });
+    this.#link.post({ kind: 'theme', dark });
     this.#link.send(themeMessages(dark));
     this.#move();
   }
@@ -196,7 +196,7 @@ export class ScenePlayer {
   setView(view) {
     const other = this.#view !== null && view !== this.#view;
     this.#view = view;
-    this.#aim(other && this.#camera === "free" ? "home" : this.#camera, true);
+    this.#aim(other && this.#camera === 'free' ? 'home' : this.#camera, true);
   }
 
   /** @param {CameraName} camera where the rig is looked at from, from now on */
@@ -207,8 +207,8 @@ export class ScenePlayer {
 
   /** Looks at the rig as at first, and leaves the camera to the viewer. */
   resetCamera() {
-    this.#camera = "free";
-    this.#aim("home", true);
+    this.#camera = 'free';
+    this.#aim('home', true);
   }
 
   /** Looks from where it was to be looked from in a picture of another shape. */
@@ -221,13 +221,13 @@ export class ScenePlayer {
     this.#clock.pause();
     cancelAnimationFrame(this.#request);
     this.#link.destroy();
-    document.removeEventListener("visibilitychange", this.#visibility);
+    document.removeEventListener('visibilitychange', this.#visibility);
   }
 
   /** @param {Cause} cause */
   #changed(cause) {
     this.#onTransport(this.#clock.snapshot(), cause); // before it is shown: who listens may correct what is not as told
-    this.#run(cause !== "load" || !this.playing); // a drag's responses come faster than frames
+    this.#run(cause !== 'load' || !this.playing); // a drag's responses come faster than frames
   }
 
   /** Asks for frames while time runs. @param {boolean} [atOnce] whether the pose is not left to the next one */
@@ -285,7 +285,7 @@ export class ScenePlayer {
     const { reference } = trajectory;
     const pose = { ...sample, pitchRotor, yawRotor, reference, limits: this.#limits, dark: this.#dark === true };
     this.#link.send([...poseMessages(pose), ...ghostMessages(this.#flights, this.time)]);
-    if (this.#camera === "follow") this.#aim("follow", false);
+    if (this.#camera === 'follow') this.#aim('follow', false);
   }
 
   #report() {

@@ -31,9 +31,9 @@
 
 /** @typedef {{type: string, name: string, [key: string]: unknown}} SceneMessage */
 
-const YOKE = "/rig/yoke";
-const BODY = "/rig/yoke/body";
-const GHOST = "/ghost";
+const YOKE = '/rig/yoke';
+const BODY = '/rig/yoke/body';
+const GHOST = '/ghost';
 
 /** Propeller speed per volt, rad/(s V): far below the true one, which a screen cannot show. */
 export const ROTOR_SCALE = 1.7;
@@ -54,8 +54,22 @@ export const AT_LIMIT = 1e-3;
 
 /** What is drawn in one colour, by theme. @type {Record<"light" | "dark", Record<string, Color>>} */
 const COLORS = {
-  light: { scale: [78, 86, 96], pitch: [185, 74, 44], yaw: [23, 74, 114], stop: [190, 30, 30], thrust: [22, 128, 84], reference: [79, 123, 166] },
-  dark: { scale: [205, 212, 220], pitch: [244, 144, 111], yaw: [116, 184, 236], stop: [255, 84, 76], thrust: [96, 214, 150], reference: [140, 184, 230] },
+  light: {
+    scale: [78, 86, 96],
+    pitch: [185, 74, 44],
+    yaw: [23, 74, 114],
+    stop: [190, 30, 30],
+    thrust: [22, 128, 84],
+    reference: [79, 123, 166],
+  },
+  dark: {
+    scale: [205, 212, 220],
+    pitch: [244, 144, 111],
+    yaw: [116, 184, 236],
+    stop: [255, 84, 76],
+    thrust: [96, 214, 150],
+    reference: [140, 184, 230],
+  },
 };
 
 /**
@@ -122,8 +136,8 @@ export function rotorAngles(trajectory, scale = ROTOR_SCALE) {
 export function turn(name, axis, angle) {
   const c = Math.cos(angle / 2);
   const s = Math.sin(angle / 2);
-  const wxyz = axis === "y" ? [c, 0, s, 0] : [c, 0, 0, s];
-  return { type: "SetOrientationMessage", name, wxyz, owner: "" };
+  const wxyz = axis === 'y' ? [c, 0, s, 0] : [c, 0, 0, s];
+  return { type: 'SetOrientationMessage', name, wxyz, owner: '' };
 }
 
 /**
@@ -131,7 +145,7 @@ export function turn(name, axis, angle) {
  * @returns {SceneMessage}
  */
 export function show(name, visible) {
-  return { type: "SetSceneNodeVisibilityMessage", name, visible, owner: "" };
+  return { type: 'SetSceneNodeVisibilityMessage', name, visible, owner: '' };
 }
 
 /**
@@ -139,7 +153,7 @@ export function show(name, visible) {
  * @returns {SceneMessage}
  */
 export function change(name, updates) {
-  return { type: "SceneNodeUpdateMessage", name, updates, owner: "" };
+  return { type: 'SceneNodeUpdateMessage', name, updates, owner: '' };
 }
 
 /**
@@ -147,11 +161,11 @@ export function change(name, updates) {
  * @param {SceneMessage} message
  */
 export function slotOf({ type, name, updates }) {
-  return `${type} ${name} ${updates ? Object.keys(updates) : ""}`;
+  return `${type} ${name} ${updates ? Object.keys(updates) : ''}`;
 }
 
 /** @param {boolean | undefined} dark */
-const colors = (dark) => COLORS[dark ? "dark" : "light"];
+const colors = (dark) => COLORS[dark ? 'dark' : 'light'];
 
 /** The ground's grid, and how dark shadows fall on it. */
 const GROUND = {
@@ -166,12 +180,12 @@ const GROUND = {
 export function themeMessages(dark) {
   const { scale, pitch, yaw, stop, reference } = colors(dark);
   return [
-    change("/ground", GROUND[dark ? "dark" : "light"]),
-    ...["/rig/scale", `${YOKE}/pitch_scale`].map((name) => change(name, { color: scale })),
+    change('/ground', GROUND[dark ? 'dark' : 'light']),
+    ...['/rig/scale', `${YOKE}/pitch_scale`].map((name) => change(name, { color: scale })),
     change(`${BODY}/pointer`, { color: pitch }),
     change(`${YOKE}/pointer`, { color: yaw }),
-    ...["stop_up", "stop_down"].map((name) => change(`${YOKE}/${name}`, { color: stop })),
-    ...["", "/body"].map((part) => change(`${GHOST}/yoke${part}/shape`, { color: reference })),
+    ...['stop_up', 'stop_down'].map((name) => change(`${YOKE}/${name}`, { color: stop })),
+    ...['', '/body'].map((part) => change(`${GHOST}/yoke${part}/shape`, { color: reference })),
   ];
 }
 
@@ -183,9 +197,9 @@ export function themeMessages(dark) {
  */
 function thrustMessages(node, volts, limit, dark) {
   const size = Math.abs(volts);
-  return ["positive", "negative"].flatMap((sign) => {
+  return ['positive', 'negative'].flatMap((sign) => {
     const arrow = `${node}_${sign}`;
-    const drawn = size > LEAST_VOLTAGE && volts > 0 === (sign === "positive");
+    const drawn = size > LEAST_VOLTAGE && volts > 0 === (sign === 'positive');
     if (!drawn) return [show(arrow, false)];
     const full = size >= limit - AT_LIMIT;
     const { stop, thrust } = colors(dark);
@@ -197,11 +211,11 @@ function thrustMessages(node, volts, limit, dark) {
       show(arrow, true),
       change(`${arrow}/shaft`, { scale: [1, 1, Math.max(neck, 1e-4)] }),
       change(`${arrow}/shaft`, { color }),
-      { type: "SetPositionMessage", name: `${arrow}/head`, position: [0, 0, neck], owner: "" },
+      { type: 'SetPositionMessage', name: `${arrow}/head`, position: [0, 0, neck], owner: '' },
       change(`${arrow}/head`, { scale: [head, head, head] }),
       change(`${arrow}/head`, { color }),
       show(`${arrow}/cap`, full),
-      { type: "SetPositionMessage", name: `${arrow}/cap`, position: [0, 0, neck], owner: "" },
+      { type: 'SetPositionMessage', name: `${arrow}/cap`, position: [0, 0, neck], owner: '' },
     ];
   });
 }
@@ -211,10 +225,13 @@ function thrustMessages(node, volts, limit, dark) {
  * @param {number | undefined} limit radians @returns {SceneMessage[]}
  */
 function stopMessages(limit) {
-  return [["stop_up", -1], ["stop_down", 1]].flatMap(([name, side]) => {
+  return [
+    ['stop_up', -1],
+    ['stop_down', 1],
+  ].flatMap(([name, side]) => {
     const node = `${YOKE}/${name}`;
     if (limit === undefined) return [show(node, false)];
-    return [show(node, true), turn(node, "y", Number(side) * limit)];
+    return [show(node, true), turn(node, 'y', Number(side) * limit)];
   });
 }
 
@@ -226,25 +243,26 @@ function stopMessages(limit) {
  */
 export function poseMessages(pose) {
   const { theta, psi, V_p, V_y, reference, limits = {}, dark } = pose;
-  const messages = [turn(YOKE, "z", -psi), turn(BODY, "y", -theta), ...stopMessages(limits.theta)];
+  const messages = [turn(YOKE, 'z', -psi), turn(BODY, 'y', -theta), ...stopMessages(limits.theta)];
   const rotors = /** @type {const} */ ([
-    ["pitch", "z", pose.pitchRotor, V_p, limits.V_p],
-    ["yaw", "y", pose.yawRotor, V_y, limits.V_y],
+    ['pitch', 'z', pose.pitchRotor, V_p, limits.V_p],
+    ['yaw', 'y', pose.yawRotor, V_y, limits.V_y],
   ]);
   for (const [name, axis, angle = 0, volts, limit = Infinity] of rotors) {
     const fast = Math.abs(volts) > BLUR_VOLTAGE;
-    for (const [part, seen] of /** @type {const} */ ([["rotor", !fast], ["blur", fast]])) {
+    for (const [part, seen] of /** @type {const} */ ([
+      ['rotor', !fast],
+      ['blur', fast],
+    ])) {
       messages.push(turn(`${BODY}/${name}_${part}`, axis, angle), show(`${BODY}/${name}_${part}`, seen));
     }
     messages.push(...thrustMessages(`${BODY}/${name}_thrust`, volts, limit, dark));
   }
-  const away =
-    reference !== undefined &&
-    Math.hypot(reference.theta - theta, reference.psi - psi) > GHOST_DISTANCE;
+  const away = reference !== undefined && Math.hypot(reference.theta - theta, reference.psi - psi) > GHOST_DISTANCE;
   messages.push(show(GHOST, away));
   if (away) {
-    messages.push(turn(`${GHOST}/yoke`, "z", -reference.psi));
-    messages.push(turn(`${GHOST}/yoke/body`, "y", -reference.theta));
+    messages.push(turn(`${GHOST}/yoke`, 'z', -reference.psi));
+    messages.push(turn(`${GHOST}/yoke/body`, 'y', -reference.theta));
   }
   return messages;
 }

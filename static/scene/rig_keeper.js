@@ -45,7 +45,8 @@ export class RigKeeper {
       await this.put(rig);
       this.#attempt = 0;
     } catch {
-      if (!this.#stale) this.#timer = this.later(() => this.again(), backoff(this.#attempt++, FIRST_RETRY_MS, LAST_RETRY_MS));
+      if (!this.#stale)
+        this.#timer = this.later(() => this.again(), backoff(this.#attempt++, FIRST_RETRY_MS, LAST_RETRY_MS));
     }
   }
 }

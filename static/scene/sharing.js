@@ -27,7 +27,10 @@ export class SceneSharing {
       onEdits: (edits, count) => this.#edit(edits, count),
       onWindows: (windows) => this.#windows(windows),
     });
-    store.addEventListener('design', () => this.store.state.design && this.#counts.set(this.store.state.design, this.#count));
+    store.addEventListener(
+      'design',
+      () => this.store.state.design && this.#counts.set(this.store.state.design, this.#count),
+    );
     store.addEventListener('change', () => this.#show());
     document.addEventListener('visibilitychange', () => this.correct());
   }
@@ -75,7 +78,13 @@ export class SceneSharing {
     const step = (motionOf(reply, motion) ?? reply.step).nonlinear;
     if (step === this.#told) return;
     this.#told = step;
-    this.hub.show(shownOf(evaluationOf(answered), reply, step, { motion, rig: this.store.preset?.rig ?? '', after: this.#counts.get(answered) ?? 0 }));
+    this.hub.show(
+      shownOf(evaluationOf(answered), reply, step, {
+        motion,
+        rig: this.store.preset?.rig ?? '',
+        after: this.#counts.get(answered) ?? 0,
+      }),
+    );
     if (!document.hidden) return;
     this.scene.render(this.store.state);
     if (!this.#calm.matches) this.scene.player.replay();

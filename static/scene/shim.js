@@ -3,49 +3,49 @@
 // worker had received them, so that the server need not stream poses. In a window of its own the scene
 // has no page around it; there scene_window.js does the same from within.
 (() => {
-  "use strict";
+  'use strict';
 
-  const CHANNEL = "heli2dof-scene";
+  const CHANNEL = 'heli2dof-scene';
   const PATIENCE = 300;
   const MOVES = new Set([
-    "SetOrientationMessage",
-    "SetPositionMessage",
-    "SetSceneNodeVisibilityMessage",
-    "SceneNodeUpdateMessage",
-    "SetCameraPositionMessage",
-    "SetCameraLookAtMessage",
+    'SetOrientationMessage',
+    'SetPositionMessage',
+    'SetSceneNodeVisibilityMessage',
+    'SceneNodeUpdateMessage',
+    'SetCameraPositionMessage',
+    'SetCameraLookAtMessage',
   ]);
   const framed = window.parent !== window;
-  document.documentElement.dataset.place = framed ? "frame" : "window";
+  document.documentElement.dataset.place = framed ? 'frame' : 'window';
 
   // Viser's client obeys its address: ?websocket= would connect it to any server, and
   // ?playbackPath= load any recording, either of which may carry scripts into this origin.
-  history.replaceState(null, "", location.pathname);
+  history.replaceState(null, '', location.pathname);
 
   /** @type {Worker | null} The worker that holds viser's socket. */
   let socketWorker = null;
-  let state = { state: "loading", reason: "" };
+  let state = { state: 'loading', reason: '' };
   /** How often the socket was opened or closed. */
   let connections = 0;
   /** @type {any} Viser's own message about its colours. */
   let theme = null;
 
   /** @param {string} name @param {string} [reason] */
-  function report(name, reason = "") {
+  function report(name, reason = '') {
     state = { state: name, reason };
     window.parent.postMessage({ channel: CHANNEL, ...state }, location.origin);
-    if (name === "ready") paint();
+    if (name === 'ready') paint();
   }
 
   /** Hands messages to the client. @param {any[]} messages */
   function deliver(messages) {
-    const batch = { type: "message_batch", messages };
-    socketWorker?.onmessage?.(new MessageEvent("message", { data: batch }));
+    const batch = { type: 'message_batch', messages };
+    socketWorker?.onmessage?.(new MessageEvent('message', { data: batch }));
   }
 
   /** The panel's colours follow the window's. */
   function paint() {
-    const dark = document.documentElement.dataset.theme === "dark";
+    const dark = document.documentElement.dataset.theme === 'dark';
     if (theme && !framed) deliver([{ ...theme, dark_mode: dark }]);
   }
 
@@ -58,28 +58,27 @@
   function whenDrained(connection, frames = PATIENCE) {
     if (connection !== connections) return;
     const { messageQueue } = /** @type {any} */ (window).__viserMutable ?? {};
-    if (messageQueue?.length === 0 || frames === 0) report("ready");
+    if (messageQueue?.length === 0 || frames === 0) report('ready');
     else requestAnimationFrame(() => whenDrained(connection, frames - 1));
   }
 
   /** @param {MessageEvent} event What the socket's worker tells the client. */
   function observe(event) {
     const { type, messages, closeReason } = event.data;
-    if (type === "connected" || type === "closed") connections += 1;
-    if (type === "connected") {
-      report("loading"); // The client has just emptied its scene; the replay follows.
-    } else if (type === "closed") {
-      report("closed", closeReason);
-    } else if (type === "message_batch") {
-      theme = messages.findLast((/** @type {any} */ m) => m.type === "ThemeConfigurationMessage") ?? theme;
+    if (type === 'connected' || type === 'closed') connections += 1;
+    if (type === 'connected') {
+      report('loading'); // The client has just emptied its scene; the replay follows.
+    } else if (type === 'closed') {
+      report('closed', closeReason);
+    } else if (type === 'message_batch') {
+      theme = messages.findLast((/** @type {any} */ m) => m.type === 'ThemeConfigurationMessage') ?? theme;
       // After a replay, and after a change of the rig, the nodes stand in their first pose.
       const rebuilt = messages.some(
         (/** @type {{type: string, name?: string}} */ m) =>
-          m.type === "ReplayDoneMessage" ||
-          (state.state === "ready" && (m.name ?? "").startsWith("/rig")),
+          m.type === 'ReplayDoneMessage' || (state.state === 'ready' && (m.name ?? '').startsWith('/rig')),
       );
       if (!rebuilt) return;
-      if (state.state === "ready") report("ready");
+      if (state.state === 'ready') report('ready');
       else whenDrained(connections);
     }
   }
@@ -89,24 +88,24 @@
     /** @param {any} message @param {any} [options] */
     postMessage(message, options) {
       // Of viser's several workers only the socket's is told a server.
-      if (message?.type === "set_server" && socketWorker !== this) {
+      if (message?.type === 'set_server' && socketWorker !== this) {
         socketWorker = this;
-        this.addEventListener("message", observe);
+        this.addEventListener('message', observe);
       }
       super.postMessage(message, options);
     }
   };
 
-  window.addEventListener("message", (event) => {
+  window.addEventListener('message', (event) => {
     if (event.source !== window.parent || event.origin !== location.origin) return;
     const data = event.data;
     if (data?.channel !== CHANNEL) return;
-    if (data.kind === "hello") {
+    if (data.kind === 'hello') {
       report(state.state, state.reason);
-    } else if (data.kind === "theme") {
-      document.documentElement.dataset.theme = data.dark ? "dark" : "light";
+    } else if (data.kind === 'theme') {
+      document.documentElement.dataset.theme = data.dark ? 'dark' : 'light';
       paint();
-    } else if (data.kind === "pose" && state.state !== "loading") {
+    } else if (data.kind === 'pose' && state.state !== 'loading') {
       deliver(data.messages.filter((/** @type {any} */ m) => MOVES.has(m.type)));
     }
   });
@@ -114,7 +113,7 @@
   // Viser's sorter of splats makes functions from text when it loads, which the page's policy forbids. No
   // scene here has splats: what it gets is never called.
   const sorter = () => {
-    throw new Error("functions are not made from text here");
+    throw new Error('functions are not made from text here');
   };
   window.Function = new Proxy(Function, { apply: () => () => sorter, construct: () => () => sorter });
 
@@ -125,9 +124,9 @@
   };
 
   if (!framed) {
-    const script = document.createElement("script");
-    script.type = "module";
-    script.src = "../../static/scene/window.js";
+    const script = document.createElement('script');
+    script.type = 'module';
+    script.src = '../../static/scene/window.js';
     document.head.append(script);
   }
 })();

@@ -9,13 +9,50 @@ export class Transport {
   /** @param {{onToggle: () => void, onReplay: () => void, onSeek: (t: number) => void, onSpeed: (speed: number) => void, onLoop: (loop: boolean) => void}} handlers */
   constructor({ onToggle, onReplay, onSeek, onSpeed, onLoop }) {
     this.play = h('button', { type: 'button', class: 'play', 'data-testid': 'play', onclick: onToggle });
-    this.replay = h('button', { type: 'button', class: 'replay', 'data-testid': 'replay', title: 'Play from the start', 'aria-label': 'Replay', onclick: onReplay }, '↺');
-    this.time = h('input', { type: 'range', min: 0, max: 5, step: 0.01, value: 0, 'aria-label': 'Time in the motion', 'data-testid': 'time', oninput: () => onSeek(Number(this.time.value)) });
+    this.replay = h(
+      'button',
+      {
+        type: 'button',
+        class: 'replay',
+        'data-testid': 'replay',
+        title: 'Play from the start',
+        'aria-label': 'Replay',
+        onclick: onReplay,
+      },
+      '↺',
+    );
+    this.time = h('input', {
+      type: 'range',
+      min: 0,
+      max: 5,
+      step: 0.01,
+      value: 0,
+      'aria-label': 'Time in the motion',
+      'data-testid': 'time',
+      oninput: () => onSeek(Number(this.time.value)),
+    });
     this.clock = h('output', { class: 'clock', 'data-testid': 'clock' });
-    this.speed = h('select', { 'aria-label': 'Speed', title: 'Seconds of the motion per second', 'data-testid': 'speed', onchange: () => onSpeed(Number(this.speed.value)) },
-      SPEEDS.map((s) => h('option', { value: s }, SPEED_TEXT[s] ?? `${s}×`)));
+    this.speed = h(
+      'select',
+      {
+        'aria-label': 'Speed',
+        title: 'Seconds of the motion per second',
+        'data-testid': 'speed',
+        onchange: () => onSpeed(Number(this.speed.value)),
+      },
+      SPEEDS.map((s) => h('option', { value: s }, SPEED_TEXT[s] ?? `${s}×`)),
+    );
     this.loop = h('input', { type: 'checkbox', 'data-testid': 'loop', onchange: () => onLoop(this.loop.checked) });
-    this.node = h('div', { class: 'transport' }, this.play, this.replay, this.time, this.clock, this.speed, h('label', { class: 'check', title: 'Play again and again' }, this.loop, 'loop'));
+    this.node = h(
+      'div',
+      { class: 'transport' },
+      this.play,
+      this.replay,
+      this.time,
+      this.clock,
+      this.speed,
+      h('label', { class: 'check', title: 'Play again and again' }, this.loop, 'loop'),
+    );
   }
 
   /** @param {import('./player.js').PlayerState} state */

@@ -33,7 +33,15 @@ export class SceneView {
   #slow = false;
   /** The time that is held while the plots' cursor is elsewhere; null: it is not. @type {number|null} */ #held = null;
   /** Where the plots' cursor is. @type {number|null} */ #peeked = null;
-  /** @type {import('./player.js').PlayerState} */ #last = { playing: false, time: 0, duration: 0, speed: 1, loop: false, ready: false, reason: '' };
+  /** @type {import('./player.js').PlayerState} */ #last = {
+    playing: false,
+    time: 0,
+    duration: 0,
+    speed: 1,
+    loop: false,
+    ready: false,
+    reason: '',
+  };
   /** @type {unknown[]} */ #flown = [];
   /** @type {Record<string, import('./cameras.js').RigView>|null} */ #views = null;
   #calm = matchMedia('(prefers-reduced-motion: reduce)');
@@ -46,24 +54,73 @@ export class SceneView {
     this.webgl = hasWebGl();
     this.rigs = new RigKeeper((rig) => putRig(this.session, rig));
     this.frame = h('iframe', { title: 'The rig in three dimensions', 'data-testid': 'scene', tabindex: -1 });
-    this.notice = h('p', { class: 'scene-notice', 'data-testid': 'scene-notice', role: 'status' }, this.webgl ? 'Building the rig…' : 'This browser has no WebGL, so the 3D view is off. Everything else works.');
-    this.hud = Object.fromEntries(['theta', 'psi', 'V_p', 'V_y'].map((name) => [name, h('span', { class: 'hud-value', 'data-testid': `hud-${name}` })]));
-    const label = (/** @type {string} */ name, /** @type {Node} */ mark) => h('div', { class: `hud-item ${name}` }, mark, this.hud[name]);
-    const hud = h('div', { class: 'hud', 'data-testid': 'hud' }, label('theta', symbol('θ')), label('psi', symbol('ψ')), label('V_p', symbol('V', 'p')), label('V_y', symbol('V', 'y')));
-    this.motion = new Choice({ label: 'Motion that the scene plays', testid: 'motion', onChange: (v) => store.set({ motion: /** @type {any} */ (v) }),
-      options: [['theta', 'pitch step', 'the scene plays the pitch step alone'], ['psi', 'yaw step', 'the scene plays the yaw step alone'], ['both', 'both', 'the scene plays both steps at once']] });
+    this.notice = h(
+      'p',
+      { class: 'scene-notice', 'data-testid': 'scene-notice', role: 'status' },
+      this.webgl ? 'Building the rig…' : 'This browser has no WebGL, so the 3D view is off. Everything else works.',
+    );
+    this.hud = Object.fromEntries(
+      ['theta', 'psi', 'V_p', 'V_y'].map((name) => [
+        name,
+        h('span', { class: 'hud-value', 'data-testid': `hud-${name}` }),
+      ]),
+    );
+    const label = (/** @type {string} */ name, /** @type {Node} */ mark) =>
+      h('div', { class: `hud-item ${name}` }, mark, this.hud[name]);
+    const hud = h(
+      'div',
+      { class: 'hud', 'data-testid': 'hud' },
+      label('theta', symbol('θ')),
+      label('psi', symbol('ψ')),
+      label('V_p', symbol('V', 'p')),
+      label('V_y', symbol('V', 'y')),
+    );
+    this.motion = new Choice({
+      label: 'Motion that the scene plays',
+      testid: 'motion',
+      onChange: (v) => store.set({ motion: /** @type {any} */ (v) }),
+      options: [
+        ['theta', 'pitch step', 'the scene plays the pitch step alone'],
+        ['psi', 'yaw step', 'the scene plays the yaw step alone'],
+        ['both', 'both', 'the scene plays both steps at once'],
+      ],
+    });
     this.transport = new Transport({
-      onToggle: () => this.#toggle(), onReplay: () => { this.taken(); this.player.replay(); }, onSeek: (t) => this.seek(t),
-      onSpeed: (speed) => this.player.setSpeed(speed), onLoop: (loop) => this.player.setLoop(loop),
+      onToggle: () => this.#toggle(),
+      onReplay: () => {
+        this.taken();
+        this.player.replay();
+      },
+      onSeek: (t) => this.seek(t),
+      onSpeed: (speed) => this.player.setSpeed(speed),
+      onLoop: (loop) => this.player.setLoop(loop),
     });
     this.controls = new SceneControls({
-      onCamera: (camera) => this.player.setCamera(camera), onReset: () => this.player.resetCamera(),
-      onFlights: () => this.#fly(store.state), onSeen: () => this.#state(this.#last),
+      onCamera: (camera) => this.player.setCamera(camera),
+      onReset: () => this.player.resetCamera(),
+      onFlights: () => this.#fly(store.state),
+      onSeen: () => this.#state(this.#last),
     });
-    root.append(h('div', { class: 'stage' }, this.webgl ? this.frame : null, this.notice, hud, h('div', { class: 'motion' }, this.motion.node), this.webgl ? this.controls.node : null),
-      this.transport.node);
-    const target = this.webgl ? this.frame : /** @type {HTMLIFrameElement} */ (/** @type {unknown} */ ({ contentWindow: null }));
-    this.player = new ScenePlayer(target, { onFrame: (s) => this.#show(s), onState: (s) => this.#state(s), onTransport });
+    root.append(
+      h(
+        'div',
+        { class: 'stage' },
+        this.webgl ? this.frame : null,
+        this.notice,
+        hud,
+        h('div', { class: 'motion' }, this.motion.node),
+        this.webgl ? this.controls.node : null,
+      ),
+      this.transport.node,
+    );
+    const target = this.webgl
+      ? this.frame
+      : /** @type {HTMLIFrameElement} */ (/** @type {unknown} */ ({ contentWindow: null }));
+    this.player = new ScenePlayer(target, {
+      onFrame: (s) => this.#show(s),
+      onState: (s) => this.#state(s),
+      onTransport,
+    });
     this.player.setCamera(this.controls.camera);
     if (this.webgl) this.transport.node.append(sceneMenu(store, this.session));
     if (this.webgl) this.#watchFrame();
@@ -86,8 +143,10 @@ export class SceneView {
   #watchFrame() {
     this.frame.addEventListener('load', () => {
       const inside = this.frame.contentWindow;
-      const moved = (/** @type {Event} */ event) => (event.type === 'wheel' || /** @type {PointerEvent} */ (event).buttons > 0) && this.controls.freed();
-      for (const type of ['pointermove', 'wheel']) inside?.addEventListener(type, moved, { capture: true, passive: true });
+      const moved = (/** @type {Event} */ event) =>
+        (event.type === 'wheel' || /** @type {PointerEvent} */ (event).buttons > 0) && this.controls.freed();
+      for (const type of ['pointermove', 'wheel'])
+        inside?.addEventListener(type, moved, { capture: true, passive: true });
     });
     new ResizeObserver(() => this.player.resized()).observe(this.frame);
   }
@@ -131,7 +190,8 @@ export class SceneView {
     this.motion.set(state.motion);
     if (state.dragging !== this.#dragging) this.#follow(state.dragging);
     const rig = this.store.preset?.rig;
-    if (state.connection === 'lost') this.#rig = null; // a server that returns knows nothing of this tab, and builds the right rig at once if told first
+    if (state.connection === 'lost')
+      this.#rig = null; // a server that returns knows nothing of this tab, and builds the right rig at once if told first
     else if (rig && rig !== this.#rig) this.#setRig(rig);
     if (!state.reply) return;
     const motion = motionOf(state.reply, state.motion) ?? state.reply.step;
@@ -170,7 +230,11 @@ export class SceneView {
     if (seen.every((v, i) => v === this.#flown[i])) return;
     this.#flown = seen;
     const style = getComputedStyle(document.documentElement);
-    this.player.setFlights(flightsOf(state, { linear: linear.checked, pins: pins.checked }, (name) => style.getPropertyValue(`--${name}`).trim()));
+    this.player.setFlights(
+      flightsOf(state, { linear: linear.checked, pins: pins.checked }, (name) =>
+        style.getPropertyValue(`--${name}`).trim(),
+      ),
+    );
     this.controls.render(state.pins.length > 0, this.controls.seen.checked);
   }
 
@@ -235,7 +299,9 @@ export class SceneView {
       this.player?.setSeen(seen);
       this.controls.render(this.store.state.pins.length > 0, this.controls.seen.checked);
       this.notice.hidden = ready && seen;
-      const off = this.#rests ? 'The 3D view pauses while you drag: graphics are slow here.' : 'The rig is switched off. All else works.';
+      const off = this.#rests
+        ? 'The 3D view pauses while you drag: graphics are slow here.'
+        : 'The rig is switched off. All else works.';
       setText(this.notice, seen ? reason || 'Building the rig…' : off);
     }
   }

@@ -32,10 +32,22 @@ class SceneWindow {
   /** @type {string|null} The rig that the camera was aimed at. */ #aimed = null;
 
   constructor() {
-    this.words = h('p', { class: 'window-words', role: 'status', 'data-testid': 'window-words' }, 'Waiting for the page that this scene belongs to…');
+    this.words = h(
+      'p',
+      { class: 'window-words', role: 'status', 'data-testid': 'window-words' },
+      'Waiting for the page that this scene belongs to…',
+    );
     this.time = h('output', { class: 'window-time', 'data-testid': 'window-time' });
     document.body.append(h('div', { class: 'window-notes' }, this.words, this.time));
-    const frame = { contentWindow: window, get clientWidth() { return innerWidth; }, get clientHeight() { return innerHeight; } };
+    const frame = {
+      contentWindow: window,
+      get clientWidth() {
+        return innerWidth;
+      },
+      get clientHeight() {
+        return innerHeight;
+      },
+    };
     this.player = new ScenePlayer(/** @type {any} */ (frame), {
       onFrame: ({ t, theta, psi }) => {
         setText(this.time, `${fixed(t, 2)} s   θ ${degrees(theta)}   ψ ${degrees(psi)}`);
@@ -105,7 +117,11 @@ class SceneWindow {
 
   /** @param {string} rig */
   async #putRig(rig) {
-    await fetch(new URL('rig', location.href), { method: 'PUT', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ rig }) });
+    await fetch(new URL('rig', location.href), {
+      method: 'PUT',
+      headers: { 'Content-Type': 'application/json' },
+      body: JSON.stringify({ rig }),
+    });
   }
 
   /** @param {Record<string, any>} edits @param {number} count */

@@ -15,7 +15,12 @@ const REST_MS = 500;
 export function cloudRequest(design, spread, motion, names, samples) {
   const scenario = cloudScenario(design.scenario);
   const played = motion === 'both' ? scenario.reference : { [motion]: scenario.reference[motion] };
-  return { ...bodyOf(design), scenario: { ...scenario, reference: played }, uncertainty: Object.fromEntries(names.filter((n) => n !== 'g').map((n) => [n, spread])), samples };
+  return {
+    ...bodyOf(design),
+    scenario: { ...scenario, reference: played },
+    uncertainty: Object.fromEntries(names.filter((n) => n !== 'g').map((n) => [n, spread])),
+    samples,
+  };
 }
 
 /** The cloud in words. @param {import('../types.js').Cloud|null} cloud @param {import('../types.js').Scenario} [scenario] */
@@ -57,7 +62,8 @@ export class CloudFeed {
     } else if (dragging || this.#timer) return;
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
-      if (this.store.state.dragging) this.#timer = undefined; // asked when the hand lets go
+      if (this.store.state.dragging)
+        this.#timer = undefined; // asked when the hand lets go
       else this.#ask(cloudRequest(design, spread, motion, names, MANY));
     }, REST_MS);
   }

@@ -12,7 +12,14 @@ const SNAP = 9; // px: how near the real axis a complex pair turns real
 const MEET = 13; // px: how near two real poles count as met
 const PAN = 40; // px per press of a key
 /** @type {Record<string, [number, number]>} direction in the plane, in keyboard steps */
-const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1], PageUp: [10, 0], PageDown: [-10, 0] };
+const KEYS = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+  PageUp: [10, 0],
+  PageDown: [-10, 0],
+};
 
 /**
  * @typedef {object} Plane  what the gestures act on
@@ -27,7 +34,8 @@ const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDow
  */
 
 export class Gestures {
-  /** @type {{index: number, id: number, together: boolean, moved: boolean, dx: number, dy: number}|null} */ #drag = null;
+  /** @type {{index: number, id: number, together: boolean, moved: boolean, dx: number, dy: number}|null} */ #drag =
+    null;
   /** @type {Point|null} */ #pan = null;
   /** @type {{view: View, from: [Point, Point]}|null} */ #pinch = null;
   /** @type {Map<number, Point>} */ #fingers = new Map();
@@ -39,12 +47,17 @@ export class Gestures {
     const { svg, marks, store } = plane;
     svg.addEventListener('pointerdown', (e) => this.#down(e));
     svg.addEventListener('pointermove', (e) => this.#move(e));
-    for (const end of /** @type {const} */ (['pointerup', 'pointercancel', 'lostpointercapture'])) svg.addEventListener(end, (e) => this.#up(e));
+    for (const end of /** @type {const} */ (['pointerup', 'pointercancel', 'lostpointercapture']))
+      svg.addEventListener(end, (e) => this.#up(e));
     svg.addEventListener('pointerleave', () => plane.activate(this.#focused()));
     svg.addEventListener('dblclick', (e) => this.#under(e) === null && plane.fit());
     svg.addEventListener('wheel', (e) => this.#wheel(e), { passive: false });
     // Two fingers, or one that holds a pole, belong to the plane; the browser would scroll the page with them.
-    svg.addEventListener('touchstart', (e) => (e.touches.length > 1 || this.#drag) && e.cancelable && e.preventDefault(), { passive: false });
+    svg.addEventListener(
+      'touchstart',
+      (e) => (e.touches.length > 1 || this.#drag) && e.cancelable && e.preventDefault(),
+      { passive: false },
+    );
     for (const [i, handle] of marks.handles.entries()) {
       handle.addEventListener('keydown', (e) => this.#key(e, i));
       handle.addEventListener('keyup', () => store.commit());
@@ -92,7 +105,8 @@ export class Gestures {
       marks.handles[index].focus({ preventScroll: true });
       activate(index);
       store.set({ dragging: true });
-    } else if (e.pointerType === 'touch') return undefined; // a finger beside the poles scrolls the page
+    } else if (e.pointerType === 'touch')
+      return undefined; // a finger beside the poles scrolls the page
     else this.#pan = at;
     svg.setPointerCapture(e.pointerId);
     return e.preventDefault();
@@ -139,11 +153,18 @@ export class Gestures {
     const raw = toPlane(v, inside(x, v.width), inside(y, v.height));
     const grain = 10 ** Math.floor(Math.log10(1 / v.scale)); // pixels carry no more digits than this
     const to = { re: tidy(Math.round(raw.re / grain) * grain), im: tidy(Math.round(raw.im / grain) * grain) };
-    this.plane.store.edit((d) => {
-      const moved = drag(d.poles, gesture.index, to, { snap: SNAP / v.scale, meet: MEET / v.scale, together: gesture.together });
-      gesture.together = moved.together;
-      return { ...d, poles: moved.poles };
-    }, { gesture: `drag-${gesture.index}`, stamp });
+    this.plane.store.edit(
+      (d) => {
+        const moved = drag(d.poles, gesture.index, to, {
+          snap: SNAP / v.scale,
+          meet: MEET / v.scale,
+          together: gesture.together,
+        });
+        gesture.together = moved.together;
+        return { ...d, poles: moved.poles };
+      },
+      { gesture: `drag-${gesture.index}`, stamp },
+    );
   }
 
   /** @param {PointerEvent} e */
@@ -177,14 +198,22 @@ export class Gestures {
     const v = plane.view;
     const direction = KEYS[e.key];
     if (direction && e.ctrlKey) {
-      plane.look({ ...v, cx: v.cx + (Math.sign(direction[0]) * PAN) / v.scale, cy: v.cy + (direction[1] * PAN) / v.scale });
+      plane.look({
+        ...v,
+        cx: v.cx + (Math.sign(direction[0]) * PAN) / v.scale,
+        cy: v.cy + (direction[1] * PAN) / v.scale,
+      });
     } else if (direction) {
       const step = keyStep(v) * (e.shiftKey ? 0.1 : 1);
       const by = { re: direction[0] * step, im: direction[1] * step };
-      plane.store.edit((d) => ({ ...d, poles: nudge(d.poles, index, by) }), { gesture: `key-${index}`, stamp: e.timeStamp });
+      plane.store.edit((d) => ({ ...d, poles: nudge(d.poles, index, by) }), {
+        gesture: `key-${index}`,
+        stamp: e.timeStamp,
+      });
     } else if (e.ctrlKey) return;
     else if ('1234'.includes(e.key)) plane.marks.handles[Number(e.key) - 1].focus();
-    else if (e.key === '+' || e.key === '-') plane.look(zoom(v, e.key === '+' ? 1.4 : 1 / 1.4, v.width / 2, v.height / 2));
+    else if (e.key === '+' || e.key === '-')
+      plane.look(zoom(v, e.key === '+' ? 1.4 : 1 / 1.4, v.width / 2, v.height / 2));
     else if (e.key.toLowerCase() === 'f') plane.fit();
     else return;
     e.preventDefault();

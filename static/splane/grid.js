@@ -21,7 +21,14 @@ export function drawGrid(layer, view) {
     const left = Math.max(0, x0);
     nodes.push(
       svg('rect', { class: 'unstable-half', x: left, y: 0, width: view.width - left, height: view.height }),
-      svg('rect', { class: 'unstable-hatch', x: left, y: 0, width: view.width - left, height: view.height, fill: 'url(#hatch)' }),
+      svg('rect', {
+        class: 'unstable-hatch',
+        x: left,
+        y: 0,
+        width: view.width - left,
+        height: view.height,
+        fill: 'url(#hatch)',
+      }),
     );
     if (view.width - left > 14) {
       const x = Math.max(left, view.width - 21); // far from the axis, where poles may be
@@ -31,13 +38,27 @@ export function drawGrid(layer, view) {
 
   const farthest = Math.max(...[b.left, b.right].flatMap((re) => [b.bottom, b.top].map((im) => Math.hypot(re, im))));
   for (const r of ticks(step, farthest, step)) {
-    nodes.push(svg('path', { class: 'grid', d: `M ${x0} ${y0 - r * view.scale} A ${r * view.scale} ${r * view.scale} 0 0 0 ${x0} ${y0 + r * view.scale}` }));
+    nodes.push(
+      svg('path', {
+        class: 'grid',
+        d: `M ${x0} ${y0 - r * view.scale} A ${r * view.scale} ${r * view.scale} 0 0 0 ${x0} ${y0 + r * view.scale}`,
+      }),
+    );
   }
   const labelled = step * (step * view.scale < 44 ? 2 : 1);
   for (const r of ticks(labelled, farthest, labelled)) {
     // Below the real axis, where no ray has its label, and away from the ticks of the imaginary one.
     const [x, y] = toPixel(view, { re: -r * WN_DIRECTION[0], im: -r * WN_DIRECTION[1] });
-    if (x > 22 && x0 - x > 30 && y > 30 && y < view.height - 24) nodes.push(svg('text', { class: 'wn-label', x, y: y + 3, 'text-anchor': 'middle' }, 'ω', svg('tspan', { class: 'sub', dy: 3 }, 'n'), svg('tspan', { dy: -3 }, ` ${fixed(r, decimals)}`)));
+    if (x > 22 && x0 - x > 30 && y > 30 && y < view.height - 24)
+      nodes.push(
+        svg(
+          'text',
+          { class: 'wn-label', x, y: y + 3, 'text-anchor': 'middle' },
+          'ω',
+          svg('tspan', { class: 'sub', dy: 3 }, 'n'),
+          svg('tspan', { dy: -3 }, ` ${fixed(r, decimals)}`),
+        ),
+      );
   }
   for (const zeta of DAMPING) {
     const end = rayEnd(view, zeta);
@@ -45,7 +66,9 @@ export function drawGrid(layer, view) {
     const [x, y] = end;
     nodes.push(svg('path', { class: 'grid', d: `M ${x} ${y} L ${x0} ${y0} L ${x} ${2 * y0 - y}` }));
     const atTop = y < 1;
-    nodes.push(svg('text', { class: 'zeta-label', x: atTop ? x + 4 : 5, y: atTop ? 12 : y + 13 }, `ζ ${fixed(zeta, 1)}`));
+    nodes.push(
+      svg('text', { class: 'zeta-label', x: atTop ? x + 4 : 5, y: atTop ? 12 : y + 13 }, `ζ ${fixed(zeta, 1)}`),
+    );
   }
 
   nodes.push(svg('line', { class: 'axis', x1: 0, x2: view.width, y1: y0, y2: y0 }));
@@ -54,7 +77,13 @@ export function drawGrid(layer, view) {
   for (const re of ticks(b.left, b.right, step)) {
     const [x] = toPixel(view, { re, im: 0 });
     if (x < 14 || x > view.width - 14) continue;
-    nodes.push(svg('text', { class: 'tick', x, y: baseline, 'text-anchor': 'middle' }, Math.abs(re) < step / 2 ? '0' : fixed(re, decimals)));
+    nodes.push(
+      svg(
+        'text',
+        { class: 'tick', x, y: baseline, 'text-anchor': 'middle' },
+        Math.abs(re) < step / 2 ? '0' : fixed(re, decimals),
+      ),
+    );
   }
   const column = Math.max(4, Math.min(view.width - 4, x0 - 5));
   for (const im of ticks(b.bottom, b.top, step)) {

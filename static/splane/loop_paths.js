@@ -17,7 +17,10 @@ const times = (a, b) => ({ re: a.re * b.re - a.im * b.im, im: a.re * b.im + a.im
 /** Coefficients of a monic polynomial, highest power first, from roots that are conjugate to each other. @param {readonly Complex[]} roots */
 export function polynomial(roots) {
   let p = [{ re: 1, im: 0 }];
-  for (const r of roots) p = [...p, { re: 0, im: 0 }].map((c, i) => (i ? { re: c.re - times(p[i - 1], r).re, im: c.im - times(p[i - 1], r).im } : c));
+  for (const r of roots)
+    p = [...p, { re: 0, im: 0 }].map((c, i) =>
+      i ? { re: c.re - times(p[i - 1], r).re, im: c.im - times(p[i - 1], r).im } : c,
+    );
   return p.map((c) => c.re);
 }
 
@@ -25,18 +28,24 @@ export function polynomial(roots) {
 function sweep(p, z) {
   let most = 0;
   for (let i = 0; i < z.length; i++) {
-    let [value, slope] = [{ re: 0, im: 0 }, { re: 0, im: 0 }];
+    let [value, slope] = [
+      { re: 0, im: 0 },
+      { re: 0, im: 0 },
+    ];
     for (const c of p) {
       slope = times(slope, z[i]);
       slope = { re: slope.re + value.re, im: slope.im + value.im };
       value = times(value, z[i]);
       value = { re: value.re + c, im: value.im };
     }
-    const others = z.reduce((sum, w, j) => {
-      const [x, y] = [z[i].re - w.re, z[i].im - w.im];
-      const size = x * x + y * y;
-      return j === i || size === 0 ? sum : { re: sum.re + x / size, im: sum.im - y / size };
-    }, { re: 0, im: 0 });
+    const others = z.reduce(
+      (sum, w, j) => {
+        const [x, y] = [z[i].re - w.re, z[i].im - w.im];
+        const size = x * x + y * y;
+        return j === i || size === 0 ? sum : { re: sum.re + x / size, im: sum.im - y / size };
+      },
+      { re: 0, im: 0 },
+    );
     const below = times(value, others);
     const d = { re: slope.re - below.re, im: slope.im - below.im };
     const size = d.re * d.re + d.im * d.im;
@@ -52,7 +61,9 @@ function sweep(p, z) {
 function crossDeterminant(K, A, B, { pairing, decoupler }) {
   const [[b11, b12], [b21, b22]] = [B[2], B[3]];
   const det = b11 * b22 - b12 * b21;
-  const statics = [0, 1].map((i) => [0, 1].map((j) => (i ? -b21 * A[2][j] + b11 * A[3][j] : b22 * A[2][j] - b12 * A[3][j]) / det));
+  const statics = [0, 1].map((i) =>
+    [0, 1].map((j) => (i ? -b21 * A[2][j] + b11 * A[3][j] : b22 * A[2][j] - b12 * A[3][j]) / det),
+  );
   const [[a, b], [c, d]] = [0, 1].map((i) => [0, 1].map((j) => K[i][j] - statics[i][j])); // Ĝ(0)⁻¹
   const inverse = a * d - b * c;
   const [pitch, yaw] = pairing === 'cross' ? [-b, -c] : [d, a];
@@ -80,7 +91,10 @@ export function loopPaths(reply, design) {
   for (let k = 1; k <= STEPS; k++) {
     const share = (k / STEPS) ** 2; // the integrators leave 0 as a root of the gain
     const p = start.map((v, i) => v + share * (linear[i] + share * square[i]));
-    z = z.map((r, i) => ({ re: r.re + APART * size * Math.cos(2 * i + 1), im: r.im + APART * size * Math.sin(2 * i + 1) }));
+    z = z.map((r, i) => ({
+      re: r.re + APART * size * Math.cos(2 * i + 1),
+      im: r.im + APART * size * Math.sin(2 * i + 1),
+    }));
     for (let n = 0; n < SWEEPS && sweep(p, z) > ENOUGH; n++);
     paths.forEach((path, i) => path.push({ ...z[i] }));
   }

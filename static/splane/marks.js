@@ -14,27 +14,55 @@ export const NAMES = ['pitch', 'yaw'];
 const CROSS = 'M -5.5 -5.5 L 5.5 5.5 M -5.5 5.5 L 5.5 -5.5';
 const OPEN_MARK = 'M -4 -4 L 4 4 M -4 4 L 4 -4';
 const LOOP_MARK = 'M 0 -5.5 L 5.5 0 L 0 5.5 L -5.5 0 Z';
-const TITLE = 'Drag, or use the arrow keys (Shift: fine, Page keys: coarse). Drag two real poles of a pair together, then off the axis: they turn complex.\n' +
+const TITLE =
+  'Drag, or use the arrow keys (Shift: fine, Page keys: coarse). Drag two real poles of a pair together, then off the axis: they turn complex.\n' +
   'Where marks overlap, Tab or 1 to 4 brings another to the top.';
 
 /** @param {number} i a handle: what is pressed, focused and heard */
 function handle(i) {
-  return svg('g', { class: 'pole', 'data-testid': `pole-${i}`, 'data-index': i, tabindex: 0, role: 'slider', 'aria-label': `${NAMES[pairOf(i)]} pole ${i + 1}`,
-    'aria-valuemin': -1e5, 'aria-valuemax': 1e5 }, svg('title', {}, TITLE), svg('circle', { class: 'reach', r: 28 }), svg('circle', { class: 'hit', r: 19 }));
+  return svg(
+    'g',
+    {
+      class: 'pole',
+      'data-testid': `pole-${i}`,
+      'data-index': i,
+      tabindex: 0,
+      role: 'slider',
+      'aria-label': `${NAMES[pairOf(i)]} pole ${i + 1}`,
+      'aria-valuemin': -1e5,
+      'aria-valuemax': 1e5,
+    },
+    svg('title', {}, TITLE),
+    svg('circle', { class: 'reach', r: 28 }),
+    svg('circle', { class: 'hit', r: 19 }),
+  );
 }
 
 /** @param {number} i a mark: what is seen */
 function mark(i) {
   const name = NAMES[pairOf(i)];
-  const ring = name === 'pitch' ? svg('circle', { class: 'ring', r: 11 }) : svg('rect', { class: 'ring', x: -10, y: -10, width: 20, height: 20, rx: 2 });
-  return svg('g', { class: `pole-mark ${name}`, 'data-testid': `pole-mark-${i}` }, ring, svg('path', { class: 'cross', d: CROSS }));
+  const ring =
+    name === 'pitch'
+      ? svg('circle', { class: 'ring', r: 11 })
+      : svg('rect', { class: 'ring', x: -10, y: -10, width: 20, height: 20, rx: 2 });
+  return svg(
+    'g',
+    { class: `pole-mark ${name}`, 'data-testid': `pole-mark-${i}` },
+    ring,
+    svg('path', { class: 'cross', d: CROSS }),
+  );
 }
 
 /** Its number, over all marks. @param {number} i */
 const numeral = (i) => svg('text', { class: `name ${NAMES[pairOf(i)]}`, x: 14 }, String(i + 1));
 
 /** A sample of the two kinds of marks that are not dragged, for the key. @param {'open'|'loop'} kind */
-export const sample = (kind) => svg('svg', { class: `${kind}-poles`, 'aria-hidden': 'true', viewBox: '-7 -7 14 14' }, svg('path', { d: kind === 'open' ? OPEN_MARK : LOOP_MARK }));
+export const sample = (kind) =>
+  svg(
+    'svg',
+    { class: `${kind}-poles`, 'aria-hidden': 'true', viewBox: '-7 -7 14 14' },
+    svg('path', { d: kind === 'open' ? OPEN_MARK : LOOP_MARK }),
+  );
 
 export class Marks {
   /** Indices of the poles from the lowest to the topmost mark. */
@@ -48,8 +76,20 @@ export class Marks {
     this.handles = [0, 1, 2, 3].map(handle);
     this.marks = [0, 1, 2, 3].map(mark);
     this.names = [0, 1, 2, 3].map(numeral);
-    this.seen = svg('g', { 'aria-hidden': 'true' }, this.order.map((i) => this.marks[i]));
-    this.nodes = [this.open, ...this.links, this.path, this.loop, this.seen, svg('g', { 'aria-hidden': 'true' }, this.names), ...this.handles];
+    this.seen = svg(
+      'g',
+      { 'aria-hidden': 'true' },
+      this.order.map((i) => this.marks[i]),
+    );
+    this.nodes = [
+      this.open,
+      ...this.links,
+      this.path,
+      this.loop,
+      this.seen,
+      svg('g', { 'aria-hidden': 'true' }, this.names),
+      ...this.handles,
+    ];
   }
 
   /** Brings a pole's mark to the top. The handles keep their order, which is that of the Tab key. @param {number} index */
@@ -63,12 +103,15 @@ export class Marks {
   draw(state, view, fresh) {
     const { design, reply, requirements } = state;
     if (!design) return;
-    if (fresh || design.poles !== this.#poles || requirements !== this.#requirements) this.#drawPlaced(design.poles, view, requirements);
+    if (fresh || design.poles !== this.#poles || requirements !== this.#requirements)
+      this.#drawPlaced(design.poles, view, requirements);
     this.#poles = design.poles;
     this.#requirements = requirements;
     const whole = design.outer === 'pi' || !placesPoles(state) ? reply?.loop_poles : undefined;
-    if (fresh || reply?.open_loop_poles !== this.#shown.open) this.#drawOthers(this.open, OPEN_MARK, (this.#shown.open = reply?.open_loop_poles) ?? [], view);
-    if (fresh || whole !== this.#shown.loop) this.#drawOthers(this.loop, LOOP_MARK, (this.#shown.loop = whole) ?? [], view);
+    if (fresh || reply?.open_loop_poles !== this.#shown.open)
+      this.#drawOthers(this.open, OPEN_MARK, (this.#shown.open = reply?.open_loop_poles) ?? [], view);
+    if (fresh || whole !== this.#shown.loop)
+      this.#drawOthers(this.loop, LOOP_MARK, (this.#shown.loop = whole) ?? [], view);
   }
 
   /** @type {readonly Complex[]|null} */ #poles = null;
@@ -85,7 +128,11 @@ export class Marks {
       setAttr(this.names[i], 'transform', place);
       setAttr(this.handles[i], 'aria-valuenow', poles[i].re);
       const guide = isAsked(requirements) ? guideWords(poles[i], requirements) : '';
-      setAttr(this.handles[i], 'aria-valuetext', guide ? say`${poleText(poles, i)}, guide: alone ${guide} than asked` : poleText(poles, i));
+      setAttr(
+        this.handles[i],
+        'aria-valuetext',
+        guide ? say`${poleText(poles, i)}, guide: alone ${guide} than asked` : poleText(poles, i),
+      );
       // Labels of a pair stand apart even where its poles meet or lie mirrored.
       const below = poles[i].im < 0 || (poles[i].im === 0 && i % 2 === 1);
       setAttr(this.names[i], 'y', below ? 20 : -11);
@@ -102,11 +149,18 @@ export class Marks {
   drawPath(way, view, fresh) {
     if (!fresh && this.#way === (way?.path ?? null)) return;
     this.#way = way?.path ?? null;
-    const at = way ? way.path.map((p) => toPixel(view, p).map((v) => v.toFixed(1)).join(' ')) : [];
+    const at = way
+      ? way.path.map((p) =>
+          toPixel(view, p)
+            .map((v) => v.toFixed(1))
+            .join(' '),
+        )
+      : [];
     setAttr(this.path, 'd', at.length ? `M ${at.join(' L ')}` : '');
     setAttr(this.path, 'class', `loop-path ${way ? NAMES[pairOf(way.index)] : ''}`);
     const end = way?.path.at(-1);
-    for (const [i, node] of [...this.loop.children].entries()) node.classList.toggle('target', end !== undefined && this.#shown.loop?.[i] === end);
+    for (const [i, node] of [...this.loop.children].entries())
+      node.classList.toggle('target', end !== undefined && this.#shown.loop?.[i] === end);
   }
 
   /** @param {SVGGElement} layer @param {string} d @param {Complex[]} poles @param {View} view */

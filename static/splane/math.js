@@ -10,7 +10,10 @@ import { niceStep } from '../model/index.js';
 export const toPixel = (v, p) => [v.width / 2 + (p.re - v.cx) * v.scale, v.height / 2 - (p.im - v.cy) * v.scale];
 
 /** @param {View} v @param {number} x @param {number} y @returns {Complex} */
-export const toPlane = (v, x, y) => ({ re: v.cx + (x - v.width / 2) / v.scale, im: v.cy - (y - v.height / 2) / v.scale });
+export const toPlane = (v, x, y) => ({
+  re: v.cx + (x - v.width / 2) / v.scale,
+  im: v.cy - (y - v.height / 2) / v.scale,
+});
 
 /** @param {View} v */
 export function bounds(v) {
@@ -51,9 +54,14 @@ export function pick(v, poles, order, at, reach) {
  * @returns {View}
  */
 export function pinch(v, [a, b], [c, d]) {
-  const apart = (/** @type {{x: number, y: number}} */ p, /** @type {{x: number, y: number}} */ q) => Math.max(10, Math.hypot(p.x - q.x, p.y - q.y));
+  const apart = (/** @type {{x: number, y: number}} */ p, /** @type {{x: number, y: number}} */ q) =>
+    Math.max(10, Math.hypot(p.x - q.x, p.y - q.y));
   const zoomed = zoom(v, apart(c, d) / apart(a, b), (a.x + b.x) / 2, (a.y + b.y) / 2);
-  return { ...zoomed, cx: zoomed.cx - (c.x + d.x - a.x - b.x) / 2 / zoomed.scale, cy: zoomed.cy + (c.y + d.y - a.y - b.y) / 2 / zoomed.scale };
+  return {
+    ...zoomed,
+    cx: zoomed.cx - (c.x + d.x - a.x - b.x) / 2 / zoomed.scale,
+    cy: zoomed.cy + (c.y + d.y - a.y - b.y) / 2 / zoomed.scale,
+  };
 }
 
 /**

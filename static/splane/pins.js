@@ -19,14 +19,23 @@ export function drawPins(root, view, pins) {
   if (own.pins === pins && own.view === view) return;
   Object.assign(own, { pins, view });
   const near = (NEAR * pictureScale().type) / drawingUnit();
-  own.layer.replaceChildren(...pins.map((pin) => {
-    /** @type {[number, number][]} */ const named = [];
-    return svg('g', { class: colorOf(pin.index), role: 'img', 'aria-label': `poles of ${letterOf(pin.index)}, ${pin.name}` }, pin.design.poles.flatMap((p) => {
-      const [x, y] = toPixel(view, p);
-      const mark = svg('path', { d: CROSS, transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
-      if (named.some(([a, b]) => Math.hypot(a - x, b - y) < near)) return [mark];
-      named.push([x, y]);
-      return [mark, svg('text', { x: (x - 3).toFixed(1), y: (y + (p.im < 0 ? 24 : -15)).toFixed(1) }, letterOf(pin.index))];
-    }));
-  }));
+  own.layer.replaceChildren(
+    ...pins.map((pin) => {
+      /** @type {[number, number][]} */ const named = [];
+      return svg(
+        'g',
+        { class: colorOf(pin.index), role: 'img', 'aria-label': `poles of ${letterOf(pin.index)}, ${pin.name}` },
+        pin.design.poles.flatMap((p) => {
+          const [x, y] = toPixel(view, p);
+          const mark = svg('path', { d: CROSS, transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
+          if (named.some(([a, b]) => Math.hypot(a - x, b - y) < near)) return [mark];
+          named.push([x, y]);
+          return [
+            mark,
+            svg('text', { x: (x - 3).toFixed(1), y: (y + (p.im < 0 ? 24 : -15)).toFixed(1) }, letterOf(pin.index)),
+          ];
+        }),
+      );
+    }),
+  );
 }

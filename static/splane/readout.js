@@ -9,7 +9,8 @@ const NAMES = ['pitch', 'yaw'];
 /** @typedef {Pick<import('../types.js').State, 'design'|'reply'|'answered'|'requirements'>} Known */
 
 /** The figures of a motion in few words. @param {number|undefined} settling @param {number|undefined} overshoot */
-const figures = (settling, overshoot) => say`settles in ${seconds(settling)}${overshoot === undefined ? '' : say`, overshoot ${fixed(overshoot, 0)} %`}`;
+const figures = (settling, overshoot) =>
+  say`settles in ${seconds(settling)}${overshoot === undefined ? '' : say`, overshoot ${fixed(overshoot, 0)} %`}`;
 
 /**
  * What a pole says by itself, and what becomes of it: where the PI loops take it, and how the axis' step settles then.
@@ -26,7 +27,11 @@ export function readoutLines({ design, reply, requirements }, index, to) {
   const own = reply?.axis_steps?.[axis]?.nonlinear.metrics?.[axis];
   const guide = isAsked(requirements) ? guideWords(p, requirements) : '';
   const pi = design?.outer === 'pi';
-  const step = !own ? '' : own.settling_time === undefined ? say`not settled, overshoot ${fixed(own.overshoot, 0)} %` : figures(own.settling_time, own.overshoot);
+  const step = !own
+    ? ''
+    : own.settling_time === undefined
+      ? say`not settled, overshoot ${fixed(own.overshoot, 0)} %`
+      : figures(own.settling_time, own.overshoot);
   return [
     two ? say`${NAMES[pair]} poles ${first}, ${first + 1}` : say`${NAMES[pair]} pole ${index + 1}`,
     two ? `${fixed(p.re)} \u00b1 ${fixed(Math.abs(p.im))}j rad/s` : `${fixed(p.re)} rad/s`,
@@ -39,7 +44,8 @@ export function readoutLines({ design, reply, requirements }, index, to) {
 }
 
 /** One of a conjugate pair stands for both. @param {import('../types.js').Complex} p */
-const pairText = (p) => (Math.abs(p.im) > 1e-9 * Math.hypot(p.re, p.im) ? `${fixed(p.re)} \u00b1 ${fixed(Math.abs(p.im))}j` : fixed(p.re));
+const pairText = (p) =>
+  Math.abs(p.im) > 1e-9 * Math.hypot(p.re, p.im) ? `${fixed(p.re)} \u00b1 ${fixed(Math.abs(p.im))}j` : fixed(p.re);
 
 /** @typedef {{x: number, y: number, width: number, height: number, unit: number}} At a pole in the plane, and the plane's size, CSS pixels; `unit`: those to one of the view's */
 

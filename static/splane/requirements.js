@@ -8,8 +8,12 @@ import { bounds, toPixel } from './math.js';
 /** @typedef {import('./math.js').View} View */
 
 /** Two hatchings that can be told apart where they cross. @param {string} id @param {number} angle */
-const pattern = (id, angle) => svg('pattern', { id, width: 7, height: 7, patternUnits: 'userSpaceOnUse', patternTransform: `rotate(${angle})` },
-  svg('line', { class: 'asked-line', x1: 0, y1: 0, x2: 0, y2: 7 }));
+const pattern = (id, angle) =>
+  svg(
+    'pattern',
+    { id, width: 7, height: 7, patternUnits: 'userSpaceOnUse', patternTransform: `rotate(${angle})` },
+    svg('line', { class: 'asked-line', x1: 0, y1: 0, x2: 0, y2: 7 }),
+  );
 
 export const hatchings = () => [pattern('hatch-settling', 45), pattern('hatch-overshoot', -45)];
 
@@ -22,14 +26,31 @@ export function drawForbidden(layer, view, r) {
   for (const kind of /** @type {const} */ (['overshoot', 'settling'])) {
     const corners = regions[kind];
     if (!corners) continue;
-    const points = corners.map((p) => toPixel(view, p).map((v) => v.toFixed(1)).join(' '));
-    hatched.append(svg('path', { class: 'forbidden', 'data-testid': `forbidden-${kind}`, fill: `url(#hatch-${kind})`, d: `M ${points.join(' L ')} Z` }));
+    const points = corners.map((p) =>
+      toPixel(view, p)
+        .map((v) => v.toFixed(1))
+        .join(' '),
+    );
+    hatched.append(
+      svg('path', {
+        class: 'forbidden',
+        'data-testid': `forbidden-${kind}`,
+        fill: `url(#hatch-${kind})`,
+        d: `M ${points.join(' L ')} Z`,
+      }),
+    );
     const border = kind === 'settling' ? points.slice(0, 2) : [points[1], points[0], points[points.length - 1]];
     nodes.push(svg('path', { class: 'forbidden-edge', d: `M ${border.join(' L ')}` }));
   }
   if (regions.settling && r.settling !== null) {
     const [x, y] = [toPixel(view, regions.settling[0])[0] + 12, view.height - 24];
-    nodes.push(svg('text', { class: 'forbidden-label', x, y, transform: `rotate(-90 ${x} ${y})` }, say`guide: alone settling > ${forField(r.settling)} s`));
+    nodes.push(
+      svg(
+        'text',
+        { class: 'forbidden-label', x, y, transform: `rotate(-90 ${x} ${y})` },
+        say`guide: alone settling > ${forField(r.settling)} s`,
+      ),
+    );
   }
   const zeta = leastDamping(r);
   if (zeta !== undefined && r.overshoot !== null) {
@@ -38,7 +59,20 @@ export function drawForbidden(layer, view, r) {
     // Along the upper side of the wedge, where it is well in view.
     const along = 0.55 * Math.min(zeta > 0.05 ? x0 / zeta : Infinity, y0 / Math.max(0.05, Math.sqrt(1 - zeta * zeta)));
     const [x, y] = [x0 - along * zeta, y0 - along * Math.sqrt(1 - zeta * zeta)];
-    if (along > 60) nodes.push(svg('text', { class: 'forbidden-label', x, y: y - 5, 'text-anchor': 'middle', transform: `rotate(${angle.toFixed(1)} ${x} ${y})` }, say`guide: alone overshoot > ${forField(r.overshoot)} %`));
+    if (along > 60)
+      nodes.push(
+        svg(
+          'text',
+          {
+            class: 'forbidden-label',
+            x,
+            y: y - 5,
+            'text-anchor': 'middle',
+            transform: `rotate(${angle.toFixed(1)} ${x} ${y})`,
+          },
+          say`guide: alone overshoot > ${forField(r.overshoot)} %`,
+        ),
+      );
   }
   layer.replaceChildren(...nodes);
 }
@@ -48,17 +82,46 @@ export class RequirementsBar {
 
   /** @param {import('../model/store.js').Store} store */
   constructor(store) {
-    const field = (/** @type {'settling'|'overshoot'} */ key, /** @type {string} */ unit, /** @type {number} */ start, /** @type {string} */ title) => {
-      const made = new NumberField({ label: `${key} at most, ${unit === 's' ? 'seconds' : 'percent'}; empty: not asked`, mark: h('span', { title }, `${key} ≤`), unit, testid: `require-${key}`,
-        ...RANGES[key], optional: true,
-        onInput: (v) => store.set({ requirements: { ...store.state.requirements, [key]: Number.isFinite(v) ? v : null } }), onCommit: () => {} });
+    const field = (
+      /** @type {'settling'|'overshoot'} */ key,
+      /** @type {string} */ unit,
+      /** @type {number} */ start,
+      /** @type {string} */ title,
+    ) => {
+      const made = new NumberField({
+        label: `${key} at most, ${unit === 's' ? 'seconds' : 'percent'}; empty: not asked`,
+        mark: h('span', { title }, `${key} ≤`),
+        unit,
+        testid: `require-${key}`,
+        ...RANGES[key],
+        optional: true,
+        onInput: (v) =>
+          store.set({ requirements: { ...store.state.requirements, [key]: Number.isFinite(v) ? v : null } }),
+        onCommit: () => {},
+      });
       made.setBlank('off', start);
       return made;
     };
-    this.settling = field('settling', 's', 1, 'The steps shall settle to 2 % within this time. Hatched, as a guide: where a pole alone would take longer, 4/σ. Empty: not asked');
-    this.overshoot = field('overshoot', '%', 10, 'The steps shall overshoot by no more. Hatched, as a guide: where a pair alone would overshoot by more, e^(−πζ/√(1 − ζ²)). Empty: not asked');
+    this.settling = field(
+      'settling',
+      's',
+      1,
+      'The steps shall settle to 2 % within this time. Hatched, as a guide: where a pole alone would take longer, 4/σ. Empty: not asked',
+    );
+    this.overshoot = field(
+      'overshoot',
+      '%',
+      10,
+      'The steps shall overshoot by no more. Hatched, as a guide: where a pair alone would overshoot by more, e^(−πζ/√(1 − ζ²)). Empty: not asked',
+    );
     this.verdict = h('span', { class: 'asked-verdict', 'data-testid': 'requirements-verdict', role: 'status' });
-    this.node = h('div', { class: 'asked', role: 'group', 'aria-label': 'Requirements on the response' }, this.settling.node, this.overshoot.node, this.verdict);
+    this.node = h(
+      'div',
+      { class: 'asked', role: 'group', 'aria-label': 'Requirements on the response' },
+      this.settling.node,
+      this.overshoot.node,
+      this.verdict,
+    );
   }
 
   /** @param {import('../types.js').State} state */

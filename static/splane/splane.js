@@ -36,25 +36,78 @@ export class SPlane {
     this.forbidden = svg('g');
     this.marks = new Marks();
     // The grid has a drawing of its own, which is not painted again while a pole moves.
-    this.backdrop = svg('svg', { class: 'splane-svg backdrop', 'aria-hidden': 'true' },
-      svg('defs', {}, svg('pattern', { id: 'hatch', width: 8, height: 8, patternUnits: 'userSpaceOnUse', patternTransform: 'rotate(45)' },
-        svg('line', { class: 'hatch-line', x1: 0, y1: 0, x2: 0, y2: 8 })), hatchings()),
-      this.grid, this.forbidden);
-    this.svg = svg('svg', { class: 'splane-svg', 'data-testid': 'splane', role: 'group', 'aria-label': 'Poles in the s-plane' }, this.marks.nodes);
+    this.backdrop = svg(
+      'svg',
+      { class: 'splane-svg backdrop', 'aria-hidden': 'true' },
+      svg(
+        'defs',
+        {},
+        svg(
+          'pattern',
+          { id: 'hatch', width: 8, height: 8, patternUnits: 'userSpaceOnUse', patternTransform: 'rotate(45)' },
+          svg('line', { class: 'hatch-line', x1: 0, y1: 0, x2: 0, y2: 8 }),
+        ),
+        hatchings(),
+      ),
+      this.grid,
+      this.forbidden,
+    );
+    this.svg = svg(
+      'svg',
+      { class: 'splane-svg', 'data-testid': 'splane', role: 'group', 'aria-label': 'Poles in the s-plane' },
+      this.marks.nodes,
+    );
     this.readout = new Readout();
-    this.spread = h('select', { 'data-testid': 'spread', 'aria-label': 'Model uncertainty', title: 'Model uncertainty: the same controller on rigs whose parameters differ by so much; their poles as dots, their responses as bands',
-      onchange: () => store.set({ spread: Number(this.spread.value) }) }, SPREADS.map((v) => h('option', { value: v }, v ? say`uncertainty ± ${100 * v} %` : 'uncertainty: none')));
+    this.spread = h(
+      'select',
+      {
+        'data-testid': 'spread',
+        'aria-label': 'Model uncertainty',
+        title:
+          'Model uncertainty: the same controller on rigs whose parameters differ by so much; their poles as dots, their responses as bands',
+        onchange: () => store.set({ spread: Number(this.spread.value) }),
+      },
+      SPREADS.map((v) => h('option', { value: v }, v ? say`uncertainty ± ${100 * v} %` : 'uncertainty: none')),
+    );
     this.cloud = h('canvas', { class: 'cloud', hidden: true, 'aria-hidden': 'true' });
     this.cloudText = h('div', { class: 'cloud-words', 'data-testid': 'cloud-words', role: 'status' });
-    const button = (/** @type {string} */ text, /** @type {string} */ name, /** @type {string} */ key, /** @type {string} */ id, /** @type {() => void} */ act) =>
-      h('button', { type: 'button', title: `${name} (${key}, on a pole)`, 'aria-label': name, 'data-testid': id, onclick: act }, text);
-    const tools = h('div', { class: 'splane-tools' },
-      button('+', 'Zoom in', '+', 'zoom-in', () => this.#zoomBy(1.4)), button('\u2212', 'Zoom out', '\u2212', 'zoom-out', () => this.#zoomBy(1 / 1.4)),
-      button('Fit', 'Fit all poles into view', 'F', 'fit', () => this.fit()), this.spread, (this.key = h('div', { class: 'splane-key', 'data-testid': 'splane-key' },
-      h('span', { title: 'poles of the whole loop: PI moves the poles that you placed' }, sample('loop'), (this.loopName = h('span'))),
-      h('span', { title: 'poles of the rig without feedback' }, sample('open'), 'open loop'))));
+    const button = (
+      /** @type {string} */ text,
+      /** @type {string} */ name,
+      /** @type {string} */ key,
+      /** @type {string} */ id,
+      /** @type {() => void} */ act,
+    ) =>
+      h(
+        'button',
+        { type: 'button', title: `${name} (${key}, on a pole)`, 'aria-label': name, 'data-testid': id, onclick: act },
+        text,
+      );
+    const tools = h(
+      'div',
+      { class: 'splane-tools' },
+      button('+', 'Zoom in', '+', 'zoom-in', () => this.#zoomBy(1.4)),
+      button('\u2212', 'Zoom out', '\u2212', 'zoom-out', () => this.#zoomBy(1 / 1.4)),
+      button('Fit', 'Fit all poles into view', 'F', 'fit', () => this.fit()),
+      this.spread,
+      (this.key = h(
+        'div',
+        { class: 'splane-key', 'data-testid': 'splane-key' },
+        h(
+          'span',
+          { title: 'poles of the whole loop: PI moves the poles that you placed' },
+          sample('loop'),
+          (this.loopName = h('span')),
+        ),
+        h('span', { title: 'poles of the rig without feedback' }, sample('open'), 'open loop'),
+      )),
+    );
     this.bar = new RequirementsBar(store);
-    root.append(h('div', { class: 'splane-stage' }, this.backdrop, this.cloud, this.svg, this.readout.node, this.cloudText), tools, this.bar.node);
+    root.append(
+      h('div', { class: 'splane-stage' }, this.backdrop, this.cloud, this.svg, this.readout.node, this.cloudText),
+      tools,
+      this.bar.node,
+    );
     this.gestures = new Gestures(this);
     new ResizeObserver(([entry]) => this.#resize(entry.contentRect.width, entry.contentRect.height)).observe(this.svg);
   }
@@ -87,7 +140,8 @@ export class SPlane {
   #resize(width, height) {
     this.unit = drawingUnit();
     this.view = { ...this.view, width: width / this.unit, height: height / this.unit };
-    for (const drawn of [this.backdrop, this.svg]) drawn.setAttribute('viewBox', `0 0 ${this.view.width} ${this.view.height}`);
+    for (const drawn of [this.backdrop, this.svg])
+      drawn.setAttribute('viewBox', `0 0 ${this.view.width} ${this.view.height}`);
     if (this.#manual) this.look(this.view);
     else this.fit();
   }
@@ -124,7 +178,11 @@ export class SPlane {
   /** Draws the way of the pole in question to its pole of the whole loop. @param {boolean} fresh */
   #link(fresh) {
     const to = this.#target();
-    this.marks.drawPath(to && this.#active !== null && this.#paths ? { index: this.#active, path: this.#paths[this.#active] } : null, this.view, fresh);
+    this.marks.drawPath(
+      to && this.#active !== null && this.#paths ? { index: this.#active, path: this.#paths[this.#active] } : null,
+      this.view,
+      fresh,
+    );
   }
 
   /** @param {State} state */

@@ -17,14 +17,18 @@ export function fixed(v, decimals = 2) {
 export function significant(v, digits = 4) {
   if (v === undefined || !Number.isFinite(v)) return '–';
   const size = Math.abs(v);
-  if (size !== 0 && (size >= 1e6 || size < 1e-4)) return typographic(v.toExponential(Math.max(0, digits - 2)).replace('e+', 'e'));
+  if (size !== 0 && (size >= 1e6 || size < 1e-4))
+    return typographic(v.toExponential(Math.max(0, digits - 2)).replace('e+', 'e'));
   const leading = size === 0 ? 0 : Math.floor(Math.log10(size));
   const whole = leading >= 0 ? leading + 1 : leading === -1 ? 1 : leading + 2; // so that a small figure is not rounded to a zero
   return fixed(v, Math.max(0, digits - whole));
 }
 
 /** A figure in few characters: from 100 on without decimals, from 10⁵ on as a power of ten. @param {string} text with one number in it */
-export const brief = (text) => text.replace(/\d{3,}(\.\d+)?/, (v) => (Number(v) >= 99999.5 ? Number(v).toExponential(0).replace('e+', 'e') : String(Math.round(Number(v)))));
+export const brief = (text) =>
+  text.replace(/\d{3,}(\.\d+)?/, (v) =>
+    Number(v) >= 99999.5 ? Number(v).toExponential(0).replace('e+', 'e') : String(Math.round(Number(v))),
+  );
 
 /** No trailing zeros, plain minus, as programs write it. @param {number} v */
 export const forField = (v) => String(Number(v.toPrecision(7)));
@@ -37,7 +41,8 @@ export function parseNumber(text) {
   return plain === '' ? NaN : Number(plain);
 }
 
-const COMPLEX = /^([+-]?[\d.]+(?:e[+-]?\d+)?)?(?:([+-]|±|\+-)\*?)?(?:([\d.]+(?:e[+-]?\d+)?)?\*?[ij]|[ij]\*?([\d.]+(?:e[+-]?\d+)?)?)$/i;
+const COMPLEX =
+  /^([+-]?[\d.]+(?:e[+-]?\d+)?)?(?:([+-]|±|\+-)\*?)?(?:([\d.]+(?:e[+-]?\d+)?)?\*?[ij]|[ij]\*?([\d.]+(?:e[+-]?\d+)?)?)$/i;
 
 /** One of a conjugate pair as people write it: -3+2j, −3 ± 2i, -3-2*j, 2j. @param {string} text @returns {import('../types.js').Complex|null} null where it is none; the imaginary part as written, ± as + */
 export function parseComplex(text) {
@@ -75,16 +80,22 @@ export function poleText(poles, index) {
 export const percent = (share, decimals = 0) => (share === undefined ? '–' : `${fixed(100 * share, decimals)} %`);
 
 /** @param {number|undefined} ratio */
-export const decibel = (ratio) => (ratio === undefined || !(ratio > 0) ? '–' : `${fixed(20 * Math.log10(ratio), 1)} dB`);
+export const decibel = (ratio) =>
+  ratio === undefined || !(ratio > 0) ? '–' : `${fixed(20 * Math.log10(ratio), 1)} dB`;
 
 /** @param {number|undefined} rad */
 export const degrees = (rad, decimals = 1) => (rad === undefined ? '–' : `${fixed(rad * DEGREE, decimals)}°`);
 
 /** @param {number|undefined} s */
-export const seconds = (s) => (s === undefined ? '–' : s < 0.1 ? `${fixed(1000 * s, s < 0.01 ? 1 : 0)} ms` : `${fixed(s, 2)} s`);
+export const seconds = (s) =>
+  s === undefined ? '–' : s < 0.1 ? `${fixed(1000 * s, s < 0.01 ? 1 : 0)} ms` : `${fixed(s, 2)} s`;
 
 /** Relative difference from which two figures are told apart. */
 const NOTABLE = 0.05;
 
 /** @param {number|undefined} a @param {number|undefined} b @param {number} [least] below this size nothing differs */
-export const differs = (a, b, least = 0) => a !== b && (a === undefined || b === undefined || Math.abs(a - b) > Math.max(least, NOTABLE * Math.max(Math.abs(a), Math.abs(b))));
+export const differs = (a, b, least = 0) =>
+  a !== b &&
+  (a === undefined ||
+    b === undefined ||
+    Math.abs(a - b) > Math.max(least, NOTABLE * Math.max(Math.abs(a), Math.abs(b))));

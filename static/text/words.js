@@ -13,7 +13,15 @@ const CATALOGUES = { 'qps-ploc': () => import('./languages/pseudo.js') };
 const WORD = /\p{L}{2}/u;
 const TRIMMED = /^(\s*)([\s\S]*?)(\s*)$/;
 /** Attributes that people read or hear. */
-export const SPOKEN = new Set(['title', 'aria-label', 'aria-description', 'aria-valuetext', 'placeholder', 'alt', 'label']);
+export const SPOKEN = new Set([
+  'title',
+  'aria-label',
+  'aria-description',
+  'aria-valuetext',
+  'placeholder',
+  'alt',
+  'label',
+]);
 
 /** @type {Catalogue|null} */ let catalogue = null;
 let language = 'en';
@@ -81,6 +89,10 @@ export function translatePage(document, name) {
   document.documentElement.lang = name;
   document.title = t(document.title);
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
-  while (walker.nextNode()) if (!walker.currentNode.parentElement?.closest('[translate=no]')) walker.currentNode.nodeValue = t(walker.currentNode.nodeValue ?? '');
-  for (const name of SPOKEN) for (const node of document.body.querySelectorAll(`[${name}]`)) node.setAttribute(name, t(node.getAttribute(name) ?? ''));
+  while (walker.nextNode())
+    if (!walker.currentNode.parentElement?.closest('[translate=no]'))
+      walker.currentNode.nodeValue = t(walker.currentNode.nodeValue ?? '');
+  for (const name of SPOKEN)
+    for (const node of document.body.querySelectorAll(`[${name}]`))
+      node.setAttribute(name, t(node.getAttribute(name) ?? ''));
 }

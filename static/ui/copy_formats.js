@@ -12,10 +12,22 @@
 export const FORMATS = ['LaTeX', 'Python', 'MATLAB', 'Text'];
 
 const FUNCTIONS = new Set(['sin', 'cos', 'tan', 'sqrt', 'exp', 'Matrix', 'Rational', 'Eq']);
-const NAMED = /** @type {Record<string, string>} */ ({ RGA: '\\mathrm{RGA}', A_bar: '\\bar{A}', G_0: '\\hat{G}(0)', poles: 'p', loop_poles: 'p_\\mathrm{loop}' });
+const NAMED = /** @type {Record<string, string>} */ ({
+  RGA: '\\mathrm{RGA}',
+  A_bar: '\\bar{A}',
+  G_0: '\\hat{G}(0)',
+  poles: 'p',
+  loop_poles: 'p_\\mathrm{loop}',
+});
 
 /** @param {string} name */
-const latexName = (name) => NAMED[name] ?? (/^[A-Za-z]$/.test(name) ? name : /^([A-Za-z])_(\w+)$/.test(name) ? name.replace(/^([A-Za-z])_(\w+)$/, '$1_{$2}') : `\\mathrm{${name.replaceAll('_', '\\_')}}`);
+const latexName = (name) =>
+  NAMED[name] ??
+  (/^[A-Za-z]$/.test(name)
+    ? name
+    : /^([A-Za-z])_(\w+)$/.test(name)
+      ? name.replace(/^([A-Za-z])_(\w+)$/, '$1_{$2}')
+      : `\\mathrm{${name.replaceAll('_', '\\_')}}`);
 
 /** @param {number} v */
 const latexNumber = (v) => String(v).replace(/e\+?(-?\d+)$/, ' \\times 10^{$1}');
@@ -40,24 +52,42 @@ const cellsOf = (matrix, number = String) => aligned(matrix.map((row) => Array.f
 
 /** @type {Record<Format, (item: MatrixItem) => string>} */
 const MATRIX = {
-  LaTeX: ({ name, matrix }) => `${latexName(name)} = \\begin{bmatrix}\n${cellsOf(matrix, latexNumber).map((row) => `  ${row.join(' & ')}`).join(' \\\\\n')}\n\\end{bmatrix}`,
-  Python: (item) => `import numpy as np\n\n${noted(item, '#')}${item.name} = np.array([\n${cellsOf(item.matrix).map((row) => `    [${row.join(', ')}],`).join('\n')}\n])`,
-  MATLAB: (item) => `${noted(item, '%')}${item.name} = [ ...\n${cellsOf(item.matrix).map((row) => `    ${row.join(', ')}`).join('; ...\n')} ...\n];`,
-  Text: (item) => `${item.name}${item.note ? `: ${item.note}` : ''}\n${cellsOf(item.matrix).map((row) => row.join('  ')).join('\n')}`,
+  LaTeX: ({ name, matrix }) =>
+    `${latexName(name)} = \\begin{bmatrix}\n${cellsOf(matrix, latexNumber)
+      .map((row) => `  ${row.join(' & ')}`)
+      .join(' \\\\\n')}\n\\end{bmatrix}`,
+  Python: (item) =>
+    `import numpy as np\n\n${noted(item, '#')}${item.name} = np.array([\n${cellsOf(item.matrix)
+      .map((row) => `    [${row.join(', ')}],`)
+      .join('\n')}\n])`,
+  MATLAB: (item) =>
+    `${noted(item, '%')}${item.name} = [ ...\n${cellsOf(item.matrix)
+      .map((row) => `    ${row.join(', ')}`)
+      .join('; ...\n')} ...\n];`,
+  Text: (item) =>
+    `${item.name}${item.note ? `: ${item.note}` : ''}\n${cellsOf(item.matrix)
+      .map((row) => row.join('  '))
+      .join('\n')}`,
 };
 
 /** @type {Record<Format, (item: PolesItem) => string>} */
 const POLES = {
-  LaTeX: ({ name, poles }) => `${latexName(name)} = \\{${poles.map((p) => complexText(p, latexNumber, '\\mathrm{j}')).join(',\\; ')}\\}`,
-  Python: (item) => `import numpy as np\n\n${noted(item, '#')}${item.name} = np.array([${item.poles.map((p) => complexText(p, String, 'j')).join(', ')}])`,
-  MATLAB: (item) => `${noted(item, '%')}${item.name} = [${item.poles.map((p) => complexText(p, String, 'i')).join(', ')}];`, // spaced on both sides, a sign is one operator, not two entries
-  Text: (item) => `${item.name}${item.note ? `: ${item.note}` : ''}\n${item.poles.map((p) => complexText(p, String, 'j')).join('\n')}`,
+  LaTeX: ({ name, poles }) =>
+    `${latexName(name)} = \\{${poles.map((p) => complexText(p, latexNumber, '\\mathrm{j}')).join(',\\; ')}\\}`,
+  Python: (item) =>
+    `import numpy as np\n\n${noted(item, '#')}${item.name} = np.array([${item.poles.map((p) => complexText(p, String, 'j')).join(', ')}])`,
+  MATLAB: (item) =>
+    `${noted(item, '%')}${item.name} = [${item.poles.map((p) => complexText(p, String, 'i')).join(', ')}];`, // spaced on both sides, a sign is one operator, not two entries
+  Text: (item) =>
+    `${item.name}${item.note ? `: ${item.note}` : ''}\n${item.poles.map((p) => complexText(p, String, 'j')).join('\n')}`,
 };
 
 /** The free names of an expression, in the order of appearance. @param {string} sympy @returns {string[]} */
-export const namesIn = (sympy) => [...new Set(sympy.match(/[A-Za-z_]\w*/g) ?? [])].filter((name) => !FUNCTIONS.has(name) && name !== 'pi');
+export const namesIn = (sympy) =>
+  [...new Set(sympy.match(/[A-Za-z_]\w*/g) ?? [])].filter((name) => !FUNCTIONS.has(name) && name !== 'pi');
 /** @param {string} sympy */
-const functionsIn = (sympy) => [...new Set(sympy.match(/[A-Za-z_]\w*/g) ?? [])].filter((name) => FUNCTIONS.has(name) || name === 'pi').sort();
+const functionsIn = (sympy) =>
+  [...new Set(sympy.match(/[A-Za-z_]\w*/g) ?? [])].filter((name) => FUNCTIONS.has(name) || name === 'pi').sort();
 
 /** A name that the expression itself does not use. @param {FormulaItem} item */
 const target = ({ name, sympy = '' }) => (namesIn(sympy).includes(name) ? `${name}_` : name);

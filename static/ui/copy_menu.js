@@ -18,9 +18,35 @@ function menu(items) {
   if (!items.length) return [h('p', { class: 'caption' }, 'There is nothing to copy yet.')];
   const told = h('p', { class: 'told', role: 'status', 'data-testid': 'copied' });
   const button = (/** @type {string} */ name, /** @type {Format} */ format, /** @type {string|undefined} */ text) =>
-    h('button', { type: 'button', disabled: !text, title: `${name}: ${TITLES[format]}`, 'aria-label': `Copy ${name} as ${format}`, 'data-testid': `copy-${name}-${format}`, onclick: (/** @type {Event} */ e) => copy(e, name, format, text ?? '', told) }, format);
-  const rows = items.map((item) => h('tr', {}, h('th', { scope: 'row', title: item.note ?? '' }, item.name), FORMATS.map((format) => h('td', {}, button(item.name, format, textOf(item, format))))));
-  if (items.length > 1) rows.push(h('tr', {}, h('th', { scope: 'row' }, 'all'), FORMATS.map((format) => h('td', {}, button('all', format, allOf(items, format))))));
+    h(
+      'button',
+      {
+        type: 'button',
+        disabled: !text,
+        title: `${name}: ${TITLES[format]}`,
+        'aria-label': `Copy ${name} as ${format}`,
+        'data-testid': `copy-${name}-${format}`,
+        onclick: (/** @type {Event} */ e) => copy(e, name, format, text ?? '', told),
+      },
+      format,
+    );
+  const rows = items.map((item) =>
+    h(
+      'tr',
+      {},
+      h('th', { scope: 'row', title: item.note ?? '' }, item.name),
+      FORMATS.map((format) => h('td', {}, button(item.name, format, textOf(item, format)))),
+    ),
+  );
+  if (items.length > 1)
+    rows.push(
+      h(
+        'tr',
+        {},
+        h('th', { scope: 'row' }, 'all'),
+        FORMATS.map((format) => h('td', {}, button('all', format, allOf(items, format)))),
+      ),
+    );
   return [h('table', { class: 'copy-menu' }, h('tbody', {}, rows)), told];
 }
 

@@ -11,7 +11,12 @@ function dress(node, attributes, children) {
     else node.setAttribute(name, value === true ? '' : SPOKEN.has(name) ? t(String(value)) : String(value));
   }
   const own = attributes.translate === 'no'; // symbols and units are the same in every language
-  node.append(...children.flat().filter((c) => c !== null && c !== undefined).map((c) => (typeof c === 'string' && !own ? t(c) : c)));
+  node.append(
+    ...children
+      .flat()
+      .filter((c) => c !== null && c !== undefined)
+      .map((c) => (typeof c === 'string' && !own ? t(c) : c)),
+  );
   return node;
 }
 
@@ -53,4 +58,5 @@ export function byId(id) {
 }
 
 /** A symbol with subscript, as in K_pp. @param {string} base @param {string} [sub] @returns {HTMLElement} */
-export const symbol = (base, sub) => h('span', { class: 'sym' }, h('i', { translate: 'no' }, base), ...(sub ? [h('sub', { translate: 'no' }, sub)] : []));
+export const symbol = (base, sub) =>
+  h('span', { class: 'sym' }, h('i', { translate: 'no' }, base), ...(sub ? [h('sub', { translate: 'no' }, sub)] : []));

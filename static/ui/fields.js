@@ -29,13 +29,37 @@ export class NumberField {
     this.options = options;
     const { label, mark, unit, testid, field, slider } = options;
     const bubble = `${testid}-error`;
-    this.input = h('input', { class: 'number', type: 'text', inputmode: 'decimal', autocomplete: 'off', spellcheck: 'false', 'aria-label': label, 'data-testid': testid,
-      'data-field': field, 'aria-describedby': bubble });
+    this.input = h('input', {
+      class: 'number',
+      type: 'text',
+      inputmode: 'decimal',
+      autocomplete: 'off',
+      spellcheck: 'false',
+      'aria-label': label,
+      'data-testid': testid,
+      'data-field': field,
+      'aria-describedby': bubble,
+    });
     this.bubble = h('span', { class: 'field-error', id: bubble, role: 'status' });
-    this.slider = slider ? h('input', { type: 'range', 'aria-label': `${label}, slider`, 'data-testid': `${testid}-slider`, min: 0, max: 1, step: 'any' }) : null;
+    this.slider = slider
+      ? h('input', {
+          type: 'range',
+          'aria-label': `${label}, slider`,
+          'data-testid': `${testid}-slider`,
+          min: 0,
+          max: 1,
+          step: 'any',
+        })
+      : null;
     this.range = slider ?? { min: 0, max: 1 };
-    this.node = h('div', { class: `field${slider ? ' with-slider' : ''}` }, h('span', { class: 'mark', 'aria-hidden': 'true' }, mark ?? label), this.slider,
-      h('span', { class: 'entry' }, this.input, this.bubble), unit ? h('span', { class: 'unit', 'aria-hidden': 'true' }, unit) : null);
+    this.node = h(
+      'div',
+      { class: `field${slider ? ' with-slider' : ''}` },
+      h('span', { class: 'mark', 'aria-hidden': 'true' }, mark ?? label),
+      this.slider,
+      h('span', { class: 'entry' }, this.input, this.bubble),
+      unit ? h('span', { class: 'unit', 'aria-hidden': 'true' }, unit) : null,
+    );
     this.input.addEventListener('input', (e) => this.#typed(e.timeStamp));
     this.input.addEventListener('change', () => this.#done());
     this.input.addEventListener('keydown', (e) => this.#key(e));
@@ -138,7 +162,9 @@ export class NumberField {
     e.preventDefault();
     const { min, max, integer } = this.options;
     const from = Number.isNaN(this.value) ? this.#start : this.value;
-    const size = integer ? 1 : 10 ** Math.floor(Math.log10(Math.max(Math.abs(from), 1e-3)) + 1e-9) * (e.shiftKey ? 0.01 : 0.1);
+    const size = integer
+      ? 1
+      : 10 ** Math.floor(Math.log10(Math.max(Math.abs(from), 1e-3)) + 1e-9) * (e.shiftKey ? 0.01 : 0.1);
     const v = Math.max(min, Math.min(max, from + (e.key === 'ArrowUp' ? size : -size)));
     this.input.value = inField(Number(v.toPrecision(9)));
     this.#typed(e.timeStamp);
@@ -164,9 +190,20 @@ export class NumberField {
 export class Choice {
   /** @param {{label: string, testid: string, options: [string, string, string?][], onChange: (value: string) => void}} o  options: value, text, explanation */
   constructor({ label, testid, options, onChange }) {
-    this.inputs = options.map(([value]) => h('input', { type: 'radio', name: testid, value, 'data-testid': `${testid}-${value}`, onchange: () => onChange(value) }));
-    this.node = h('div', { class: 'choice', role: 'radiogroup', 'aria-label': label, 'data-testid': testid },
-      options.map(([, text, title], i) => h('label', { title }, this.inputs[i], h('span', {}, text))));
+    this.inputs = options.map(([value]) =>
+      h('input', {
+        type: 'radio',
+        name: testid,
+        value,
+        'data-testid': `${testid}-${value}`,
+        onchange: () => onChange(value),
+      }),
+    );
+    this.node = h(
+      'div',
+      { class: 'choice', role: 'radiogroup', 'aria-label': label, 'data-testid': testid },
+      options.map(([, text, title], i) => h('label', { title }, this.inputs[i], h('span', {}, text))),
+    );
   }
 
   /** @param {string} value */

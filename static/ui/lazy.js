@@ -55,7 +55,9 @@ export class Lazy {
       this.#failed = !(error instanceof ProblemError);
       if (this.#failed) this.#key = '';
       const hint = error instanceof ProblemError ? error.problem.hint : 'It is tried again with the next change.';
-      refused = [`This could not be computed: ${error instanceof Error ? error.message : error}`, hint].filter(Boolean).join(' ');
+      refused = [`This could not be computed: ${error instanceof Error ? error.message : error}`, hint]
+        .filter(Boolean)
+        .join(' ');
     }
     if (!refused && key !== this.#key) return;
     if (!refused) this.how.show(answer);

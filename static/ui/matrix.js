@@ -5,7 +5,12 @@ import { significant, t } from '../text/index.js';
 
 /** @typedef {{name: string, note?: string}|(() => import('./copy_formats.js').Item[])} Copied  the name under which a matrix is copied, or all that its button copies */
 const dotted = (/** @type {string} */ s) => h('span', { class: 'sym' }, h('i', {}, `${s}\u0307`));
-const STATES = [{ name: 'θ', unit: 'V/rad' }, { name: 'ψ', unit: 'V/rad' }, { name: 'θ̇', unit: 'V·s/rad' }, { name: 'ψ̇', unit: 'V·s/rad' }];
+const STATES = [
+  { name: 'θ', unit: 'V/rad' },
+  { name: 'ψ', unit: 'V/rad' },
+  { name: 'θ̇', unit: 'V·s/rad' },
+  { name: 'ψ̇', unit: 'V·s/rad' },
+];
 const MOTORS = ['V_p', 'V_y'];
 const motors = () => [symbol('V', 'p'), symbol('V', 'y')];
 
@@ -18,35 +23,80 @@ export class Matrix {
    */
   constructor(testid, name, rows, columns, title, copied) {
     this.title = title;
-    const items = typeof copied === 'function' ? copied : () => (copied && this.values ? [{ ...copied, matrix: this.values }] : []);
+    const items =
+      typeof copied === 'function' ? copied : () => (copied && this.values ? [{ ...copied, matrix: this.values }] : []);
     const tool = copied ? copyButton(testid, items) : null;
     this.cells = rows.map((_r, i) => columns.map((_c, j) => h('td', { 'data-testid': `${testid}-${i}${j}` })));
-    this.node = h('table', { class: 'matrix', 'data-testid': testid },
-      h('thead', {}, h('tr', {}, h('td', { class: 'name' }, name, tool), columns.map((c) => h('th', { scope: 'col' }, c)))),
-      h('tbody', {}, rows.map((r, i) => h('tr', {}, h('th', { scope: 'row' }, r), this.cells[i]))));
+    this.node = h(
+      'table',
+      { class: 'matrix', 'data-testid': testid },
+      h(
+        'thead',
+        {},
+        h(
+          'tr',
+          {},
+          h('td', { class: 'name' }, name, tool),
+          columns.map((c) => h('th', { scope: 'col' }, c)),
+        ),
+      ),
+      h(
+        'tbody',
+        {},
+        rows.map((r, i) => h('tr', {}, h('th', { scope: 'row' }, r), this.cells[i])),
+      ),
+    );
   }
 
   /** @param {number[][]|undefined} values @param {(v: number) => string} format */
   render(values, format) {
     this.values = values;
-    this.cells.forEach((row, i) => row.forEach((cell, j) => {
-      setText(cell, values ? format(values[i][j]) : '–');
-      setAttr(cell, 'title', `${t(this.title(i, j))}${values ? `\n${significant(values[i][j], 8)}` : ''}`);
-    }));
+    this.cells.forEach((row, i) =>
+      row.forEach((cell, j) => {
+        setText(cell, values ? format(values[i][j]) : '–');
+        setAttr(cell, 'title', `${t(this.title(i, j))}${values ? `\n${significant(values[i][j], 8)}` : ''}`);
+      }),
+    );
   }
 }
 
 /** The state feedback, u = −Kx + v. @param {string} testid @param {Copied} [copied] */
-export const gainMatrix = (testid, copied) => new Matrix(testid, h('b', {}, 'K'), motors(), [symbol('θ'), symbol('ψ'), dotted('θ'), dotted('ψ')],
-  (i, j) => `k${'₁₂'[i]}${'₁₂₃₄'[j]}: ${STATES[j].unit}, feedback from ${STATES[j].name} to ${MOTORS[i]}`, copied);
+export const gainMatrix = (testid, copied) =>
+  new Matrix(
+    testid,
+    h('b', {}, 'K'),
+    motors(),
+    [symbol('θ'), symbol('ψ'), dotted('θ'), dotted('ψ')],
+    (i, j) => `k${'₁₂'[i]}${'₁₂₃₄'[j]}: ${STATES[j].unit}, feedback from ${STATES[j].name} to ${MOTORS[i]}`,
+    copied,
+  );
 
 /** The feedback of the integrated errors, where a method brings its own. @param {string} testid */
-export const integralMatrix = (testid) => new Matrix(testid, h('span', { class: 'sym' }, h('b', {}, 'K'), h('sub', {}, 'I')), motors(), [h('span', { class: 'sym' }, '∫', h('i', {}, 'e'), h('sub', {}, 'θ')), h('span', { class: 'sym' }, '∫', h('i', {}, 'e'), h('sub', {}, 'ψ'))],
-  (i, j) => `V/(rad·s), feedback from the integrated error of ${STATES[j].name} to ${MOTORS[i]}`);
+export const integralMatrix = (testid) =>
+  new Matrix(
+    testid,
+    h('span', { class: 'sym' }, h('b', {}, 'K'), h('sub', {}, 'I')),
+    motors(),
+    [
+      h('span', { class: 'sym' }, '∫', h('i', {}, 'e'), h('sub', {}, 'θ')),
+      h('span', { class: 'sym' }, '∫', h('i', {}, 'e'), h('sub', {}, 'ψ')),
+    ],
+    (i, j) => `V/(rad·s), feedback from the integrated error of ${STATES[j].name} to ${MOTORS[i]}`,
+  );
 
 /** What K is, where it is copied. */
-export const GAIN = { name: 'K', note: 'u = -K x + v, x = [theta, psi, theta_dot, psi_dot] in rad, rad/s; u = [V_p, V_y] in V' };
+export const GAIN = {
+  name: 'K',
+  note: 'u = -K x + v, x = [theta, psi, theta_dot, psi_dot] in rad, rad/s; u = [V_p, V_y] in V',
+};
 
 /** The relative gain array. @param {string} testid */
-export const relativeGains = (testid) => new Matrix(testid, h('b', {}, 'RGA'), [symbol('θ'), symbol('ψ')], [symbol('v', 'p'), symbol('v', 'y')],
-  (i, j) => `λ${'₁₂'[i]}${'₁₂'[j]}: relative gain from ${['v_p', 'v_y'][j]} to ${['θ', 'ψ'][i]} at s = 0, dimensionless`);
+export const relativeGains = (testid) =>
+  new Matrix(
+    testid,
+    h('b', {}, 'RGA'),
+    [symbol('θ'), symbol('ψ')],
+    [symbol('v', 'p'), symbol('v', 'y')],
+    (i, j) =>
+      `λ${'₁₂'[i]}${'₁₂'[j]}: relative gain from ${['v_p', 'v_y'][j]} to ${['θ', 'ψ'][i]} at s = 0, dimensionless`,
+  );

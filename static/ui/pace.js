@@ -43,7 +43,13 @@ export class Turns {
     }
     if (soonest < Infinity && !this.#waits) {
       this.#waits = true;
-      this.later(() => { this.#waits = false; again(); }, Math.min(soonest, CALM));
+      this.later(
+        () => {
+          this.#waits = false;
+          again();
+        },
+        Math.min(soonest, CALM),
+      );
     }
   }
 }

@@ -14,7 +14,10 @@ const REM = 10; // px, at the browser's usual setting
 /** @param {{fontSize: string, getPropertyValue: (name: string) => string}} style of the root element @returns {Scale} */
 export function scaleOf(style) {
   const rem = Number.parseFloat(style.fontSize);
-  return { type: (rem * Number(style.getPropertyValue('--picture-type'))) / TYPE, line: (rem / REM) * Number(style.getPropertyValue('--picture-lines')) };
+  return {
+    type: (rem * Number(style.getPropertyValue('--picture-type'))) / TYPE,
+    line: (rem / REM) * Number(style.getPropertyValue('--picture-lines')),
+  };
 }
 
 /** The page's present scale. @returns {Scale} */
@@ -42,8 +45,11 @@ export function rescale() {
 
 /** @param {Kept} kept @param {Scale} scale */
 function apply({ chart, widths, fonts }, { type, line }) {
-  chart.series.slice(1).forEach((/** @type {any} */ series, /** @type {number} */ i) => (series.width = widths[i] * line));
-  chart.axes.forEach((/** @type {any} */ { font }, /** @type {number} */ i) => { // as uPlot keeps it: the canvas' font, its size there, its size in CSS pixels
+  chart.series
+    .slice(1)
+    .forEach((/** @type {any} */ series, /** @type {number} */ i) => (series.width = widths[i] * line));
+  chart.axes.forEach((/** @type {any} */ { font }, /** @type {number} */ i) => {
+    // as uPlot keeps it: the canvas' font, its size there, its size in CSS pixels
     font[2] = fonts[i] * type;
     font[1] = Math.round(font[2] * devicePixelRatio);
     font[0] = font[0].replace(/[\d.]+px/, `${font[1]}px`);
@@ -53,7 +59,11 @@ function apply({ chart, widths, fonts }, { type, line }) {
 /** Has a chart of uPlot's follow the page. @template T @param {T} chart @returns {T} */
 export function followsPage(chart) {
   const made = /** @type {any} */ (chart);
-  const kept = { chart: made, widths: made.series.slice(1).map((/** @type {any} */ s) => s.width), fonts: made.axes.map((/** @type {any} */ a) => a.font[2]) };
+  const kept = {
+    chart: made,
+    widths: made.series.slice(1).map((/** @type {any} */ s) => s.width),
+    fonts: made.axes.map((/** @type {any} */ a) => a.font[2]),
+  };
   all.push(kept);
   apply(kept, pictureScale()); // in time for its first drawing, which uPlot puts off to the end of this task
   return chart;

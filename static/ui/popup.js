@@ -25,7 +25,14 @@ function make() {
 function walk(node, e) {
   const all = /** @type {HTMLButtonElement[]} */ ([...node.querySelectorAll('button:not(:disabled)')]);
   const at = all.findIndex((button) => button === e.target);
-  const next = at < 0 ? undefined : stepIn(all.map((button) => button.getBoundingClientRect()), at, e.key);
+  const next =
+    at < 0
+      ? undefined
+      : stepIn(
+          all.map((button) => button.getBoundingClientRect()),
+          at,
+          e.key,
+        );
   if (next === undefined) return;
   all[next].focus();
   e.preventDefault();
@@ -41,8 +48,11 @@ export function stepIn(boxes, at, key) {
   if (step !== undefined) return Math.max(0, Math.min(boxes.length - 1, at + step));
   if (key !== 'ArrowDown' && key !== 'ArrowUp') return undefined;
   const here = boxes[at];
-  const away = (/** @type {number} */ i) => Math.abs(boxes[i].top - here.top) * 1000 + Math.abs(boxes[i].left - here.left);
-  const rows = [...boxes.keys()].filter((i) => (key === 'ArrowDown' ? boxes[i].top > here.bottom - 2 : boxes[i].top < here.top - 2));
+  const away = (/** @type {number} */ i) =>
+    Math.abs(boxes[i].top - here.top) * 1000 + Math.abs(boxes[i].left - here.left);
+  const rows = [...boxes.keys()].filter((i) =>
+    key === 'ArrowDown' ? boxes[i].top > here.bottom - 2 : boxes[i].top < here.top - 2,
+  );
   return rows.sort((a, b) => away(a) - away(b))[0] ?? at;
 }
 
@@ -61,7 +71,10 @@ export function placeBeside(a, { width, height }, view) {
 /** @param {HTMLElement} anchor */
 function place(anchor) {
   if (!panel) return;
-  const { left, top } = placeBeside(anchor.getBoundingClientRect(), panel.getBoundingClientRect(), { width: innerWidth, height: innerHeight });
+  const { left, top } = placeBeside(anchor.getBoundingClientRect(), panel.getBoundingClientRect(), {
+    width: innerWidth,
+    height: innerHeight,
+  });
   Object.assign(panel.style, { left: `${left}px`, top: `${top}px` });
 }
 
@@ -82,10 +95,32 @@ export function togglePopup(anchor, label, content) {
 
 /** A button that opens a popup. @param {{label: string, text: string|Node, testid?: string, kind?: string, content: () => (Node|string)[]}} how */
 export function popupButton({ label, text, testid, kind = 'small-tool', content }) {
-  const button = h('button', { type: 'button', class: kind, title: label, 'aria-label': label, 'aria-haspopup': 'dialog', 'aria-expanded': 'false', 'data-testid': testid, onclick: () => togglePopup(button, label, content) }, text);
+  const button = h(
+    'button',
+    {
+      type: 'button',
+      class: kind,
+      title: label,
+      'aria-label': label,
+      'aria-haspopup': 'dialog',
+      'aria-expanded': 'false',
+      'data-testid': testid,
+      onclick: () => togglePopup(button, label, content),
+    },
+    text,
+  );
   return button;
 }
 
 /** Two sheets, or an arrow into a tray. @param {'copy'|'save'} kind */
-export const icon = (kind) => svg('svg', { class: 'icon-tool', viewBox: '0 0 12 12', 'aria-hidden': 'true' },
-  svg('path', { d: kind === 'copy' ? 'M 4.5 4.5 H 10.5 V 10.5 H 4.5 Z M 2.5 7.5 H 1.5 V 1.5 H 7.5 V 2.5' : 'M 6 1 V 7.5 M 3.2 4.8 L 6 7.6 L 8.8 4.8 M 1.5 10.5 H 10.5' }));
+export const icon = (kind) =>
+  svg(
+    'svg',
+    { class: 'icon-tool', viewBox: '0 0 12 12', 'aria-hidden': 'true' },
+    svg('path', {
+      d:
+        kind === 'copy'
+          ? 'M 4.5 4.5 H 10.5 V 10.5 H 4.5 Z M 2.5 7.5 H 1.5 V 1.5 H 7.5 V 2.5'
+          : 'M 6 1 V 7.5 M 3.2 4.8 L 6 7.6 L 8.8 4.8 M 1.5 10.5 H 10.5',
+    }),
+  );

@@ -12,7 +12,11 @@ export function projectorWanted(search, kept) {
 
 /** The address without it, so that a reload does not bring back what has been switched off. @param {string} search */
 export function withoutProjector(search) {
-  const rest = search.replace(/^\?/, '').split('&').filter((part) => part && part.split('=')[0] !== MEMORY).join('&');
+  const rest = search
+    .replace(/^\?/, '')
+    .split('&')
+    .filter((part) => part && part.split('=')[0] !== MEMORY)
+    .join('&');
   return rest ? `?${rest}` : '';
 }
 

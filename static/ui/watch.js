@@ -17,13 +17,15 @@ export function watched(view) {
     if (seen && [...seen].every(([name, value]) => state[/** @type {keyof State} */ (name)] === value)) return false;
     /** @type {Map<string|symbol, unknown>} */ const reads = new Map();
     seen = reads;
-    view.render(new Proxy(state, {
-      get(target, name) {
-        const value = target[/** @type {keyof State} */ (name)];
-        reads.set(name, value);
-        return value;
-      },
-    }));
+    view.render(
+      new Proxy(state, {
+        get(target, name) {
+          const value = target[/** @type {keyof State} */ (name)];
+          reads.set(name, value);
+          return value;
+        },
+      }),
+    );
     return true;
   };
 }

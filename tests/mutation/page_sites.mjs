@@ -3,47 +3,72 @@
  * that the page's tests import, by themselves or through others. Called with the checkout's root; prints JSON.
  */
 
-import { existsSync, readdirSync, readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { join, relative, resolve } from "node:path";
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join, relative, resolve } from 'node:path';
 
 const root = resolve(process.argv[2]);
-const ts = createRequire(join(root, "package.json"))("typescript");
+const ts = createRequire(join(root, 'package.json'))('typescript');
 const K = ts.SyntaxKind;
 
 const OPERATORS = new Map([
-  [K.PlusToken, ["-"]], [K.MinusToken, ["+"]], [K.AsteriskToken, ["/"]], [K.SlashToken, ["*"]],
-  [K.PercentToken, ["*"]], [K.AsteriskAsteriskToken, ["*"]],
-  [K.LessThanToken, ["<=", ">="]], [K.LessThanEqualsToken, ["<", ">"]],
-  [K.GreaterThanToken, [">=", "<="]], [K.GreaterThanEqualsToken, [">", "<"]],
-  [K.EqualsEqualsEqualsToken, ["!=="]], [K.ExclamationEqualsEqualsToken, ["==="]],
-  [K.AmpersandAmpersandToken, ["||"]], [K.BarBarToken, ["&&"]], [K.QuestionQuestionToken, ["&&"]],
-  [K.PlusEqualsToken, ["-="]], [K.MinusEqualsToken, ["+="]],
-  [K.AsteriskEqualsToken, ["/="]], [K.SlashEqualsToken, ["*="]],
+  [K.PlusToken, ['-']],
+  [K.MinusToken, ['+']],
+  [K.AsteriskToken, ['/']],
+  [K.SlashToken, ['*']],
+  [K.PercentToken, ['*']],
+  [K.AsteriskAsteriskToken, ['*']],
+  [K.LessThanToken, ['<=', '>=']],
+  [K.LessThanEqualsToken, ['<', '>']],
+  [K.GreaterThanToken, ['>=', '<=']],
+  [K.GreaterThanEqualsToken, ['>', '<']],
+  [K.EqualsEqualsEqualsToken, ['!==']],
+  [K.ExclamationEqualsEqualsToken, ['===']],
+  [K.AmpersandAmpersandToken, ['||']],
+  [K.BarBarToken, ['&&']],
+  [K.QuestionQuestionToken, ['&&']],
+  [K.PlusEqualsToken, ['-=']],
+  [K.MinusEqualsToken, ['+=']],
+  [K.AsteriskEqualsToken, ['/=']],
+  [K.SlashEqualsToken, ['*=']],
 ]);
-const BOUNDARIES = new Set(["<", "<=", ">", ">="]);
-const ARITHMETIC = new Set(["+", "-", "*", "/", "%", "**", "+=", "-=", "*=", "/="]);
-const TWINS = { min: "max", max: "min", sin: "cos", cos: "sin", some: "every", every: "some", floor: "ceil", ceil: "floor" };
+const BOUNDARIES = new Set(['<', '<=', '>', '>=']);
+const ARITHMETIC = new Set(['+', '-', '*', '/', '%', '**', '+=', '-=', '*=', '/=']);
+const TWINS = {
+  min: 'max',
+  max: 'min',
+  sin: 'cos',
+  cos: 'sin',
+  some: 'every',
+  every: 'some',
+  floor: 'ceil',
+  ceil: 'floor',
+};
 
 /** The modules, relative to the root, from the tests' imports on. */
 function modules() {
-  const tests = join(root, "tests/page");
-  const waiting = readdirSync(tests).filter((name) => name.endsWith(".test.mjs")).map((name) => join(tests, name));
+  const tests = join(root, 'tests/page');
+  const waiting = readdirSync(tests)
+    .filter((name) => name.endsWith('.test.mjs'))
+    .map((name) => join(tests, name));
   const seen = new Set(waiting);
   for (const file of waiting) {
-    for (const { fileName } of ts.preProcessFile(readFileSync(file, "utf8"), true, true).importedFiles) {
-      const target = resolve(file, "..", fileName);
-      if (!fileName.startsWith(".") || seen.has(target) || !existsSync(target) || !/\.m?js$/.test(target)) continue;
+    for (const { fileName } of ts.preProcessFile(readFileSync(file, 'utf8'), true, true).importedFiles) {
+      const target = resolve(file, '..', fileName);
+      if (!fileName.startsWith('.') || seen.has(target) || !existsSync(target) || !/\.m?js$/.test(target)) continue;
       seen.add(target);
       waiting.push(target);
     }
   }
-  return waiting.map((file) => relative(root, file)).filter((name) => name.startsWith("static/")).sort();
+  return waiting
+    .map((file) => relative(root, file))
+    .filter((name) => name.startsWith('static/'))
+    .sort();
 }
 
 /** The changes of one module. */
 function sitesOf(name) {
-  const source = readFileSync(join(root, name), "utf8");
+  const source = readFileSync(join(root, name), 'utf8');
   const file = ts.createSourceFile(name, source, ts.ScriptTarget.Latest, true, ts.ScriptKind.JS);
   const found = [];
   const add = (start, end, news, kind, scope) => {
@@ -58,43 +83,60 @@ function sitesOf(name) {
       const token = node.operatorToken;
       for (const change of OPERATORS.get(token.kind) ?? []) {
         const old = token.getText(file);
-        const kind = ARITHMETIC.has(old) ? "arithmetic"
-          : BOUNDARIES.has(old) && change.replace("=", "") === old.replace("=", "") ? "boundary"
-          : /[&|?]/.test(old) ? "boolean" : "comparison";
+        const kind = ARITHMETIC.has(old)
+          ? 'arithmetic'
+          : BOUNDARIES.has(old) && change.replace('=', '') === old.replace('=', '')
+            ? 'boundary'
+            : /[&|?]/.test(old)
+              ? 'boolean'
+              : 'comparison';
         whole(token, [change], kind, scope);
       }
     }
     if (ts.isPrefixUnaryExpression(node) && (node.operator === K.ExclamationToken || node.operator === K.MinusToken)) {
-      add(node.getStart(file), node.getStart(file) + 1, [""], "dropped sign or not", scope);
+      add(node.getStart(file), node.getStart(file) + 1, [''], 'dropped sign or not', scope);
     }
     if (ts.isPrefixUnaryExpression(node) || ts.isPostfixUnaryExpression(node)) {
       const at = ts.isPrefixUnaryExpression(node) ? node.getStart(file) : node.operand.end;
-      if (node.operator === K.PlusPlusToken) add(at, at + 2, ["--"], "arithmetic", scope);
-      if (node.operator === K.MinusMinusToken) add(at, at + 2, ["++"], "arithmetic", scope);
+      if (node.operator === K.PlusPlusToken) add(at, at + 2, ['--'], 'arithmetic', scope);
+      if (node.operator === K.MinusMinusToken) add(at, at + 2, ['++'], 'arithmetic', scope);
     }
     if (ts.isNumericLiteral(node)) {
       const value = Number(node.text);
       const news = Number.isInteger(value) && value < 20 ? [value + 1, value - 1] : [2 * value, value / 2];
-      whole(node, news.map((n) => (n < 0 ? `(${n})` : `${n}`)), "constant", scope);
+      whole(
+        node,
+        news.map((n) => (n < 0 ? `(${n})` : `${n}`)),
+        'constant',
+        scope,
+      );
     }
-    if (node.kind === K.TrueKeyword) whole(node, ["false"], "constant", scope);
-    if (node.kind === K.FalseKeyword) whole(node, ["true"], "constant", scope);
+    if (node.kind === K.TrueKeyword) whole(node, ['false'], 'constant', scope);
+    if (node.kind === K.FalseKeyword) whole(node, ['true'], 'constant', scope);
     if (ts.isPropertyAccessExpression(node) && Object.hasOwn(TWINS, node.name.text)) {
-      whole(node.name, [TWINS[node.name.text]], "function", scope);
+      whole(node.name, [TWINS[node.name.text]], 'function', scope);
     }
     if (ts.isReturnStatement(node) && node.expression && node.expression.kind !== K.NullKeyword) {
-      whole(node.expression, ["undefined"], "return", scope);
+      whole(node.expression, ['undefined'], 'return', scope);
     }
-    const test = ts.isIfStatement(node) || ts.isWhileStatement(node) ? node.expression
-      : ts.isConditionalExpression(node) ? node.condition : undefined;
+    const test =
+      ts.isIfStatement(node) || ts.isWhileStatement(node)
+        ? node.expression
+        : ts.isConditionalExpression(node)
+          ? node.condition
+          : undefined;
     if (test && (ts.isIdentifier(test) || ts.isPropertyAccessExpression(test) || ts.isCallExpression(test))) {
-      whole(test, [`!(${test.getText(file)})`], "condition", scope);
+      whole(test, [`!(${test.getText(file)})`], 'condition', scope);
     }
-    const own = node.name && ts.isIdentifier(node.name)
-      && (ts.isFunctionLike(node) || ts.isClassDeclaration(node) || (ts.isVariableDeclaration(node) && node.parent.parent.parent === file));
-    ts.forEachChild(node, (child) => visit(child, own ? `${scope}.${node.name.text}`.replace(/^\./, "") : scope));
+    const own =
+      node.name &&
+      ts.isIdentifier(node.name) &&
+      (ts.isFunctionLike(node) ||
+        ts.isClassDeclaration(node) ||
+        (ts.isVariableDeclaration(node) && node.parent.parent.parent === file));
+    ts.forEachChild(node, (child) => visit(child, own ? `${scope}.${node.name.text}`.replace(/^\./, '') : scope));
   }
-  visit(file, "");
+  visit(file, '');
   return found;
 }
 

@@ -1,14 +1,14 @@
 // The address follows the state: an entry of the history a gesture, never too many calls; Back brings the design back.
-import assert from "node:assert/strict";
-import { beforeEach, test } from "node:test";
+import assert from 'node:assert/strict';
+import { beforeEach, test } from 'node:test';
 
-import { Address, Budget } from "../../static/link/address.js";
-import { Store } from "../../static/model/store.js";
-import { KNOWN, PRESETS } from "./presets.mjs";
+import { Address, Budget } from '../../static/link/address.js';
+import { Store } from '../../static/model/store.js';
+import { KNOWN, PRESETS } from './presets.mjs';
 
 /** A browser's history, with a clock that tests move. */
 class FakeBrowser {
-  entries = [""];
+  entries = [''];
   at = 0;
   calls = [];
   time = 0;
@@ -67,13 +67,13 @@ const opened = (hash) => {
   return address.open();
 };
 
-beforeEach(() => opened(""));
+beforeEach(() => opened(''));
 
-test("the address holds the state from the beginning", () => {
-  assert.deepEqual(browser.entries, ["#v1&preset=quanser-2dof-manual"]);
+test('the address holds the state from the beginning', () => {
+  assert.deepEqual(browser.entries, ['#v1&preset=quanser-2dof-manual']);
 });
 
-test("each finished change is an entry, and Back and Forward walk through them", () => {
+test('each finished change is an entry, and Back and Forward walk through them', () => {
   for (const re of [-5, -6, -7]) {
     move(re);
     browser.pass(50);
@@ -90,9 +90,9 @@ test("each finished change is an entry, and Back and Forward walk through them",
   assert.equal(pole(), -12); // and can itself be undone
 });
 
-test("a gesture is one entry, rewritten as it goes on, and ends with its last state", () => {
+test('a gesture is one entry, rewritten as it goes on, and ends with its last state', () => {
   for (let k = 0; k < 300; k++) {
-    move(-12 + k / 100, { gesture: "drag" });
+    move(-12 + k / 100, { gesture: 'drag' });
     browser.pass(16);
   }
   store.commit();
@@ -102,38 +102,42 @@ test("a gesture is one entry, rewritten as it goes on, and ends with its last st
   assert.ok(browser.entries[1].includes(`p=${pole()},`));
 });
 
-test("a new gesture leaves the one before as it ended", () => {
-  move(-5, { gesture: "a" });
+test('a new gesture leaves the one before as it ended', () => {
+  move(-5, { gesture: 'a' });
   browser.pass(1);
-  move(-5.5, { gesture: "a" });
+  move(-5.5, { gesture: 'a' });
   store.commit();
-  move(-4, { gesture: "b" });
+  move(-4, { gesture: 'b' });
   store.commit();
   browser.pass(1000);
-  assert.deepEqual(browser.entries.map((e) => e.match(/p=([^,]*)/)?.[1]), [undefined, "-5.5", "-4"]);
+  assert.deepEqual(
+    browser.entries.map((e) => e.match(/p=([^,]*)/)?.[1]),
+    [undefined, '-5.5', '-4'],
+  );
 });
 
-test("never more than a hundred calls in half a minute, and the last state is written", () => {
+test('never more than a hundred calls in half a minute, and the last state is written', () => {
   for (let k = 0; k < 1200; k++) {
     move(-1 - k / 100);
     browser.pass(50);
   }
   browser.pass(2000);
-  for (const start of browser.calls) assert.ok(browser.calls.filter((t) => t >= start && t < start + 30_000).length <= 100);
+  for (const start of browser.calls)
+    assert.ok(browser.calls.filter((t) => t >= start && t < start + 30_000).length <= 100);
   assert.ok(browser.entries.at(-1).includes(`p=${pole()},`));
 });
 
-test("what is shown is rewritten without a new entry", () => {
-  store.set({ motion: "theta" });
+test('what is shown is rewritten without a new entry', () => {
+  store.set({ motion: 'theta' });
   address.render(store.state);
   browser.pass(1);
-  assert.deepEqual(browser.entries, ["#v1&preset=quanser-2dof-manual&motion=theta"]);
+  assert.deepEqual(browser.entries, ['#v1&preset=quanser-2dof-manual&motion=theta']);
 });
 
-test("a jump within the page keeps the design in the address, and an edit leaves the place", () => {
+test('a jump within the page keeps the design in the address, and an edit leaves the place', () => {
   move(-5);
   browser.pass(1);
-  browser.push("#eq-13");
+  browser.push('#eq-13');
   address.navigated();
   assert.match(browser.hash(), /p=-5,.*&at=eq-13$/);
   assert.equal(pole(), -5);
@@ -144,7 +148,7 @@ test("a jump within the page keeps the design in the address, and an edit leaves
   assert.equal(pole(), -5);
 });
 
-test("going back takes no pin away", () => {
+test('going back takes no pin away', () => {
   move(-5);
   browser.pass(1);
   store.pin();
@@ -157,32 +161,41 @@ test("going back takes no pin away", () => {
   assert.equal(store.state.pins.length, 1);
 });
 
-test("a link opens design, pins, locks and place; a bad part is told and stays to be read until the next change", () => {
-  assert.equal(opened("#v1&preset=quanser-aero&p=-5,-4,-3,-2&lock=poles&pin=1~x~preset=quanser-aero&at=compare"), "compare");
+test('a link opens design, pins, locks and place; a bad part is told and stays to be read until the next change', () => {
+  assert.equal(
+    opened('#v1&preset=quanser-aero&p=-5,-4,-3,-2&lock=poles&pin=1~x~preset=quanser-aero&at=compare'),
+    'compare',
+  );
   assert.equal(pole(), -5);
-  assert.equal(store.state.pins[0].name, "x");
+  assert.equal(store.state.pins[0].name, 'x');
   move(-9);
   assert.equal(pole(), -5); // locked
-  opened("#v1&p=1&motion=psi");
-  assert.equal(store.state.motion, "psi");
+  opened('#v1&p=1&motion=psi');
+  assert.equal(store.state.motion, 'psi');
   assert.match(store.state.notice, /p \(not four poles/);
-  assert.equal(browser.hash(), "#v1&p=1&motion=psi");
+  assert.equal(browser.hash(), '#v1&p=1&motion=psi');
   move(-9);
   browser.pass(1);
   assert.match(browser.hash(), /^#v1&preset=quanser-2dof-manual&p=-9/);
 });
 
-test("a browser that refuses a call does not stop the page", () => {
-  browser.push = () => { throw new Error("too many calls"); };
+test('a browser that refuses a call does not stop the page', () => {
+  browser.push = () => {
+    throw new Error('too many calls');
+  };
   move(-5);
   browser.pass(1);
   assert.equal(pole(), -5);
 });
 
-test("the budget gives twenty at once and one more every 0.4 s", () => {
+test('the budget gives twenty at once and one more every 0.4 s', () => {
   const budget = new Budget(0);
   let now = 0;
-  const taken = () => { let n = 0; while (budget.take(now)) n += 1; return n; };
+  const taken = () => {
+    let n = 0;
+    while (budget.take(now)) n += 1;
+    return n;
+  };
   assert.equal(taken(), 20);
   now = 399;
   assert.equal(taken(), 0);

@@ -10,10 +10,13 @@ import { NONE } from '../../static/model/requirements.js';
 test('a view that fails is told of once and tried again', () => {
   const told = [];
   let broken = true;
-  const render = isolated((n) => {
-    if (broken) throw new Error('no');
-    return n;
-  }, (error) => told.push(error.message));
+  const render = isolated(
+    (n) => {
+      if (broken) throw new Error('no');
+      return n;
+    },
+    (error) => told.push(error.message),
+  );
   assert.equal(render(1), undefined);
   assert.equal(render(2), undefined);
   broken = false;
@@ -27,8 +30,16 @@ const state = (part = {}) => ({ design: { poles }, requirements: NONE, problem: 
 test('a finding leads to the pole that it is about, to its field, or nowhere', () => {
   assert.equal(placeOf('right_half_plane', state()), '[data-testid="pole-1"]');
   assert.equal(placeOf('far_out', state()), '[data-testid="pole-0"]');
-  const reply = { axis_steps: { theta: { nonlinear: { metrics: { theta: { settling_time: 0.5 } } } }, psi: { nonlinear: { metrics: { psi: { settling_time: 0.9 } } } } } };
-  assert.equal(placeOf('requirement_missed', state({ reply, requirements: { settling: 0.6, overshoot: null } })), '[data-testid="pole-3"]'); // yaw's slower one, though pitch's are slower
+  const reply = {
+    axis_steps: {
+      theta: { nonlinear: { metrics: { theta: { settling_time: 0.5 } } } },
+      psi: { nonlinear: { metrics: { psi: { settling_time: 0.9 } } } },
+    },
+  };
+  assert.equal(
+    placeOf('requirement_missed', state({ reply, requirements: { settling: 0.6, overshoot: null } })),
+    '[data-testid="pole-3"]',
+  ); // yaw's slower one, though pitch's are slower
   assert.equal(placeOf('high_gain', state()), '[data-testid="pole-0"]');
   assert.equal(placeOf('not_settled', state()), '[data-testid="duration"]');
   assert.equal(placeOf('saturation_V_y', state()), '[data-testid="plot-V_y"] .plot-body');
@@ -39,7 +50,12 @@ test('a finding leads to the pole that it is about, to its field, or nowhere', (
 });
 
 test('what is said at the loops and plots is short, with its sentence behind', () => {
-  const findings = [['pi_unstable', 'error'], ['saturation_V_p', 'warning'], ['poorly_damped', 'warning'], ['travel_stop', 'warning']].map(([code, severity]) => ({ code, severity, message: `${code}.` }));
+  const findings = [
+    ['pi_unstable', 'error'],
+    ['saturation_V_p', 'warning'],
+    ['poorly_damped', 'warning'],
+    ['travel_stop', 'warning'],
+  ].map(([code, severity]) => ({ code, severity, message: `${code}.` }));
   const reply = { findings, step: { nonlinear: { metrics: { V_p: { saturated: 0.123 }, V_y: { saturated: 0 } } } } };
   const { loops, theta, V_p, V_y } = remarksOf({ reply, problem: null });
   assert.deepEqual(loops, { text: '✕ unstable', severity: 'error', message: 'pi_unstable.' });
@@ -61,7 +77,17 @@ test('the address asks for the projector before the memory does', () => {
 });
 
 test('a share at the limit shows a decimal below one percent alone, so that it never reads as none', () => {
-  const said = (share) => remarksOf({ reply: { findings: [{ code: 'saturation_V_p', severity: 'warning', message: '' }], step: { nonlinear: { metrics: { V_p: { saturated: share } } } } }, problem: null }).V_p.text;
-  assert.deepEqual([0.004, 0.0099, 0.01, 0.011, 1].map(said), ['0.4 %', '1.0 %', '1 %', '1 %', '100 %'].map((share) => `▲ at limit ${share}`));
+  const said = (share) =>
+    remarksOf({
+      reply: {
+        findings: [{ code: 'saturation_V_p', severity: 'warning', message: '' }],
+        step: { nonlinear: { metrics: { V_p: { saturated: share } } } },
+      },
+      problem: null,
+    }).V_p.text;
+  assert.deepEqual(
+    [0.004, 0.0099, 0.01, 0.011, 1].map(said),
+    ['0.4 %', '1.0 %', '1 %', '1 %', '100 %'].map((share) => `▲ at limit ${share}`),
+  );
   assert.equal(said(0), '▲ at limit'); // no share of the samples is known
 });

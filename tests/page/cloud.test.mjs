@@ -5,8 +5,15 @@ import { CloudFeed, cloudRequest, cloudWords } from '../../static/splane/cloud_f
 import { designOf, Store } from '../../static/model/store.js';
 
 const preset = {
-  name: 'rig', title: '', source: '', rig: 'helicopter', parameters: { K_pp: 1, g: 9.81 }, limits: { V_p: 24, V_y: 15 }, poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),
-  loops: { pitch: { kp: 1, ti: 1 }, yaw: { kp: 1, ti: 1 } }, scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 3 },
+  name: 'rig',
+  title: '',
+  source: '',
+  rig: 'helicopter',
+  parameters: { K_pp: 1, g: 9.81 },
+  limits: { V_p: 24, V_y: 15 },
+  poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),
+  loops: { pitch: { kp: 1, ti: 1 }, yaw: { kp: 1, ti: 1 } },
+  scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 3 },
 };
 
 function rigged() {
@@ -15,12 +22,36 @@ function rigged() {
   store.load(designOf(preset));
   const sockets = [];
   const feed = new CloudFeed(store, () => {
-    const socket = { readyState: 0, sent: [], closed: false, send(text) { this.sent.push(JSON.parse(text)); }, close() { this.closed = true; } };
+    const socket = {
+      readyState: 0,
+      sent: [],
+      closed: false,
+      send(text) {
+        this.sent.push(JSON.parse(text));
+      },
+      close() {
+        this.closed = true;
+      },
+    };
     sockets.push(socket);
     return socket;
   });
-  const answer = (socket, samples, done = samples) => socket.onmessage({ data: JSON.stringify({ done, samples, loop_poles: [], t: [], envelopes: { theta: [], psi: [] }, share_stable: 1, share_within_limits: 0.999 }) });
-  const open = (socket) => { socket.readyState = 1; socket.onopen(); };
+  const answer = (socket, samples, done = samples) =>
+    socket.onmessage({
+      data: JSON.stringify({
+        done,
+        samples,
+        loop_poles: [],
+        t: [],
+        envelopes: { theta: [], psi: [] },
+        share_stable: 1,
+        share_within_limits: 0.999,
+      }),
+    });
+  const open = (socket) => {
+    socket.readyState = 1;
+    socket.onopen();
+  };
   return { store, feed, sockets, answer, open };
 }
 
@@ -75,7 +106,10 @@ test('the request is for the motion that is played', () => {
 
 test('nearly all is not all', () => {
   assert.equal(cloudWords(null), '');
-  assert.equal(cloudWords({ done: 2000, share_stable: 0.9995, share_within_limits: 1 }), '2000 rigs: 99 % stable, 100 % within limits');
+  assert.equal(
+    cloudWords({ done: 2000, share_stable: 0.9995, share_within_limits: 1 }),
+    '2000 rigs: 99 % stable, 100 % within limits',
+  );
 });
 
 test('a hand that rests without letting go gets its many rigs when it does', () => {

@@ -2,7 +2,19 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { cloudRequest, cloudWords } from '../../static/splane/cloud_feed.js';
-import { cloudCaveat, cloudScenario, experimentWords, isStandard, scenarioBody, standard, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../../static/model/experiment.js';
+import {
+  cloudCaveat,
+  cloudScenario,
+  experimentWords,
+  isStandard,
+  scenarioBody,
+  standard,
+  withDigital,
+  withDisturbance,
+  withEncoder,
+  withOption,
+  withStart,
+} from '../../static/model/experiment.js';
 import { differs } from '../../static/text/format.js';
 import { findingsOf } from '../../static/panels/findings.js';
 import { linearPeak, motorText, notSettled } from '../../static/panels/metrics.js';
@@ -12,15 +24,25 @@ import { designOf, requestOf } from '../../static/model/store.js';
 const STEPS = { reference: { theta: 0.1, psi: 0.2 }, duration: 3 };
 const RIG = { theta: 2880, psi: 4096 };
 const preset = {
-  name: 'rig', title: '', source: '', rig: 'helicopter', parameters: { K_pp: 1 }, limits: { V_p: 24, V_y: 15 }, poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),
-  loops: { pitch: { kp: 1, ti: 1 }, yaw: { kp: 1, ti: 1 } }, scenario: STEPS,
+  name: 'rig',
+  title: '',
+  source: '',
+  rig: 'helicopter',
+  parameters: { K_pp: 1 },
+  limits: { V_p: 24, V_y: 15 },
+  poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),
+  loops: { pitch: { kp: 1, ti: 1 }, yaw: { kp: 1, ti: 1 } },
+  scenario: STEPS,
 };
 
 test('an option that is put back to its standard leaves nothing behind', () => {
   const changes = [
     [(s) => withOption(s, { saturation: false }), (s) => withOption(s, { saturation: true })],
     [(s) => withOption(s, { anti_windup: 'none' }), (s) => withOption(s, { anti_windup: 'clamping' })],
-    [(s) => withOption(s, { anti_windup: 'back-calculation', tracking_time: 0.05 }), (s) => withOption(s, { anti_windup: 'clamping' })],
+    [
+      (s) => withOption(s, { anti_windup: 'back-calculation', tracking_time: 0.05 }),
+      (s) => withOption(s, { anti_windup: 'clamping' }),
+    ],
     [(s) => withOption(s, { rtol: 1e-8 }), (s) => withOption(s, { rtol: 1e-5 })],
     [(s) => withDigital(s, {}), (s) => withDigital(s, null)],
     [(s) => withDisturbance(s, { V_y: 2 }), (s) => withDisturbance(s, null)],
@@ -54,14 +76,28 @@ test('one encoder that is not the rig’s sends both, so that the server fills i
 test('the request says what differs, and the page’s own tolerance', () => {
   const design = { ...designOf(preset), scenario: withDisturbance(withDigital(STEPS, { noise: 0.01 }), { time: 1 }) };
   const { scenario } = requestOf(design, 1);
-  assert.deepEqual(scenario, { ...STEPS, digital: { noise: 0.01 }, disturbance: { V_p: 1, V_y: 0, time: 1 }, rtol: 1e-5, samples: 501 });
+  assert.deepEqual(scenario, {
+    ...STEPS,
+    digital: { noise: 0.01 },
+    disturbance: { V_p: 1, V_y: 0, time: 1 },
+    rtol: 1e-5,
+    samples: 501,
+  });
   assert.equal(scenarioBody(withOption(STEPS, { rtol: 1e-8 })).rtol, 1e-8);
 });
 
 test('the cloud is asked for what it knows and says what it leaves out', () => {
-  const scenario = withDisturbance(withDigital(withOption(withStart(STEPS, 'psi', 0.1), { saturation: false, rtol: 1e-8 }), {}), {});
+  const scenario = withDisturbance(
+    withDigital(withOption(withStart(STEPS, 'psi', 0.1), { saturation: false, rtol: 1e-8 }), {}),
+    {},
+  );
   assert.deepEqual(cloudScenario(scenario), { ...STEPS, initial: { psi: 0.1 }, saturation: false });
-  assert.deepEqual(cloudRequest({ ...designOf(preset), scenario }, 0.1, 'psi', ['K_pp'], 5).scenario, { reference: { psi: 0.2 }, duration: 3, initial: { psi: 0.1 }, saturation: false });
+  assert.deepEqual(cloudRequest({ ...designOf(preset), scenario }, 0.1, 'psi', ['K_pp'], 5).scenario, {
+    reference: { psi: 0.2 },
+    duration: 3,
+    initial: { psi: 0.1 },
+    saturation: false,
+  });
   assert.equal(cloudCaveat(STEPS), '');
   assert.equal(cloudCaveat(scenario), 'not digital, not disturbed');
   const cloud = { done: 200, share_stable: 1, share_within_limits: 1 };
@@ -72,7 +108,16 @@ test('the cloud is asked for what it knows and says what it leaves out', () => {
 test('words name what differs, with units, and nothing else', () => {
   const cases = [
     [withDigital(STEPS, {}), 'digital rig, 2 ms'],
-    [withDigital(STEPS, { sample_time: 1, delay: true, rates: 'true', noise: Math.PI / 360, encoders: { theta: 0, psi: 0 } }), 'digital rig, 1 s, one sample late, true rates, exact angles, noise 0.5°'],
+    [
+      withDigital(STEPS, {
+        sample_time: 1,
+        delay: true,
+        rates: 'true',
+        noise: Math.PI / 360,
+        encoders: { theta: 0, psi: 0 },
+      }),
+      'digital rig, 1 s, one sample late, true rates, exact angles, noise 0.5°',
+    ],
     [withDisturbance(STEPS, { time: 2 }), 'disturbance 1 V (pitch) at 2 s'],
     [withDisturbance(STEPS, { V_p: 0, V_y: -2.5 }), 'disturbance −2.5 V (yaw) at 1.5 s'],
     [withOption(STEPS, { anti_windup: 'back-calculation', tracking_time: 0.05 }), 'back-calculation, 50 ms'],
@@ -85,7 +130,16 @@ test('words name what differs, with units, and nothing else', () => {
 });
 
 test('figures differ from five percent on, and what is missing from what is there', () => {
-  assert.deepEqual([differs(1, 1.04), differs(1, 1.06), differs(0.001, 0.002, 0.01), differs(undefined, 1), differs(undefined, undefined)], [false, true, false, true, false]);
+  assert.deepEqual(
+    [
+      differs(1, 1.04),
+      differs(1, 1.06),
+      differs(0.001, 0.002, 0.01),
+      differs(undefined, 1),
+      differs(undefined, undefined),
+    ],
+    [false, true, false, true, false],
+  );
 });
 
 test('the linear model’s peak has the trim, and a limit its share of time', () => {
@@ -97,13 +151,15 @@ test('the linear model’s peak has the trim, and a limit its share of time', ()
 
 test('what has not settled is said in words, and only that', () => {
   assert.equal(notSettled({ theta: { settled: false } }, 'theta'), 'not settled');
-  for (const m of [{ theta: { settled: true, settling_time: 1 } }, {}, undefined]) assert.equal(notSettled(m, 'theta'), undefined);
+  for (const m of [{ theta: { settled: true, settling_time: 1 } }, {}, undefined])
+    assert.equal(notSettled(m, 'theta'), undefined);
 });
 
 test('what explains others, or says what limits cost, comes first among warnings, errors before all', () => {
   const codes = ['saturation_V_p', 'unlike_linear', 'slow_sampling', 'loop_unstable'];
   const findings = codes.map((code, i) => ({ code, severity: i === 3 ? 'error' : 'warning', message: code }));
-  const order = (part) => findingsOf({ reply: part, problem: null, design: designOf(preset), requirements: NONE }).map((f) => f.code);
+  const order = (part) =>
+    findingsOf({ reply: part, problem: null, design: designOf(preset), requirements: NONE }).map((f) => f.code);
   assert.deepEqual(order({ findings }), ['loop_unstable', 'unlike_linear', 'slow_sampling', 'saturation_V_p']);
   assert.deepEqual(order({ findings: [] }), []);
 });

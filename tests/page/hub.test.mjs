@@ -14,12 +14,17 @@ class FakeSocket {
   }
 
   say(/** @type {any} */ message) {
-    this.onmessage({ data: typeof message === 'object' && !(message instanceof ArrayBuffer) ? JSON.stringify(message) : message });
+    this.onmessage({
+      data: typeof message === 'object' && !(message instanceof ArrayBuffer) ? JSON.stringify(message) : message,
+    });
   }
 
   /** What was sent of a kind. @param {string} type */
   texts(type) {
-    return this.sent.filter((d) => typeof d === 'string').map((d) => JSON.parse(d)).filter((m) => m.type === type);
+    return this.sent
+      .filter((d) => typeof d === 'string')
+      .map((d) => JSON.parse(d))
+      .filter((m) => m.type === type);
   }
 
   frames() {
@@ -35,7 +40,9 @@ function hub({ always = false } = {}) {
   const heard = [];
   const time = { now: 100 };
   const it = new Hub({
-    open: () => socket, always, now: () => time.now,
+    open: () => socket,
+    always,
+    now: () => time.now,
     onShown: (shown) => heard.push(['shown', shown]),
     onTransport: (snapshot, elapsed) => heard.push(['transport', snapshot, elapsed]),
     onEdits: (edits, count) => heard.push(['edits', edits, count]),
@@ -98,29 +105,51 @@ test('the shortest way to the server tells its clock best', () => {
 });
 
 const DESIGN = {
-  poles: [{ re: -12, im: 0 }, { re: -10, im: 0 }, { re: -3, im: 4 }, { re: -3, im: -4 }],
-  loops: { pitch: { kp: 30, ti: 0.1 }, yaw: { kp: 30, ti: 0.1 } }, theta0: 0,
+  poles: [
+    { re: -12, im: 0 },
+    { re: -10, im: 0 },
+    { re: -3, im: 4 },
+    { re: -3, im: -4 },
+  ],
+  loops: { pitch: { kp: 30, ti: 0.1 }, yaw: { kp: 30, ti: 0.1 } },
+  theta0: 0,
 };
 
 test('what is set at the panel changes the design, in conjugate pairs', () => {
   const a = edited(DESIGN, { 'pitch.first': -7, 'yaw.im': 2, 'yaw.kp': 12 });
-  assert.deepEqual(a.poles, [{ re: -7, im: 0 }, { re: -10, im: 0 }, { re: -3, im: 2 }, { re: -3, im: -2 }]);
+  assert.deepEqual(a.poles, [
+    { re: -7, im: 0 },
+    { re: -10, im: 0 },
+    { re: -3, im: 2 },
+    { re: -3, im: -2 },
+  ]);
   assert.deepEqual(a.loops, { pitch: { kp: 30, ti: 0.1 }, yaw: { kp: 12, ti: 0.1 } });
   assert.equal(a.theta0, 0);
   const b = edited(DESIGN, { 'pitch.complex': true, 'yaw.complex': false });
   assert.ok(b.poles[0].im > 0 && b.poles[1].im === -b.poles[0].im);
-  assert.deepEqual(b.poles.slice(2).map((p) => p.im), [0, 0]);
+  assert.deepEqual(
+    b.poles.slice(2).map((p) => p.im),
+    [0, 0],
+  );
 });
 
 test('what is set at the panel stays within bounds; what fits no slider changes nothing', () => {
-  assert.equal(edited(DESIGN, { 'pitch.re': -2, 'yaw.first': -2, 'pitch.kp': NaN, 'yaw.ti': 'long', unknown: 3 }), DESIGN);
+  assert.equal(
+    edited(DESIGN, { 'pitch.re': -2, 'yaw.first': -2, 'pitch.kp': NaN, 'yaw.ti': 'long', unknown: 3 }),
+    DESIGN,
+  );
   assert.equal(edited(DESIGN, { 'pitch.kp': -5 }).loops.pitch.kp, 0);
   assert.ok(edited(DESIGN, { 'yaw.im': 0 }).poles[2].im > 0, 'the pair stays complex under the hand');
 });
 
 test('the panel’s buttons steer the player', () => {
   const calls = [];
-  const player = Object.fromEntries(['play', 'pause', 'replay', 'setSpeed', 'setLoop'].map((name) => [name, (/** @type {any} */ v) => calls.push(v === undefined ? name : `${name} ${v}`)]));
+  const player = Object.fromEntries(
+    ['play', 'pause', 'replay', 'setSpeed', 'setLoop'].map((name) => [
+      name,
+      (/** @type {any} */ v) => calls.push(v === undefined ? name : `${name} ${v}`),
+    ]),
+  );
   steer(player, { play: 'Pause' });
   steer(player, { play: 'Replay', speed: 2, loop: true });
   steer(player, { play: 'Explode' });
@@ -128,8 +157,19 @@ test('the panel’s buttons steer the player', () => {
 });
 
 test('a motion shown to another window arrives as a trajectory, and nothing else does', () => {
-  const motion = { t: [0, 1], theta: [0, 0.5], psi: [0, 0.25], V_p: [1, 2], V_y: [3, 4], reference: { theta: 0.5, psi: 0.25 } };
-  const shown = shownOf(DESIGN, { gains: { K: [[1]] }, limits: { V_p: 24 } }, motion, { motion: 'both', rig: 'aero', after: 3 });
+  const motion = {
+    t: [0, 1],
+    theta: [0, 0.5],
+    psi: [0, 0.25],
+    V_p: [1, 2],
+    V_y: [3, 4],
+    reference: { theta: 0.5, psi: 0.25 },
+  };
+  const shown = shownOf(DESIGN, { gains: { K: [[1]] }, limits: { V_p: 24 } }, motion, {
+    motion: 'both',
+    rig: 'aero',
+    after: 3,
+  });
   assert.deepEqual([...trajectoryIn(shown).theta], [0, 0.5]);
   assert.deepEqual(trajectoryIn(shown).reference, motion.reference);
   assert.equal(trajectoryIn({ ...shown, trajectory: { ...shown.trajectory, psi: new Float32Array(3) } }), null);
@@ -141,7 +181,11 @@ test('a motion shown to another window arrives as a trajectory, and nothing else
 test('a player that lost time is put where the others are', () => {
   const time = { now: 10 };
   const followed = [];
-  const player = { time: 0, duration: 5, follow: (/** @type {any} */ snapshot, /** @type {number} */ elapsed) => followed.push([snapshot.time, elapsed]) };
+  const player = {
+    time: 0,
+    duration: 5,
+    follow: (/** @type {any} */ snapshot, /** @type {number} */ elapsed) => followed.push([snapshot.time, elapsed]),
+  };
   const step = new InStep(player, () => time.now);
   assert.equal(step.correct(), false); // nothing is known yet
   step.keep({ playing: true, time: 1, speed: 2, loop: false });

@@ -1,9 +1,9 @@
 // The live socket: one request in flight, the newest one waits, stale answers are dropped, a lost connection returns.
-import assert from "node:assert/strict";
-import { beforeEach, mock, test } from "node:test";
+import assert from 'node:assert/strict';
+import { beforeEach, mock, test } from 'node:test';
 
-import { Live } from "../../static/net/api.js";
-import { decodeFrame, encodeFrame } from "../../static/net/wire.js";
+import { Live } from '../../static/net/api.js';
+import { decodeFrame, encodeFrame } from '../../static/net/wire.js';
 
 class FakeSocket {
   readyState = 0;
@@ -30,22 +30,24 @@ const seqs = () => last().sent.map((r) => r.seq);
 
 beforeEach(() => {
   mock.timers.reset();
-  mock.timers.enable({ apis: ["setTimeout"] });
+  mock.timers.enable({ apis: ['setTimeout'] });
   [sockets, replies, problems, statuses] = [[], [], [], []];
   live = new Live({
-    onReply: (r) => replies.push(r.seq), onProblem: (p) => problems.push(p.code), onStatus: (s) => statuses.push(s),
+    onReply: (r) => replies.push(r.seq),
+    onProblem: (p) => problems.push(p.code),
+    onStatus: (s) => statuses.push(s),
     open: () => (sockets.push(new FakeSocket()), last()),
   });
 });
 
-test("what is asked before the socket is open is sent when it opens, the newest only", () => {
+test('what is asked before the socket is open is sent when it opens, the newest only', () => {
   live.send({ seq: 1 });
   live.send({ seq: 2 });
   last().open();
   assert.deepEqual(seqs(), [2]);
 });
 
-test("while one is in flight only the newest waits", () => {
+test('while one is in flight only the newest waits', () => {
   last().open();
   for (const seq of [1, 2, 3, 4]) live.send({ seq });
   assert.deepEqual(seqs(), [1]);
@@ -55,7 +57,7 @@ test("while one is in flight only the newest waits", () => {
   assert.deepEqual(replies, [1, 4]);
 });
 
-test("an answer that nobody waits for is dropped", () => {
+test('an answer that nobody waits for is dropped', () => {
   last().open();
   live.send({ seq: 5 });
   last().answer(3);
@@ -64,20 +66,20 @@ test("an answer that nobody waits for is dropped", () => {
   assert.deepEqual(replies, [5]);
 });
 
-test("a refusal is a problem, and the next request follows", () => {
+test('a refusal is a problem, and the next request follows', () => {
   last().open();
   live.send({ seq: 1 });
   live.send({ seq: 2 });
-  last().onmessage({ data: JSON.stringify({ seq: 1, status: 422, code: "uncontrollable" }) });
-  assert.deepEqual(problems, ["uncontrollable"]);
+  last().onmessage({ data: JSON.stringify({ seq: 1, status: 422, code: 'uncontrollable' }) });
+  assert.deepEqual(problems, ['uncontrollable']);
   assert.deepEqual(seqs(), [1, 2]);
 });
 
-test("after a lost connection the unanswered request is sent again, or the newer one", () => {
+test('after a lost connection the unanswered request is sent again, or the newer one', () => {
   last().open();
   live.send({ seq: 1 });
   last().close();
-  assert.deepEqual(statuses, ["open", "lost"]);
+  assert.deepEqual(statuses, ['open', 'lost']);
   mock.timers.tick(1000);
   assert.equal(sockets.length, 2);
   last().open();
@@ -89,7 +91,7 @@ test("after a lost connection the unanswered request is sent again, or the newer
   assert.deepEqual(seqs(), [2]);
 });
 
-test("attempts grow rarer, and never rarer than every ten seconds", () => {
+test('attempts grow rarer, and never rarer than every ten seconds', () => {
   const waits = [];
   for (let k = 0; k < 8; k++) {
     const count = sockets.length;
@@ -104,27 +106,27 @@ test("attempts grow rarer, and never rarer than every ten seconds", () => {
   assert.ok(waits[0] <= 350 && waits[7] > 4000 && Math.max(...waits) <= 10_050, String(waits));
 });
 
-test("a server that does not answer is taken for lost", () => {
+test('a server that does not answer is taken for lost', () => {
   last().open();
   live.send({ seq: 1 });
   mock.timers.tick(10_000);
-  assert.equal(statuses.at(-1), "lost");
+  assert.equal(statuses.at(-1), 'lost');
 });
 
-test("a closed client stays closed", () => {
+test('a closed client stays closed', () => {
   last().open();
   live.close();
   mock.timers.tick(60_000);
   assert.equal(sockets.length, 1);
 });
 
-test("a frame gives back what was put in, arrays as float32", () => {
-  const value = { seq: 3, step: { t: Float32Array.of(0, 0.5, 1), "ψ": Float32Array.of(-1, 2.25, 1e-3) }, stable: true };
+test('a frame gives back what was put in, arrays as float32', () => {
+  const value = { seq: 3, step: { t: Float32Array.of(0, 0.5, 1), ψ: Float32Array.of(-1, 2.25, 1e-3) }, stable: true };
   assert.deepEqual(decodeFrame(encodeFrame(value)), value);
 });
 
-test("arrays are read where they do not lie on a multiple of four", () => {
-  const header = new TextEncoder().encode('{"t":{"$f32":[1,2]}}x'.replace("x", " "));
+test('arrays are read where they do not lie on a multiple of four', () => {
+  const header = new TextEncoder().encode('{"t":{"$f32":[1,2]}}x'.replace('x', ' '));
   const bytes = new Uint8Array(4 + header.length + 12);
   const view = new DataView(bytes.buffer);
   view.setUint32(0, header.length, true);
@@ -133,6 +135,6 @@ test("arrays are read where they do not lie on a multiple of four", () => {
   assert.deepEqual([...decodeFrame(bytes.buffer).t], [0.25, -3]);
 });
 
-test("a frame that is cut short is refused", () => {
+test('a frame that is cut short is refused', () => {
   assert.throws(() => decodeFrame(encodeFrame({ t: Float32Array.of(1) }).slice(0, 8)), RangeError);
 });

@@ -1,14 +1,23 @@
 // The state in an address: what goes in comes out, links of old open, bad ones are told and lose only what is bad.
-import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { test } from "node:test";
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { test } from 'node:test';
 
-import { linkOf, MOST, placeIn, readLink, troubleWords } from "../../static/link/permalink.js";
-import { differences, escaped, leafOf, leafText, leaves, polesLink, polesOf, setLeaf } from "../../static/link/link_values.js";
-import { LOCKS } from "../../static/model/locks.js";
-import { NONE } from "../../static/model/requirements.js";
-import { designOf, initialState } from "../../static/model/store.js";
-import { KNOWN, PRESETS } from "./presets.mjs";
+import { linkOf, MOST, placeIn, readLink, troubleWords } from '../../static/link/permalink.js';
+import {
+  differences,
+  escaped,
+  leafOf,
+  leafText,
+  leaves,
+  polesLink,
+  polesOf,
+  setLeaf,
+} from '../../static/link/link_values.js';
+import { LOCKS } from '../../static/model/locks.js';
+import { NONE } from '../../static/model/requirements.js';
+import { designOf, initialState } from '../../static/model/store.js';
+import { KNOWN, PRESETS } from './presets.mjs';
 
 /** Numbers from 0 to 1, the same at every run (mulberry32). */
 function seeded(seed) {
@@ -25,15 +34,36 @@ function generator(seed) {
   const random = seeded(seed);
   const pick = (list) => list[Math.floor(random() * list.length)];
   const chance = (p) => random() < p;
-  const number = (low, high) => pick([() => low + (high - low) * random(), () => Number((low + (high - low) * random()).toFixed(2)), () => Math.round(low + (high - low) * random())])() + 0;
+  const number = (low, high) =>
+    pick([
+      () => low + (high - low) * random(),
+      () => Number((low + (high - low) * random()).toFixed(2)),
+      () => Math.round(low + (high - low) * random()),
+    ])() + 0;
   const positive = () => pick([number(0.01, 9), 10 ** number(-3, 3)]) || 1;
   const pair = () => {
-    if (chance(0.5)) return [{ re: number(-40, 2), im: 0 }, { re: -number(1, 1e5), im: 0 }];
+    if (chance(0.5))
+      return [
+        { re: number(-40, 2), im: 0 },
+        { re: -number(1, 1e5), im: 0 },
+      ];
     const [re, im] = [number(-20, 1), positive()];
-    return [{ re, im }, { re, im: -im }];
+    return [
+      { re, im },
+      { re, im: -im },
+    ];
   };
-  const words = () => pick(["slow", "A & B = 100 %?", "#~,;:/'()!*", "größer λ₁₁", "dot.", "10", "true", "", "2 + 2", "~p=1,2"]);
-  const any = (depth = 0) => pick([() => number(-9, 9), () => chance(0.5), () => null, words, () => [1, "a", null], () => (depth < 2 ? { inner: any(depth + 1), second: any(depth + 1) } : 3)])();
+  const words = () =>
+    pick(['slow', 'A & B = 100 %?', "#~,;:/'()!*", 'größer λ₁₁', 'dot.', '10', 'true', '', '2 + 2', '~p=1,2']);
+  const any = (depth = 0) =>
+    pick([
+      () => number(-9, 9),
+      () => chance(0.5),
+      () => null,
+      words,
+      () => [1, 'a', null],
+      () => (depth < 2 ? { inner: any(depth + 1), second: any(depth + 1) } : 3),
+    ])();
   const design = () => {
     const preset = pick(PRESETS);
     const d = designOf(preset);
@@ -41,24 +71,52 @@ function generator(seed) {
     if (chance(0.5)) d.loops = { pitch: { kp: positive(), ti: positive() }, yaw: { kp: positive(), ti: positive() } };
     if (chance(0.4)) d.parameters = { K_pp: number(-1, 1), ...(chance(0.5) ? { B_y: positive() } : {}) };
     if (chance(0.4)) d.theta0 = pick([number(-1.3, 1.3), Math.round(number(-70, 70)) / (180 / Math.PI)]) + 0;
-    if (chance(0.5)) Object.assign(d, { method: pick(["full-rank", "tits-yang", "lqr"]), coupling: pick(["triangular", "input-diagonal", "axis-decoupled"]), lead: pick(["pitch", "yaw"]) });
-    if (chance(0.5)) Object.assign(d, { outer: pick(["pi", "none"]), pairing: pick(["diagonal", "cross"]), decoupler: chance(0.5) });
-    if (chance(0.5)) d.scenario = { reference: { theta: number(-1, 1), psi: number(-1, 1) }, duration: positive() % 60 || 1 };
-    for (const name of ["disturbance", "digital", "anti_windup"]) if (chance(0.3)) d.scenario = { ...d.scenario, [name]: any() }; // unknown to the link's code
+    if (chance(0.5))
+      Object.assign(d, {
+        method: pick(['full-rank', 'tits-yang', 'lqr']),
+        coupling: pick(['triangular', 'input-diagonal', 'axis-decoupled']),
+        lead: pick(['pitch', 'yaw']),
+      });
+    if (chance(0.5))
+      Object.assign(d, { outer: pick(['pi', 'none']), pairing: pick(['diagonal', 'cross']), decoupler: chance(0.5) });
+    if (chance(0.5))
+      d.scenario = { reference: { theta: number(-1, 1), psi: number(-1, 1) }, duration: positive() % 60 || 1 };
+    for (const name of ['disturbance', 'digital', 'anti_windup'])
+      if (chance(0.3)) d.scenario = { ...d.scenario, [name]: any() }; // unknown to the link's code
     return d;
   };
   const state = () => ({
-    ...initialState(), presets: PRESETS, design: design(), motion: pick(["both", "theta", "psi"]), showLinear: chance(0.7), showMarks: chance(0.7), spread: pick([0, 0.05, 0.2]),
-    requirements: { settling: pick([null, 1.5]), overshoot: pick([null, 10]) }, locks: Object.keys(LOCKS).filter(() => chance(0.3)),
-    pins: Array.from({ length: chance(0.5) ? 0 : 3 }, (_, i) => ({ id: i, index: i * 2, name: words(), design: design(), reply: null })),
+    ...initialState(),
+    presets: PRESETS,
+    design: design(),
+    motion: pick(['both', 'theta', 'psi']),
+    showLinear: chance(0.7),
+    showMarks: chance(0.7),
+    spread: pick([0, 0.05, 0.2]),
+    requirements: { settling: pick([null, 1.5]), overshoot: pick([null, 10]) },
+    locks: Object.keys(LOCKS).filter(() => chance(0.3)),
+    pins: Array.from({ length: chance(0.5) ? 0 : 3 }, (_, i) => ({
+      id: i,
+      index: i * 2,
+      name: words(),
+      design: design(),
+      reply: null,
+    })),
   });
   return { state, pick, random };
 }
 
-const shownOf = ({ motion, showLinear, showMarks, spread, requirements, locks }) => ({ motion, showLinear, showMarks, spread, requirements, locks });
+const shownOf = ({ motion, showLinear, showMarks, spread, requirements, locks }) => ({
+  motion,
+  showLinear,
+  showMarks,
+  spread,
+  requirements,
+  locks,
+});
 const clean = (value) => JSON.parse(JSON.stringify(value));
 
-test("whatever the state, its link gives it back exactly", () => {
+test('whatever the state, its link gives it back exactly', () => {
   const { state } = generator(20260101);
   let pinned = 0;
   for (let k = 0; k < 800; k++) {
@@ -68,22 +126,31 @@ test("whatever the state, its link gives it back exactly", () => {
     assert.deepEqual(read.trouble, [], link);
     assert.deepEqual(clean(read.design), clean(s.design), link);
     assert.deepEqual(read.shown, shownOf(s), link);
-    const fits = link.includes("&pin=");
+    const fits = link.includes('&pin=');
     pinned += fits;
-    assert.deepEqual(read.pins.map(({ index, name, design }) => clean({ index, name, design })), fits ? s.pins.map(({ index, name, design }) => clean({ index, name, design })) : []);
+    assert.deepEqual(
+      read.pins.map(({ index, name, design }) => clean({ index, name, design })),
+      fits ? s.pins.map(({ index, name, design }) => clean({ index, name, design })) : [],
+    );
     assert.match(link, /^#[\w\-.~%&=,:/+]+$/);
     assert.doesNotMatch(link, /[.,:]$/);
   }
   assert.ok(pinned > 100);
 });
 
-test("links with pieces torn out or doubled never throw, and always give a whole design", () => {
+test('links with pieces torn out or doubled never throw, and always give a whole design', () => {
   const { state, pick, random } = generator(7);
   for (let k = 0; k < 500; k++) {
     const link = linkOf(state(), KNOWN);
     const [i, j] = [Math.floor(random() * link.length), Math.floor(random() * link.length)].sort((a, b) => a - b);
-    const torn = pick([link.slice(0, j), link.slice(0, i) + link.slice(j), `${link.slice(0, j)}%${link.slice(j)}`, link.slice(0, j) + link.slice(i), link.replaceAll("=", pick(["=x", "=-", "=[", "=1e999,"]))]);
-    const { design } = readLink(torn.startsWith("#v1&") ? torn : `#v1&${torn.slice(1)}`, KNOWN);
+    const torn = pick([
+      link.slice(0, j),
+      link.slice(0, i) + link.slice(j),
+      `${link.slice(0, j)}%${link.slice(j)}`,
+      link.slice(0, j) + link.slice(i),
+      link.replaceAll('=', pick(['=x', '=-', '=[', '=1e999,'])),
+    ]);
+    const { design } = readLink(torn.startsWith('#v1&') ? torn : `#v1&${torn.slice(1)}`, KNOWN);
     assert.equal(design.poles.length, 4);
     assert.ok(design.poles.every((p) => Number.isFinite(p.re) && Number.isFinite(p.im)));
     assert.ok(PRESETS.some((p) => p.name === design.preset));
@@ -91,56 +158,121 @@ test("links with pieces torn out or doubled never throw, and always give a whole
   }
 });
 
-test("links of version 1 open as they did", () => {
-  for (const { link, design, shown, place, pins } of JSON.parse(readFileSync(new URL("fixtures/links_v1.json", import.meta.url), "utf8"))) {
+test('links of version 1 open as they did', () => {
+  for (const { link, design, shown, place, pins } of JSON.parse(
+    readFileSync(new URL('fixtures/links_v1.json', import.meta.url), 'utf8'),
+  )) {
     const read = readLink(link, KNOWN);
     const preset = PRESETS.find((p) => p.name === (design.preset ?? PRESETS[0].name));
     assert.deepEqual(read.trouble, []);
     assert.deepEqual(read.design, designOf(preset, design));
     if (shown) assert.deepEqual(read.shown, { requirements: NONE, showMarks: true, ...shown });
     assert.equal(read.place, place);
-    if (pins) assert.deepEqual(read.pins.map((p) => ({ index: p.index, name: p.name, poles: p.design.poles.map((z) => z.re) })), pins);
+    if (pins)
+      assert.deepEqual(
+        read.pins.map((p) => ({ index: p.index, name: p.name, poles: p.design.poles.map((z) => z.re) })),
+        pins,
+      );
   }
 });
 
-test("a link of another version says why it does not open", () => {
-  const read = readLink("#v2&preset=quanser-aero", KNOWN);
+test('a link of another version says why it does not open', () => {
+  const read = readLink('#v2&preset=quanser-aero', KNOWN);
   assert.equal(read.design, undefined);
   assert.match(troubleWords(read.trouble), /cannot be opened: made by a newer heli2dof/);
-  assert.match(troubleWords(readLink("#v0", KNOWN).trouble), /no such version/);
+  assert.match(troubleWords(readLink('#v0', KNOWN).trouble), /no such version/);
 });
 
-test("only what differs from the proposal is written, in plain words and short", () => {
+test('only what differs from the proposal is written, in plain words and short', () => {
   const design = designOf(PRESETS[0]);
-  assert.equal(linkOf({ ...initialState(), design }, KNOWN), "#v1&preset=quanser-2dof-manual");
-  const typical = { ...design, poles: [{ re: -6.5, im: 4.25 }, { re: -6.5, im: -4.25 }, { re: -9.25, im: 0 }, { re: -8, im: 0 }], loops: { pitch: { kp: 15.6, ti: 0.2 }, yaw: { kp: 47.6, ti: 0.167 } },
-    method: "tits-yang", theta0: 10 / (180 / Math.PI), parameters: { m: 1.5, K_pp: 0.21 }, scenario: { reference: { theta: 5 / (180 / Math.PI), psi: 0.3490658503988659 }, duration: 8 } };
-  const link = linkOf({ ...initialState(), design: typical, motion: "theta", spread: 0.1 }, KNOWN);
-  assert.ok(link.startsWith("#v1&preset=quanser-2dof-manual&p=-6.5+4.25j,-6.5-4.25j,-9.25,-8&pi=15.6,0.2,47.6,0.167&"), link);
-  assert.equal(link.split("&").length, 12);
-  for (const part of ["set.m=1.5", "set.K_pp=0.21", "theta0=10deg", "method=tits-yang", "step.theta=5deg", "duration=8", "motion=theta", "spread=0.1"]) assert.ok(link.includes(`&${part}`), part);
+  assert.equal(linkOf({ ...initialState(), design }, KNOWN), '#v1&preset=quanser-2dof-manual');
+  const typical = {
+    ...design,
+    poles: [
+      { re: -6.5, im: 4.25 },
+      { re: -6.5, im: -4.25 },
+      { re: -9.25, im: 0 },
+      { re: -8, im: 0 },
+    ],
+    loops: { pitch: { kp: 15.6, ti: 0.2 }, yaw: { kp: 47.6, ti: 0.167 } },
+    method: 'tits-yang',
+    theta0: 10 / (180 / Math.PI),
+    parameters: { m: 1.5, K_pp: 0.21 },
+    scenario: { reference: { theta: 5 / (180 / Math.PI), psi: 0.3490658503988659 }, duration: 8 },
+  };
+  const link = linkOf({ ...initialState(), design: typical, motion: 'theta', spread: 0.1 }, KNOWN);
+  assert.ok(
+    link.startsWith('#v1&preset=quanser-2dof-manual&p=-6.5+4.25j,-6.5-4.25j,-9.25,-8&pi=15.6,0.2,47.6,0.167&'),
+    link,
+  );
+  assert.equal(link.split('&').length, 12);
+  for (const part of [
+    'set.m=1.5',
+    'set.K_pp=0.21',
+    'theta0=10deg',
+    'method=tits-yang',
+    'step.theta=5deg',
+    'duration=8',
+    'motion=theta',
+    'spread=0.1',
+  ])
+    assert.ok(link.includes(`&${part}`), part);
   assert.ok(link.length < 300);
 });
 
-test("what cannot be read is named, and the rest is restored", () => {
-  const bad = readLink("#v1&preset=nowhere&p=-1,-2,-3+1j,-4&pi=1,2,0,0&motion=psi&spread=9&lock=poles,moon&method=magic&outer=maybe&set.X=1&duration=-1&theta0=200deg&foo=1&scenario.digital=[1&step.psi=ten", KNOWN);
-  assert.deepEqual(bad.trouble.map((t) => t.part).sort(), ["duration", "foo", "lock", "method", "outer", "p", "pi", "preset", "scenario.digital", "set.X", "spread", "step.psi", "theta0"]);
+test('what cannot be read is named, and the rest is restored', () => {
+  const bad = readLink(
+    '#v1&preset=nowhere&p=-1,-2,-3+1j,-4&pi=1,2,0,0&motion=psi&spread=9&lock=poles,moon&method=magic&outer=maybe&set.X=1&duration=-1&theta0=200deg&foo=1&scenario.digital=[1&step.psi=ten',
+    KNOWN,
+  );
+  assert.deepEqual(bad.trouble.map((t) => t.part).sort(), [
+    'duration',
+    'foo',
+    'lock',
+    'method',
+    'outer',
+    'p',
+    'pi',
+    'preset',
+    'scenario.digital',
+    'set.X',
+    'spread',
+    'step.psi',
+    'theta0',
+  ]);
   assert.deepEqual(bad.design, designOf(PRESETS[0]));
-  assert.equal(bad.shown.motion, "psi");
-  assert.deepEqual(bad.shown.locks, ["poles"]);
-  assert.match(troubleWords(bad.trouble), /^Not taken from this link: .*preset \(no rig “nowhere” here\).*and 10 more\. The rest is restored\.$/);
+  assert.equal(bad.shown.motion, 'psi');
+  assert.deepEqual(bad.shown.locks, ['poles']);
+  assert.match(
+    troubleWords(bad.trouble),
+    /^Not taken from this link: .*preset \(no rig “nowhere” here\).*and 10 more\. The rest is restored\.$/,
+  );
   assert.equal(troubleWords([]), null);
 });
 
-test("requirements are part of a link, and only such as the page can ask", () => {
+test('requirements are part of a link, and only such as the page can ask', () => {
   const state = { ...initialState(), design: designOf(PRESETS[0]), requirements: { settling: 0.4, overshoot: null } };
   const link = linkOf(state, KNOWN);
-  assert.equal(link, "#v1&preset=quanser-2dof-manual&req.settling=0.4");
+  assert.equal(link, '#v1&preset=quanser-2dof-manual&req.settling=0.4');
   assert.deepEqual(readLink(link, KNOWN).shown.requirements, { settling: 0.4, overshoot: null });
-  const mixed = readLink("#v1&req.settling=-1&req.overshoot=5", KNOWN);
-  assert.deepEqual(mixed.trouble.map((t) => t.part), ["req.settling"]);
+  const mixed = readLink('#v1&req.settling=-1&req.overshoot=5', KNOWN);
+  assert.deepEqual(
+    mixed.trouble.map((t) => t.part),
+    ['req.settling'],
+  );
   assert.deepEqual(mixed.shown.requirements, { settling: null, overshoot: 5 });
-  for (const part of ["settling=", "settling=0", "settling=soon", "settling=1e4", "settling=true", "settling=[1", "overshoot=101", "overshoot=1e999", "rise=1", "__proto__.x=1"]) {
+  for (const part of [
+    'settling=',
+    'settling=0',
+    'settling=soon',
+    'settling=1e4',
+    'settling=true',
+    'settling=[1',
+    'overshoot=101',
+    'overshoot=1e999',
+    'rise=1',
+    '__proto__.x=1',
+  ]) {
     const { trouble, shown } = readLink(`#v1&req.${part}`, KNOWN);
     assert.equal(trouble.length, 1, part);
     assert.deepEqual(shown.requirements, NONE, part);
@@ -148,46 +280,82 @@ test("requirements are part of a link, and only such as the page can ask", () =>
   assert.deepEqual(NONE, { settling: null, overshoot: null }); // it was not written into
 });
 
-test("what mail programs do to a link does not matter", () => {
-  const wanted = readLink("#v1&preset=quanser-aero&p=-5,-4,-3+2j,-3-2j", KNOWN).design;
-  for (const link of ["#v1&amp;preset=quanser-aero&amp;p=-5,-4,-3+2j,-3-2j", "#v1&preset=quanser-aero&p=-5%2C-4%2C-3%2B2j%2C-3-2j", "#v1&preset=quanser-aero&p=-5,-4,-3 2j,-3-2j", "#v1%26preset%3Dquanser-aero%26p%3D-5,-4,-3%2B2j,-3-2j"]) {
+test('what mail programs do to a link does not matter', () => {
+  const wanted = readLink('#v1&preset=quanser-aero&p=-5,-4,-3+2j,-3-2j', KNOWN).design;
+  for (const link of [
+    '#v1&amp;preset=quanser-aero&amp;p=-5,-4,-3+2j,-3-2j',
+    '#v1&preset=quanser-aero&p=-5%2C-4%2C-3%2B2j%2C-3-2j',
+    '#v1&preset=quanser-aero&p=-5,-4,-3 2j,-3-2j',
+    '#v1%26preset%3Dquanser-aero%26p%3D-5,-4,-3%2B2j,-3-2j',
+  ]) {
     const read = readLink(link, KNOWN);
     assert.deepEqual([read.trouble, read.design], [[], wanted], link);
   }
 });
 
-test("a link cannot reach what every object inherits", () => {
-  for (const path of ["__proto__.x", "scenario.__proto__.polluted", "scenario.constructor.prototype.polluted", "scenario.toString.polluted"]) readLink(`#v1&${path}=1`, KNOWN);
+test('a link cannot reach what every object inherits', () => {
+  for (const path of [
+    '__proto__.x',
+    'scenario.__proto__.polluted',
+    'scenario.constructor.prototype.polluted',
+    'scenario.toString.polluted',
+  ])
+    readLink(`#v1&${path}=1`, KNOWN);
   assert.equal({}.polluted, undefined);
   assert.equal(Object.prototype.toString.polluted, undefined);
-  assert.equal(setLeaf({}, "a.__proto__.b", 1), false);
+  assert.equal(setLeaf({}, 'a.__proto__.b', 1), false);
 });
 
-test("a place on the page is no design, and a design can name one", () => {
-  assert.deepEqual(readLink("#eq-13", KNOWN), { place: "eq-13", trouble: [] });
-  assert.equal(placeIn("#v1&preset=x&at=eq-13"), "eq-13");
-  assert.equal(placeIn("#v1&preset=x"), undefined);
-  assert.equal(placeIn(""), undefined);
+test('a place on the page is no design, and a design can name one', () => {
+  assert.deepEqual(readLink('#eq-13', KNOWN), { place: 'eq-13', trouble: [] });
+  assert.equal(placeIn('#v1&preset=x&at=eq-13'), 'eq-13');
+  assert.equal(placeIn('#v1&preset=x'), undefined);
+  assert.equal(placeIn(''), undefined);
 });
 
-test("pins that make the link too long are left out, the design stays", () => {
+test('pins that make the link too long are left out, the design stays', () => {
   const design = designOf(PRESETS[0]);
-  const pins = Array.from({ length: 60 }, (_, i) => ({ id: i, index: i, name: "a name of some length", design, reply: null }));
+  const pins = Array.from({ length: 60 }, (_, i) => ({
+    id: i,
+    index: i,
+    name: 'a name of some length',
+    design,
+    reply: null,
+  }));
   const link = linkOf({ ...initialState(), design, pins }, KNOWN);
-  assert.equal(link, "#v1&preset=quanser-2dof-manual");
+  assert.equal(link, '#v1&preset=quanser-2dof-manual');
   assert.equal(readLink(linkOf({ ...initialState(), design, pins }, KNOWN, null, Infinity), KNOWN).pins.length, 60);
   assert.ok(linkOf({ ...initialState(), design, pins: pins.slice(0, 10) }, KNOWN).length <= MOST);
 });
 
-test("values: exact numbers, degrees where exact, poles only as pairs", () => {
-  for (const v of [0, -1e-9, 0.1 + 0.2, 1e21, "10", "ten", "true", true, null, [1, { a: "," }], "5deg"]) assert.deepEqual(leafOf(leafText("x", v)), v);
-  assert.equal(leafText("theta0", 10 / (180 / Math.PI)), "10deg");
-  assert.equal(leafOf(leafText("theta0", 0.1)), 0.1);
-  assert.equal(leafText("kp", 10 / (180 / Math.PI)), "0.17453292519943295");
-  const poles = [{ re: -1e-7, im: 2e-8 }, { re: -1e-7, im: -2e-8 }, { re: -0.5, im: 0 }, { re: 3, im: 0 }];
+test('values: exact numbers, degrees where exact, poles only as pairs', () => {
+  for (const v of [0, -1e-9, 0.1 + 0.2, 1e21, '10', 'ten', 'true', true, null, [1, { a: ',' }], '5deg'])
+    assert.deepEqual(leafOf(leafText('x', v)), v);
+  assert.equal(leafText('theta0', 10 / (180 / Math.PI)), '10deg');
+  assert.equal(leafOf(leafText('theta0', 0.1)), 0.1);
+  assert.equal(leafText('kp', 10 / (180 / Math.PI)), '0.17453292519943295');
+  const poles = [
+    { re: -1e-7, im: 2e-8 },
+    { re: -1e-7, im: -2e-8 },
+    { re: -0.5, im: 0 },
+    { re: 3, im: 0 },
+  ];
   assert.deepEqual(polesOf(polesLink(poles)), poles);
-  for (const text of ["-1,-2,-3", "-1,-2,-3,-4,-5", "-1,-2+1j,-2-1j,-3", "-1,-2,x,-3", "-1,,-2,-3", "-1,-2,-3,-2e5", ""]) assert.equal(polesOf(text), undefined, text);
-  assert.deepEqual(leaves({ a: { b: 1, c: [1] }, d: undefined, e: null }), [["a.b", 1], ["a.c", [1]], ["e", null]]);
-  assert.deepEqual(differences({ a: 1 }, { a: 1, b: { c: 2 } }), [["b.c", ""]]);
-  assert.equal(escaped("a&b=c~d."), "a%26b%3Dc%7Ed%2E");
+  for (const text of [
+    '-1,-2,-3',
+    '-1,-2,-3,-4,-5',
+    '-1,-2+1j,-2-1j,-3',
+    '-1,-2,x,-3',
+    '-1,,-2,-3',
+    '-1,-2,-3,-2e5',
+    '',
+  ])
+    assert.equal(polesOf(text), undefined, text);
+  assert.deepEqual(leaves({ a: { b: 1, c: [1] }, d: undefined, e: null }), [
+    ['a.b', 1],
+    ['a.c', [1]],
+    ['e', null],
+  ]);
+  assert.deepEqual(differences({ a: 1 }, { a: 1, b: { c: 2 } }), [['b.c', '']]);
+  assert.equal(escaped('a&b=c~d.'), 'a%26b%3Dc%7Ed%2E');
 });

@@ -16,27 +16,46 @@ function farthest(xs, ys, kept) {
   let worst = 0;
   for (let k = 1; k < kept.length; k++) {
     const [a, b] = [kept[k - 1], kept[k]];
-    for (let i = a; i <= b; i++) worst = Math.max(worst, Math.abs(ys[i] - (ys[a] + ((ys[b] - ys[a]) * (xs[i] - xs[a])) / (xs[b] - xs[a]))));
+    for (let i = a; i <= b; i++)
+      worst = Math.max(worst, Math.abs(ys[i] - (ys[a] + ((ys[b] - ys[a]) * (xs[i] - xs[a])) / (xs[b] - xs[a]))));
   }
   return worst;
 }
 
 const xs = Array.from({ length: 501 }, (_, i) => i * 0.8);
 /** A second-order step response in pixels. */
-const response = (zeta, omega) => xs.map((_, i) => {
-  const t = i / 100;
-  const damped = omega * Math.sqrt(1 - zeta * zeta);
-  return 120 * (1 - Math.exp(-zeta * omega * t) * (Math.cos(damped * t) + (zeta / Math.sqrt(1 - zeta * zeta)) * Math.sin(damped * t)));
-});
+const response = (zeta, omega) =>
+  xs.map((_, i) => {
+    const t = i / 100;
+    const damped = omega * Math.sqrt(1 - zeta * zeta);
+    return (
+      120 *
+      (1 -
+        Math.exp(-zeta * omega * t) *
+          (Math.cos(damped * t) + (zeta / Math.sqrt(1 - zeta * zeta)) * Math.sin(damped * t)))
+    );
+  });
 
 test('a straight line has two corners', () => {
-  assert.deepEqual(cornersOf(xs, xs.map((x) => 3 - 0.5 * x)), [0, 500]);
+  assert.deepEqual(
+    cornersOf(
+      xs,
+      xs.map((x) => 3 - 0.5 * x),
+    ),
+    [0, 500],
+  );
   assert.deepEqual(cornersOf([1, 2], [5, 9]), [0, 1]);
   assert.deepEqual(cornersOf([1], [5]), [0]);
 });
 
 test('no point lies off the line by more than the tolerance, and few corners are left', () => {
-  for (const [zeta, omega] of [[0.1, 3], [0.4, 8], [0.7, 12], [0.99, 40], [0.02, 30]]) {
+  for (const [zeta, omega] of [
+    [0.1, 3],
+    [0.4, 8],
+    [0.7, 12],
+    [0.99, 40],
+    [0.02, 30],
+  ]) {
     const ys = response(zeta, omega);
     const kept = cornersOf(xs, ys);
     assert.ok(farthest(xs, ys, kept) <= TOLERANCE + 1e-9, `${zeta} ${omega}`);
@@ -52,19 +71,36 @@ test('jumps, spikes and plateaus keep their corners', () => {
 
 test('noise keeps what is above the tolerance', () => {
   let seed = 1;
-  const noise = () => ((seed = (seed * 16807) % 2147483647) / 2147483647 - 0.5);
+  const noise = () => (seed = (seed * 16807) % 2147483647) / 2147483647 - 0.5;
   const ys = xs.map(() => 3 * noise());
   const kept = cornersOf(xs, ys);
   assert.ok(farthest(xs, ys, kept) <= TOLERANCE + 1e-9);
 });
 
 test('a path runs through the data as the axes place them, as far as a fifth of a pixel', () => {
-  globalThis.Path2D = class { points = []; lineTo(x, y) { this.points.push([x, y]); } };
-  const data = [xs.map((x) => x / 80), xs.map((_, i) => Math.sin(i / 40)), xs.map(() => null), xs.map((_, i) => Math.exp(-i / 60))];
-  const u = { data, bbox: { left: 30, top: 12, width: 700, height: 240 }, scales: { x: { min: 1, max: 4 }, y: { min: -2, max: 3 } } };
+  globalThis.Path2D = class {
+    points = [];
+    lineTo(x, y) {
+      this.points.push([x, y]);
+    }
+  };
+  const data = [
+    xs.map((x) => x / 80),
+    xs.map((_, i) => Math.sin(i / 40)),
+    xs.map(() => null),
+    xs.map((_, i) => Math.exp(-i / 60)),
+  ];
+  const u = {
+    data,
+    bbox: { left: 30, top: 12, width: 700, height: 240 },
+    scales: { x: { min: 1, max: 4 }, y: { min: -2, max: 3 } },
+  };
   for (const k of [1, 3]) {
     const { points } = plainPath(u, k, 100, 400).stroke;
-    const [ends, values] = [[points[0], points[points.length - 1]], [100, 400]];
+    const [ends, values] = [
+      [points[0], points[points.length - 1]],
+      [100, 400],
+    ];
     values.forEach((i, end) => {
       assert.ok(Math.abs((ends[end][0] - 30) / 700 - (data[0][i] - 1) / 3) < 1e-12, 'its share of the width');
       assert.ok(Math.abs((252 - ends[end][1]) / 240 - (data[k][i] + 2) / 5) < 1e-12, 'its share of the height');

@@ -1,8 +1,8 @@
 // Pairs of poles stay closed under conjugation, whatever is done to them.
-import assert from "node:assert/strict";
-import { test } from "node:test";
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
 
-import { character, drag, isComplex, nudge, setComplex, setMode, setReal } from "../../static/model/poles.js";
+import { character, drag, isComplex, nudge, setComplex, setMode, setReal } from '../../static/model/poles.js';
 
 const real = (...values) => values.map((re) => ({ re, im: 0 }));
 const START = real(-12, -10, -9.25, -8.76);
@@ -16,57 +16,69 @@ function assertClosed(poles) {
   }
 }
 
-test("a real pole slides along the axis and leaves the others alone", () => {
+test('a real pole slides along the axis and leaves the others alone', () => {
   const { poles, together } = drag(START, 0, { re: -5, im: 3 }, how);
   assert.deepEqual(poles, real(-5, -10, -9.25, -8.76));
   assert.equal(together, false);
 });
 
-test("a real pole that has met its partner leaves the axis together with it", () => {
+test('a real pole that has met its partner leaves the axis together with it', () => {
   const met = drag(START, 0, { re: -10.2, im: 0.1 }, how);
   assert.equal(isComplex(met.poles, 0), false);
   const { poles, together } = drag(met.poles, 0, { re: -10.1, im: 2 }, how);
-  assert.deepEqual(poles.slice(0, 2), [{ re: -10.1, im: 2 }, { re: -10.1, im: -2 }]);
+  assert.deepEqual(poles.slice(0, 2), [
+    { re: -10.1, im: 2 },
+    { re: -10.1, im: -2 },
+  ]);
   assert.equal(together, true);
   assert.deepEqual(poles.slice(2), START.slice(2));
 });
 
-test("a pole never pairs with one of the other axis", () => {
+test('a pole never pairs with one of the other axis', () => {
   const { poles } = drag(START, 1, { re: -9.25, im: 4 }, how);
   assert.equal(isComplex(poles, 0), false);
 });
 
-test("either pole of a complex pair leads, and its conjugate follows", () => {
+test('either pole of a complex pair leads, and its conjugate follows', () => {
   const complex = setComplex(START, 0, { re: -3, im: 4 });
   const { poles } = drag(complex, 1, { re: -2, im: -5 }, how);
-  assert.deepEqual(poles.slice(0, 2), [{ re: -2, im: 5 }, { re: -2, im: -5 }]);
+  assert.deepEqual(poles.slice(0, 2), [
+    { re: -2, im: 5 },
+    { re: -2, im: -5 },
+  ]);
   assertClosed(poles);
 });
 
-test("near the axis a complex pair turns real, and complex again within the same gesture", () => {
+test('near the axis a complex pair turns real, and complex again within the same gesture', () => {
   const complex = setComplex(START, 2, { re: -3, im: 4 });
   const down = drag(complex, 2, { re: -3, im: 0.2 }, how);
   assert.deepEqual(down.poles.slice(2), real(-3, -3));
   const up = drag(down.poles, 2, { re: -6, im: 1 }, { ...how, together: down.together });
-  assert.deepEqual(up.poles.slice(2), [{ re: -6, im: 1 }, { re: -6, im: -1 }]);
+  assert.deepEqual(up.poles.slice(2), [
+    { re: -6, im: 1 },
+    { re: -6, im: -1 },
+  ]);
 });
 
-test("a new gesture takes a double real pole apart", () => {
+test('a new gesture takes a double real pole apart', () => {
   const double = setReal(setReal(START, 0, -5), 1, -5);
   const { poles } = drag(double, 0, { re: -7, im: 0 }, how);
   assert.deepEqual(poles.slice(0, 2), real(-7, -5));
 });
 
-test("keys move a pole, and take a met pair off the axis and back", () => {
+test('keys move a pole, and take a met pair off the axis and back', () => {
   assert.deepEqual(nudge(START, 1, { re: 0.5, im: 0 })[1], { re: -9.5, im: 0 });
   assert.deepEqual(nudge(START, 1, { re: 0, im: 0.5 }), START);
   const double = setReal(setReal(START, 0, -5), 1, -5);
   const complex = nudge(double, 0, { re: 0, im: 0.5 });
-  assert.deepEqual(complex.slice(0, 2), [{ re: -5, im: 0.5 }, { re: -5, im: -0.5 }]);
+  assert.deepEqual(complex.slice(0, 2), [
+    { re: -5, im: 0.5 },
+    { re: -5, im: -0.5 },
+  ]);
   assert.deepEqual(nudge(complex, 0, { re: 0, im: -0.5 }).slice(0, 2), real(-5, -5));
 });
 
-test("a key never steps over the partner: there the pair meets, and the next press goes on", () => {
+test('a key never steps over the partner: there the pair meets, and the next press goes on', () => {
   const near = setReal(setReal(START, 2, -9.25), 3, -8.76);
   const met = nudge(near, 2, { re: 0.5, im: 0 });
   assert.deepEqual(met.slice(2), real(-8.76, -8.76));
@@ -76,9 +88,12 @@ test("a key never steps over the partner: there the pair meets, and the next pre
   assert.deepEqual(nudge(near, 2, { re: 0.1, im: 0 })[2], { re: -9.15, im: 0 });
 });
 
-test("changing the kind of a pair keeps it stable, and twice gives it back", () => {
+test('changing the kind of a pair keeps it stable, and twice gives it back', () => {
   const complex = setMode(START, 0, true);
-  assert.deepEqual(complex.slice(0, 2), [{ re: -11, im: 2.75 }, { re: -11, im: -2.75 }]);
+  assert.deepEqual(complex.slice(0, 2), [
+    { re: -11, im: 2.75 },
+    { re: -11, im: -2.75 },
+  ]);
   for (const im of [0.1, 4, 40]) {
     const back = setMode(setComplex(START, 0, { re: -3, im }), 0, false);
     assert.ok(back[0].re < 0 && back[1].re < 0, JSON.stringify(back));
@@ -87,7 +102,7 @@ test("changing the kind of a pair keeps it stable, and twice gives it back", () 
   assert.deepEqual(setMode(START, 1, false), START);
 });
 
-test("any sequence of drags leaves both pairs closed", () => {
+test('any sequence of drags leaves both pairs closed', () => {
   let seed = 1;
   const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
   let state = { poles: START, together: false };
@@ -100,7 +115,7 @@ test("any sequence of drags leaves both pairs closed", () => {
   }
 });
 
-test("what is out of reach is clamped, what is no number becomes 0", () => {
+test('what is out of reach is clamped, what is no number becomes 0', () => {
   assert.equal(setReal(START, 0, -1e9)[0].re, -1e5);
   assert.equal(setReal(START, 0, NaN)[0].re, 0);
 });

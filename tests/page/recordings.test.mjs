@@ -2,21 +2,67 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { RecordingFeed } from '../../static/recordings/feed.js';
-import { adopted, columnsBody, curves, estimateRows, fitText, freeAtFirst, guessed, isMapped, nothing, missingWords, overlayWords, previewWords, rangeOfCurves } from '../../static/recordings/recordings.js';
+import {
+  adopted,
+  columnsBody,
+  curves,
+  estimateRows,
+  fitText,
+  freeAtFirst,
+  guessed,
+  isMapped,
+  nothing,
+  missingWords,
+  overlayWords,
+  previewWords,
+  rangeOfCurves,
+} from '../../static/recordings/recordings.js';
 import { designOf, Store } from '../../static/model/store.js';
 
 const preset = {
-  name: 'rig', title: '', source: '', rig: 'helicopter', parameters: { K_pp: 1, K_s: 0 }, limits: { V_p: 24, V_y: 15 }, poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),
-  loops: { pitch: { kp: 1, ti: 1 }, yaw: { kp: 1, ti: 1 } }, scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 3 },
+  name: 'rig',
+  title: '',
+  source: '',
+  rig: 'helicopter',
+  parameters: { K_pp: 1, K_s: 0 },
+  limits: { V_p: 24, V_y: 15 },
+  poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),
+  loops: { pitch: { kp: 1, ti: 1 }, yaw: { kp: 1, ti: 1 } },
+  scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 3 },
 };
 const names = { time: 't', theta: 'a', psi: 'b', V_p: 'c', V_y: 'd' };
-const preview = { id: 'x', name: 'run.csv', columns: Object.values(names), rows: 9, first_row: 2, preview: [], units: {}, dialect: { separator: 'comma', decimal: 'point' }, findings: [], guess: { columns: names, unit: 'deg', units: { psi: 'rad' }, time_unit: 'ms', voltage_unit: 'V', sample_time: 0.002 } };
-const found = { done: true, evaluations: 3, seconds: 1, findings: [], estimates: [{ name: 'K_pp', unit: 'N·m/V', before: 1, value: 1.25, low: 1.2, high: 1.3, plain: 0.02, adopted: 1.25 }] };
+const preview = {
+  id: 'x',
+  name: 'run.csv',
+  columns: Object.values(names),
+  rows: 9,
+  first_row: 2,
+  preview: [],
+  units: {},
+  dialect: { separator: 'comma', decimal: 'point' },
+  findings: [],
+  guess: { columns: names, unit: 'deg', units: { psi: 'rad' }, time_unit: 'ms', voltage_unit: 'V', sample_time: 0.002 },
+};
+const found = {
+  done: true,
+  evaluations: 3,
+  seconds: 1,
+  findings: [],
+  estimates: [{ name: 'K_pp', unit: 'N·m/V', before: 1, value: 1.25, low: 1.2, high: 1.3, plain: 0.02, adopted: 1.25 }],
+};
 
 test('columns are asked for as the server takes them', () => {
   const columns = guessed(preview);
   assert.ok(isMapped(columns));
-  const told = { ...names, unit: 'deg', units: { psi: 'rad' }, voltage_unit: 'V', signs: { theta: 1, psi: 1 }, offsets: { theta: 0, psi: 0 }, decimate: 1 };
+  const told = {
+    ...names,
+    unit: 'deg',
+    units: { psi: 'rad' },
+    voltage_unit: 'V',
+    signs: { theta: 1, psi: 1 },
+    offsets: { theta: 0, psi: 0 },
+    decimate: 1,
+  };
   assert.deepEqual(columnsBody(columns), { ...told, time_unit: 'ms' });
   const timeless = { ...columns, names: { ...names, time: '' } };
   assert.ok(!isMapped(timeless), 'without a time nothing is simulated');
@@ -32,7 +78,10 @@ test('columns are asked for as the server takes them', () => {
 test('curves are in degrees, gaps stay gaps, and what runs away is cut off', () => {
   const overlay = { t: [0, 1], measured: { theta: [0, Math.PI / 18] }, simulated: { theta: [null, 100] } };
   const data = curves(overlay, 'theta');
-  assert.deepEqual(data.map((c) => c.length), [2, 2, 2, 2]);
+  assert.deepEqual(
+    data.map((c) => c.length),
+    [2, 2, 2, 2],
+  );
   assert.ok(Math.abs(data[1][1] - 10) < 1e-12);
   assert.deepEqual([data[2][0], data[3]], [null, [null, null]]);
   const [low, high] = rangeOfCurves(data);
@@ -43,9 +92,19 @@ test('words', () => {
   assert.equal(fitText(98.76), 'fit 98.8 %');
   assert.equal(fitText(-500), 'fit below −100 %');
   assert.match(fitText(null), /never moves/);
-  assert.match(overlayWords({ samples: 100, duration: 2, sample_time: 0.02, segments: 3 }), /100 samples in 2\.0 s, 20\.0 ms apart, 3 segments/);
+  assert.match(
+    overlayWords({ samples: 100, duration: 2, sample_time: 0.02, segments: 3 }),
+    /100 samples in 2\.0 s, 20\.0 ms apart, 3 segments/,
+  );
   assert.equal(previewWords(preview), 'run.csv: 9 rows, 5 columns, 2.00 ms apart');
-  assert.deepEqual(estimateRows(found)[0], { name: 'K_pp', unit: 'N·m/V', before: '1', value: '1.250', width: '± 0.050', interval: '1.200 … 1.300' });
+  assert.deepEqual(estimateRows(found)[0], {
+    name: 'K_pp',
+    unit: 'N·m/V',
+    before: '1',
+    value: '1.250',
+    width: '± 0.050',
+    interval: '1.200 … 1.300',
+  });
   assert.ok(!freeAtFirst(preset.parameters).includes('K_s'));
   assert.ok(freeAtFirst({ K_s: 1 }).includes('K_s'));
   assert.deepEqual(adopted(designOf(preset), found).parameters, { K_pp: 1.25 });
@@ -58,7 +117,16 @@ function rigged() {
   store.set({ recorded: { ...nothing(), preview, columns: guessed(preview) } });
   const sockets = [];
   const feed = new RecordingFeed(store, () => {
-    const socket = { sent: [], closed: false, send(text) { this.sent.push(JSON.parse(text)); }, close() { this.closed = true; } };
+    const socket = {
+      sent: [],
+      closed: false,
+      send(text) {
+        this.sent.push(JSON.parse(text));
+      },
+      close() {
+        this.closed = true;
+      },
+    };
     sockets.push(socket);
     return socket;
   });
@@ -98,13 +166,27 @@ test('several files become one recording, and text is read again as the user say
   const before = globalThis.fetch;
   globalThis.document ??= { baseURI: 'http://127.0.0.1/' };
   globalThis.fetch = async (address, options) => {
-    asked.push([String(address).replace(/^.*api\/v1\/|&?session=[^&]*|\?session=[^&]*$/g, ''), options.method, typeof options.body === 'string' ? JSON.parse(options.body) : null]);
-    if (String(address).includes('semicolon')) return new Response(JSON.stringify({ detail: 'No.', field: 'file' }), { status: 422 });
-    return new Response(JSON.stringify({ ...preview, id: `id${asked.length}`, guess: { ...preview.guess, columns: {} } }), { headers: { 'Content-Type': 'application/json' } });
+    asked.push([
+      String(address).replace(/^.*api\/v1\/|&?session=[^&]*|\?session=[^&]*$/g, ''),
+      options.method,
+      typeof options.body === 'string' ? JSON.parse(options.body) : null,
+    ]);
+    if (String(address).includes('semicolon'))
+      return new Response(JSON.stringify({ detail: 'No.', field: 'file' }), { status: 422 });
+    return new Response(
+      JSON.stringify({ ...preview, id: `id${asked.length}`, guess: { ...preview.guess, columns: {} } }),
+      { headers: { 'Content-Type': 'application/json' } },
+    );
   };
   try {
-    await feed.send([{ file: new Blob(['1']), name: 'pitch.csv' }, { file: new Blob(['2']), name: 'yaw.csv' }]);
-    assert.deepEqual(asked.map(([path]) => path), ['recordings?name=pitch.csv', 'recordings?name=yaw.csv', asked[2][0]]);
+    await feed.send([
+      { file: new Blob(['1']), name: 'pitch.csv' },
+      { file: new Blob(['2']), name: 'yaw.csv' },
+    ]);
+    assert.deepEqual(
+      asked.map(([path]) => path),
+      ['recordings?name=pitch.csv', 'recordings?name=yaw.csv', asked[2][0]],
+    );
     assert.match(asked[2][0], /recordings\/join/);
     assert.deepEqual(asked[2][2], { recordings: ['id1', 'id2'] });
     assert.equal(store.state.recorded.preview.id, 'id3');
@@ -112,7 +194,11 @@ test('several files become one recording, and text is read again as the user say
     assert.deepEqual(feed.dialect(store.state.recorded), preview.dialect);
     await feed.reread({ separator: 'semicolon' });
     assert.match(asked.at(-1)[0], /name=run\.csv&separator=semicolon/);
-    assert.deepEqual(feed.dialect(store.state.recorded), { separator: 'semicolon', decimal: '' }, 'still to be chosen where nothing was read');
+    assert.deepEqual(
+      feed.dialect(store.state.recorded),
+      { separator: 'semicolon', decimal: '' },
+      'still to be chosen where nothing was read',
+    );
   } finally {
     globalThis.fetch = before;
   }

@@ -3,22 +3,43 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { linkOf, readLink } from '../../static/link/permalink.js';
-import { asProposed, changedWords, isChanged, proposedShown, quantities, valueOf, without, withValue } from '../../static/model/rig.js';
+import {
+  asProposed,
+  changedWords,
+  isChanged,
+  proposedShown,
+  quantities,
+  valueOf,
+  without,
+  withValue,
+} from '../../static/model/rig.js';
 import { bodyOf, designOf, initialState } from '../../static/model/store.js';
 import { KNOWN, PRESETS } from './presets.mjs';
 
 const range = (meaning, unit, minimum, maximum = 1e6) => ({ meaning, unit, minimum, maximum });
 const rig = (limits) => ({
-  ...PRESETS[0], limits,
-  parameter_info: { K_pp: range('thrust', 'N·m/V', -1e6), B_y: range('damping', 'N·m·s/rad', 0), m: range('mass', 'kg', 0) },
-  limit_info: { V_p: range('voltage', 'V', 1e-3), V_y: range('voltage', 'V', 1e-3), theta: range('travel', 'rad', 1e-3, 3.2) },
+  ...PRESETS[0],
+  limits,
+  parameter_info: {
+    K_pp: range('thrust', 'N·m/V', -1e6),
+    B_y: range('damping', 'N·m·s/rad', 0),
+    m: range('mass', 'kg', 0),
+  },
+  limit_info: {
+    V_p: range('voltage', 'V', 1e-3),
+    V_y: range('voltage', 'V', 1e-3),
+    theta: range('travel', 'rad', 1e-3, 3.2),
+  },
 });
 const HELD = rig({ V_p: 24, V_y: 15, theta: Math.PI / 4 });
 const FREE = rig({ V_p: 24, V_y: 24 });
 const named = (preset, name) => quantities(preset).find((q) => q.name === name);
 
 test('every parameter and limit is listed once, angles in degrees', () => {
-  assert.deepEqual(quantities(HELD).map((q) => `${q.kind}.${q.name}`), ['parameters.K_pp', 'parameters.B_y', 'parameters.m', 'limits.V_p', 'limits.V_y', 'limits.theta']);
+  assert.deepEqual(
+    quantities(HELD).map((q) => `${q.kind}.${q.name}`),
+    ['parameters.K_pp', 'parameters.B_y', 'parameters.m', 'limits.V_p', 'limits.V_y', 'limits.theta'],
+  );
   const theta = named(HELD, 'theta');
   assert.equal(theta.unit, '°');
   assert.ok(Math.abs(theta.max - 183.3465) < 1e-3);

@@ -9,14 +9,21 @@ function keeper() {
   /** @type {{act: () => void, delay: number}[]} */ const later = [];
   const put = (/** @type {string} */ rig) => {
     told.push(rig);
-    return new Promise((resolve, reject) => open.push(async (fails = false) => {
-      if (fails) reject(new Error('no answer'));
-      else resolve(undefined);
-      await settle();
-    }));
+    return new Promise((resolve, reject) =>
+      open.push(async (fails = false) => {
+        if (fails) reject(new Error('no answer'));
+        else resolve(undefined);
+        await settle();
+      }),
+    );
   };
   const it = new RigKeeper(put, (act, delay) => later.push({ act, delay }));
-  return { it, told, later, answer: (/** @type {boolean} */ fails = false) => /** @type {any} */ (open.shift())(fails) };
+  return {
+    it,
+    told,
+    later,
+    answer: (/** @type {boolean} */ fails = false) => /** @type {any} */ (open.shift())(fails),
+  };
 }
 
 const settle = () => new Promise((resolve) => setImmediate(resolve));
@@ -24,7 +31,9 @@ const settle = () => new Promise((resolve) => setImmediate(resolve));
 test('a rig is told once, and the caller waits for the answer', async () => {
   const { it, told, later, answer } = keeper();
   let done = false;
-  it.want('aero').then(() => { done = true; });
+  it.want('aero').then(() => {
+    done = true;
+  });
   await settle();
   assert.deepEqual([told, done], [['aero'], false]);
   await answer();

@@ -26,13 +26,28 @@ class SmallElement extends SmallNode {
     this.tagName = name.toUpperCase();
   }
 
-  setAttribute(name, value) { this.attributes.set(name, value); }
-  getAttribute(name) { return this.attributes.get(name) ?? null; }
-  removeAttribute(name) { this.attributes.delete(name); }
-  get hidden() { return this.attributes.has("hidden"); }
-  set hidden(on) { if (on) this.setAttribute("hidden", ""); else this.removeAttribute("hidden"); }
-  get className() { return this.getAttribute("class") ?? ""; }
-  set className(text) { this.setAttribute("class", text); }
+  setAttribute(name, value) {
+    this.attributes.set(name, value);
+  }
+  getAttribute(name) {
+    return this.attributes.get(name) ?? null;
+  }
+  removeAttribute(name) {
+    this.attributes.delete(name);
+  }
+  get hidden() {
+    return this.attributes.has('hidden');
+  }
+  set hidden(on) {
+    if (on) this.setAttribute('hidden', '');
+    else this.removeAttribute('hidden');
+  }
+  get className() {
+    return this.getAttribute('class') ?? '';
+  }
+  set className(text) {
+    this.setAttribute('class', text);
+  }
 
   append(...nodes) {
     for (const node of nodes) {
@@ -46,9 +61,15 @@ class SmallElement extends SmallNode {
     this.append(...nodes);
   }
 
-  get textContent() { return this.children.map((node) => (node instanceof SmallElement ? node.textContent : String(node))).join(""); }
-  set textContent(text) { this.replaceChildren(text); }
-  contains(other) { return other === this || this.children.some((node) => node instanceof SmallElement && node.contains(other)); }
+  get textContent() {
+    return this.children.map((node) => (node instanceof SmallElement ? node.textContent : String(node))).join('');
+  }
+  set textContent(text) {
+    this.replaceChildren(text);
+  }
+  contains(other) {
+    return other === this || this.children.some((node) => node instanceof SmallElement && node.contains(other));
+  }
 }
 
 /** A document for the time of a test; `document.send("pointerdown")` is a press beside everything. */

@@ -1,19 +1,30 @@
 // The state: what can be undone, what counts as one step, and what is sent.
-import assert from "node:assert/strict";
-import { beforeEach, test } from "node:test";
+import assert from 'node:assert/strict';
+import { beforeEach, test } from 'node:test';
 
-import { bodyOf, designOf, requestOf, Store } from "../../static/model/store.js";
+import { bodyOf, designOf, requestOf, Store } from '../../static/model/store.js';
 
 const PRESET = {
-  name: "rig", title: "Rig", source: "a manual", rig: "helicopter", parameters: { m: 1 }, limits: { V_p: 24, V_y: 15 },
-  poles: [{ re: -12, im: 0 }, { re: -10, im: 0 }, { re: -9, im: 0 }, { re: -8, im: 0 }],
+  name: 'rig',
+  title: 'Rig',
+  source: 'a manual',
+  rig: 'helicopter',
+  parameters: { m: 1 },
+  limits: { V_p: 24, V_y: 15 },
+  poles: [
+    { re: -12, im: 0 },
+    { re: -10, im: 0 },
+    { re: -9, im: 0 },
+    { re: -8, im: 0 },
+  ],
   loops: { pitch: { kp: 30, ti: 0.1 }, yaw: { kp: 20, ti: 0.2 } },
   scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 4 },
 };
 /** @type {Store} */
 let store;
 const kp = () => store.state.design.loops.pitch.kp;
-const setKp = (value, how) => store.edit((d) => ({ ...d, loops: { ...d.loops, pitch: { ...d.loops.pitch, kp: value } } }), how);
+const setKp = (value, how) =>
+  store.edit((d) => ({ ...d, loops: { ...d.loops, pitch: { ...d.loops.pitch, kp: value } } }), how);
 
 beforeEach(() => {
   store = new Store();
@@ -27,7 +38,7 @@ test("a preset's design is its own copy", () => {
   assert.equal(store.preset, PRESET);
 });
 
-test("edits are undone and redone one by one", () => {
+test('edits are undone and redone one by one', () => {
   setKp(1);
   setKp(2);
   store.undo();
@@ -41,21 +52,21 @@ test("edits are undone and redone one by one", () => {
   assert.equal(store.state.canRedo, false);
 });
 
-test("a gesture is one step, however many edits it has", () => {
-  for (const value of [1, 2, 3, 4]) setKp(value, { gesture: "drag" });
+test('a gesture is one step, however many edits it has', () => {
+  for (const value of [1, 2, 3, 4]) setKp(value, { gesture: 'drag' });
   store.undo();
   assert.equal(kp(), 30);
 });
 
-test("two gestures of the same name are two steps once the first is over", () => {
-  setKp(1, { gesture: "drag" });
+test('two gestures of the same name are two steps once the first is over', () => {
+  setKp(1, { gesture: 'drag' });
   store.commit();
-  setKp(2, { gesture: "drag" });
+  setKp(2, { gesture: 'drag' });
   store.undo();
   assert.equal(kp(), 1);
 });
 
-test("an edit after undo forgets what was undone", () => {
+test('an edit after undo forgets what was undone', () => {
   setKp(1);
   store.undo();
   setKp(5);
@@ -64,23 +75,23 @@ test("an edit after undo forgets what was undone", () => {
   assert.equal(kp(), 5);
 });
 
-test("undo beyond the beginning and an edit that changes nothing are silent", () => {
+test('undo beyond the beginning and an edit that changes nothing are silent', () => {
   let events = 0;
-  store.addEventListener("design", () => events++);
+  store.addEventListener('design', () => events++);
   store.undo();
   store.edit((d) => d);
   assert.equal(events, 0);
 });
 
-test("each change of the design is announced with the time of its input", () => {
+test('each change of the design is announced with the time of its input', () => {
   const stamps = [];
-  store.addEventListener("design", (e) => stamps.push(e.detail.stamp));
+  store.addEventListener('design', (e) => stamps.push(e.detail.stamp));
   setKp(1, { stamp: 12.5 });
-  store.set({ motion: "psi" });
+  store.set({ motion: 'psi' });
   assert.deepEqual(stamps, [12.5]);
 });
 
-test("the request holds the whole design and asks for each axis", () => {
+test('the request holds the whole design and asks for each axis', () => {
   const request = requestOf(store.state.design, 7);
   assert.equal(request.seq, 7);
   assert.equal(request.each_axis, true);
@@ -89,11 +100,11 @@ test("the request holds the whole design and asks for each axis", () => {
   assert.equal(request.scenario.duration, 4);
 });
 
-test("what a preset leaves out has a value: full-rank, no decoupler, level", () => {
+test('what a preset leaves out has a value: full-rank, no decoupler, level', () => {
   const { method, decoupler, operating_point } = bodyOf(store.state.design);
-  assert.deepEqual([method, decoupler, operating_point], ["full-rank", false, { theta: 0 }]);
-  const other = designOf({ ...PRESET, decoupler: true, operating_point: { theta: 0.3 }, coupling: "axis-decoupled" });
-  assert.deepEqual([other.decoupler, other.theta0, other.coupling], [true, 0.3, "axis-decoupled"]);
+  assert.deepEqual([method, decoupler, operating_point], ['full-rank', false, { theta: 0 }]);
+  const other = designOf({ ...PRESET, decoupler: true, operating_point: { theta: 0.3 }, coupling: 'axis-decoupled' });
+  assert.deepEqual([other.decoupler, other.theta0, other.coupling], [true, 0.3, 'axis-decoupled']);
 });
 
 test("a design's body is the request without number and experiment", () => {

@@ -1,8 +1,8 @@
 // A view is rendered when something that it read has changed, and only then.
-import assert from "node:assert/strict";
-import { test } from "node:test";
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
 
-import { watched } from "../../static/ui/watch.js";
+import { watched } from '../../static/ui/watch.js';
 
 const START = { design: { a: 1 }, reply: null, dragging: false, cloud: null };
 
@@ -11,7 +11,7 @@ function counted(read) {
   return { calls, render: watched({ render: (state) => calls.push(read(state)) }) };
 }
 
-test("a view that reads one thing rests while another changes", () => {
+test('a view that reads one thing rests while another changes', () => {
   const { calls, render } = counted(({ design }) => design.a);
   assert.equal(render(START), true);
   assert.equal(render({ ...START, reply: {}, dragging: true }), false);
@@ -19,8 +19,8 @@ test("a view that reads one thing rests while another changes", () => {
   assert.deepEqual(calls, [1, 2]);
 });
 
-test("what was read last counts, not what was read at first", () => {
-  const { calls, render } = counted((state) => (state.design ? state.reply : "nothing"));
+test('what was read last counts, not what was read at first', () => {
+  const { calls, render } = counted((state) => (state.design ? state.reply : 'nothing'));
   render({ ...START, design: null });
   assert.equal(render({ ...START, design: null, reply: {} }), false); // it never came to the reply
   assert.equal(render(START), true);
@@ -28,14 +28,14 @@ test("what was read last counts, not what was read at first", () => {
   assert.equal(calls.length, 3);
 });
 
-test("what a view hands to its parts is noted too", () => {
+test('what a view hands to its parts is noted too', () => {
   const { calls, render } = counted((state) => ((s) => s.cloud)(state));
   render(START);
   assert.equal(render({ ...START, cloud: {} }), true);
   assert.equal(calls.length, 2);
 });
 
-test("a view that reads nothing is rendered once", () => {
+test('a view that reads nothing is rendered once', () => {
   const { calls, render } = counted(() => 0);
   render(START);
   render({ ...START, design: {} });

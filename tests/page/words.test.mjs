@@ -15,7 +15,13 @@ test('without a catalogue all is English', () => {
 });
 
 test('a catalogue replaces key by key, keeps spaces, and may turn the order of values', () => {
-  useWords(new Map([['Undo', 'Zurück'], ['{0} of {1}', 'von {1} das {0}.']]), 'de');
+  useWords(
+    new Map([
+      ['Undo', 'Zurück'],
+      ['{0} of {1}', 'von {1} das {0}.'],
+    ]),
+    'de',
+  );
   assert.equal(t(' Undo '), ' Zurück ');
   assert.equal(t('Redo'), 'Redo');
   assert.equal(say`${3} of ${5}`, 'von 5 das 3.');
@@ -23,8 +29,14 @@ test('a catalogue replaces key by key, keeps spaces, and may turn the order of v
 });
 
 test('a catalogue may hold all the forms of a number that its language has', () => {
-  useWords(new Map([['{0} limits', { one: '{0} limit', few: '{0} limity', many: '{0} limitów', other: '{0} limitu' }]]), 'pl');
-  assert.deepEqual([1, 2, 5, 22].map((n) => count(n, '{0} limit', '{0} limits')), ['1 limit', '2 limity', '5 limitów', '22 limity']);
+  useWords(
+    new Map([['{0} limits', { one: '{0} limit', few: '{0} limity', many: '{0} limitów', other: '{0} limitu' }]]),
+    'pl',
+  );
+  assert.deepEqual(
+    [1, 2, 5, 22].map((n) => count(n, '{0} limit', '{0} limits')),
+    ['1 limit', '2 limity', '5 limitów', '22 limity'],
+  );
 });
 
 test('the address decides, then the browser, then English', () => {

@@ -6,11 +6,31 @@ export const MEMORY = 'tour';
 
 /** @type {{title: string, text: string, targets: string[]}[]} */
 export const STEPS = [
-  { title: 'Drag a pole', targets: ['#splane'], text: 'Round marks are pitch’s poles, square ones yaw’s. Drag one, or use the arrow keys. Diamonds are the poles of the whole loop; a dotted line shows where the PI loops take the pole that you touch.' },
-  { title: 'See the response', targets: ['#plots'], text: 'Solid lines are the nonlinear rig’s, dashed ones the linear model’s. Point at a plot to read its values. Click to move the rig to that moment.' },
-  { title: 'Mind the limits', targets: ['[data-testid=plot-V_p]', '[data-testid=plot-V_y]', '#strip'], text: 'Red lines are the motors’ limits. The line at the top says what is unstable, saturated or badly paired. Click a remark to go to its place.' },
-  { title: 'Who moves what', targets: ['#numbers'], text: 'K is the gain that places these poles. The relative gain array (RGA) says which motor should control which angle. Where crosswise is better, one button changes the pairing.' },
-  { title: 'Share it', targets: ['.share', '[data-testid=pin]'], text: 'Copy link copies an address that opens this design. Pin keeps a design beside those that follow.' },
+  {
+    title: 'Drag a pole',
+    targets: ['#splane'],
+    text: 'Round marks are pitch’s poles, square ones yaw’s. Drag one, or use the arrow keys. Diamonds are the poles of the whole loop; a dotted line shows where the PI loops take the pole that you touch.',
+  },
+  {
+    title: 'See the response',
+    targets: ['#plots'],
+    text: 'Solid lines are the nonlinear rig’s, dashed ones the linear model’s. Point at a plot to read its values. Click to move the rig to that moment.',
+  },
+  {
+    title: 'Mind the limits',
+    targets: ['[data-testid=plot-V_p]', '[data-testid=plot-V_y]', '#strip'],
+    text: 'Red lines are the motors’ limits. The line at the top says what is unstable, saturated or badly paired. Click a remark to go to its place.',
+  },
+  {
+    title: 'Who moves what',
+    targets: ['#numbers'],
+    text: 'K is the gain that places these poles. The relative gain array (RGA) says which motor should control which angle. Where crosswise is better, one button changes the pairing.',
+  },
+  {
+    title: 'Share it',
+    targets: ['.share', '[data-testid=pin]'],
+    text: 'Copy link copies an address that opens this design. Pin keeps a design beside those that follow.',
+  },
 ];
 
 export class Tour {
@@ -23,11 +43,41 @@ export class Tour {
     this.count = h('span', { class: 'tour-count' });
     this.title = h('strong');
     this.text = h('p', { 'data-testid': 'tour-text' });
-    this.back = h('button', { type: 'button', 'data-testid': 'tour-back', onclick: () => this.#show(this.#at - 1) }, 'Back');
-    this.next = h('button', { type: 'button', class: 'primary', 'data-testid': 'tour-next', onclick: () => (this.#at + 1 < STEPS.length ? this.#show(this.#at + 1) : this.end()) });
-    const close = h('button', { type: 'button', class: 'quiet', 'data-testid': 'tour-close', 'aria-label': 'End the tour', title: 'End the tour (Esc)', onclick: () => this.end() }, '✕');
-    this.node = h('section', { class: 'tour', hidden: true, 'aria-label': 'Tour', 'data-testid': 'tour', onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e) },
-      h('div', { role: 'status' }, h('div', { class: 'row' }, this.title, this.count), this.text), h('div', { class: 'row' }, this.back, this.next, close));
+    this.back = h(
+      'button',
+      { type: 'button', 'data-testid': 'tour-back', onclick: () => this.#show(this.#at - 1) },
+      'Back',
+    );
+    this.next = h('button', {
+      type: 'button',
+      class: 'primary',
+      'data-testid': 'tour-next',
+      onclick: () => (this.#at + 1 < STEPS.length ? this.#show(this.#at + 1) : this.end()),
+    });
+    const close = h(
+      'button',
+      {
+        type: 'button',
+        class: 'quiet',
+        'data-testid': 'tour-close',
+        'aria-label': 'End the tour',
+        title: 'End the tour (Esc)',
+        onclick: () => this.end(),
+      },
+      '✕',
+    );
+    this.node = h(
+      'section',
+      {
+        class: 'tour',
+        hidden: true,
+        'aria-label': 'Tour',
+        'data-testid': 'tour',
+        onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e),
+      },
+      h('div', { role: 'status' }, h('div', { class: 'row' }, this.title, this.count), this.text),
+      h('div', { class: 'row' }, this.back, this.next, close),
+    );
     root.append(this.node);
   }
 

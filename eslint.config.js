@@ -1,0 +1,48 @@
+// ESLint of the page: the recommended rules, and which room may import from which.
+import js from '@eslint/js';
+import globals from 'globals';
+
+/** The page's rooms, floor by floor: a module imports from rooms on floors below alone, and through their index.js. */
+const FLOORS = [
+  ['text'],
+  ['model', 'net'],
+  ['ui', 'link'],
+  ['plots', 'splane', 'scene', 'recordings', 'tour', 'panels'],
+  ['paper', 'compare'],
+];
+const TOP = ['static/main.js', 'static/types.js', 'static/api_docs.js'];
+
+/** No room but these may be imported from a folder, whose modules begin their imports with `up`. */
+function doors(rooms, up) {
+  const others = rooms.length ? `(?!(?:${rooms.join('|')})/index\\.js$)` : '';
+  const regex = `^${up}(?:(?!vendor/|types\\.js)${others})[^.].*`;
+  const message = 'Rooms import from floors below, through their index.js (FLOORS in eslint.config.js).';
+  return {
+    'no-restricted-imports': ['error', { patterns: [{ regex, message }] }],
+    'no-restricted-syntax': [
+      'error',
+      { selector: `ImportExpression > Literal[value=/${regex.replaceAll('/', '\\/')}/]`, message },
+    ],
+  };
+}
+
+const rooms = FLOORS.flatMap((floor, k) =>
+  floor.map((room) => ({
+    files: [`static/${room}/*.js`],
+    rules: doors(FLOORS.slice(0, k).flat(), '\\.\\./'),
+  })),
+);
+
+export default [
+  { ignores: ['static/vendor/', '.venv/', 'build/', 'dist/', '.hypothesis/', '**/*.mjs'] },
+  js.configs.recommended,
+  { languageOptions: { globals: globals.browser } },
+  { rules: { eqeqeq: 'error', 'no-var': 'error', 'prefer-const': 'error' } },
+  {
+    files: ['static/**/*.js'],
+    ignores: [...TOP, ...FLOORS.flat().map((room) => `static/${room}/**`)],
+    rules: { 'no-restricted-syntax': ['error', { selector: 'Program', message: 'In no room (eslint.config.js).' }] },
+  },
+  ...rooms,
+  { files: TOP, rules: doors(FLOORS.flat(), '\\./') },
+];

@@ -1,0 +1,2 @@
+/** What other rooms may import of compare/. */
+export { ComparePanel } from './panel.js';

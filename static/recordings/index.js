@@ -1,0 +1,2 @@
+/** What other rooms may import of recordings/. */
+export { RecordingsPanel } from './panel.js';

@@ -1,0 +1,2 @@
+/** What other rooms may import of tour/. */
+export { Tour } from './tour.js';
