@@ -11,11 +11,12 @@ BESIDE := --numprocesses=2 --dist=loadfile
 unexport PYTHONDONTWRITEBYTECODE
 PACKAGING := pyproject.toml constraints.txt package.json package-lock.json hatch_build.py
 SOURCES := $(shell find app heli2dof_core static -type f -not -path '*/vendor/*' -not -name '*.pyc' 2>/dev/null)
+JAVASCRIPT := static eslint.config.js 'tests/**/*.mjs'
 PYTEST = CHROMIUM=$(CHROMIUM) $(BIN)/pytest $(BESIDE)
 # Without windows (chromium-headless-shell, as Playwright itself prefers) the tests take two thirds of the time.
 CHROMIUM ?= $(firstword $(shell command -v chromium-headless-shell chromium chromium-browser google-chrome))
 
-.PHONY: help serve test quick check style static-types floors types kernels unit page-test e2e steady mutation screenshot \
+.PHONY: help serve test quick check style format static-types floors types kernels unit page-test e2e steady mutation screenshot \
   bench docs image clean browser
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -34,9 +35,15 @@ quick: $(VENV)/.tools node_modules/.installed browser ## what is soon told: styl
 
 check: style static-types types floors ## style, types, floors
 
-style: $(VENV)/.tools
+style: $(VENV)/.tools node_modules/.installed ## Ruff for Python; Prettier and ESLint for JavaScript, the page's rooms among it
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
+	@$(BIN)/npx prettier --log-level warn --check $(JAVASCRIPT)
+	@$(BIN)/npx eslint $(JAVASCRIPT)
+
+format: $(VENV)/.tools node_modules/.installed ## bring all into Ruff's and Prettier's form
+	@$(BIN)/ruff format .
+	@$(BIN)/npx prettier --log-level warn --write $(JAVASCRIPT)
 
 static-types: $(VENV)/.tools
 	@$(BIN)/pyright

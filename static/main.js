@@ -1,5 +1,6 @@
 /**
- * Wires only: state to views, views to state, and the design to the server. What each part does is written in its module.
+ * Wires only: state to views, views to state, and the design to the server. What each part does is written in its
+ * module.
  * @typedef {import('./types.js').State} State
  */
 import { languageOf, loadWords, say, translatePage } from './text/index.js';
@@ -10,7 +11,6 @@ import { Address, LockedControls, PinKeeper } from './link/index.js';
 import { Plots } from './plots/index.js';
 import { CloudFeed, SPlane } from './splane/index.js';
 import { SceneSharing, SceneView } from './scene/index.js';
-import { FormulasPanel, PaperPanel } from './paper/index.js';
 import {
   ExperimentPanel,
   FieldProblems,
@@ -59,8 +59,6 @@ const figures = [
   new MetricsPanel(byId('metrics')),
   new PinBar(byId('pin-bar'), store),
   new PinsPanel(byId('pins'), store),
-  new FormulasPanel(byId('formulas'), store),
-  new PaperPanel(byId('paper'), store),
   new FieldProblems(document.body),
   scene,
   new CloudFeed(store),
@@ -98,7 +96,8 @@ store.addEventListener('design', (event) => {
   const { design } = store.state;
   if (!design) return;
   const { stamp } = /** @type {CustomEvent} */ (event).detail;
-  if (stamp !== undefined && recall('tour') !== 'done') remember('tour', 'done'); // who has moved something needs no tour at the next visit
+  // who has moved something needs no tour at the next visit
+  if (stamp !== undefined && recall('tour') !== 'done') remember('tour', 'done');
   seq += 1;
   asked.set(seq, { stamp, design });
   live.send(requestOf(design, seq));
@@ -122,7 +121,8 @@ function render() {
   scheduled = false;
   const begin = performance.now();
   const { state } = store;
-  if (locked.release(state)) for (const view of [views.plane, ...views.figures]) view.forget(); // each says again which of its controls can be used
+  // each says again which of its controls can be used
+  if (locked.release(state)) for (const view of [views.plane, ...views.figures]) view.forget();
   views.plane(state);
   const drawn = drawPlots(state);
   turns.take(state, views.figures, { busy: drawn === true, again: schedule });
@@ -134,7 +134,11 @@ function render() {
   for (const old of asked.keys()) if (old <= answered) asked.delete(old);
 }
 
-/** A view that is drawn where what it reads has changed, and stops no other where it fails; `forget` has it drawn in any case. @param {{render: (state: State) => void}} view */
+/**
+ * A view that is drawn where what it reads has changed, and stops no other where it fails; `forget` has it drawn in any
+ * case.
+ * @param {{render: (state: State) => void}} view
+ */
 function viewOf(view) {
   let draw = watched(view);
   return Object.assign(
@@ -150,9 +154,10 @@ function viewOf(view) {
 /** Quietly, once for each part. @param {unknown} error */
 function report(error) {
   console.error(error);
+  const words = error instanceof Error ? error.message : error;
   queueMicrotask(() =>
     store.set({
-      fault: say`A part of this page could not be drawn: ${error instanceof Error ? error.message : error}. Everything else works.`,
+      fault: say`A part of this page could not be drawn: ${words}. Everything else works.`,
     }),
   );
 }
@@ -172,14 +177,18 @@ function welcome() {
 
 /** Panels that the first view does not need, fetched when it is there. */
 async function furtherDown() {
-  const [{ ComparePanel }, { RecordingsPanel }] = await Promise.all([
+  const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await Promise.all([
     import('./compare/index.js'),
     import('./recordings/index.js'),
+    import('./paper/index.js'),
   ]);
-  views.figures.unshift(
-    viewOf(new ComparePanel(byId('compare'), store)),
-    viewOf(new RecordingsPanel(byId('recordings'), store)),
-  );
+  const further = [
+    new ComparePanel(byId('compare'), store),
+    new RecordingsPanel(byId('recordings'), store),
+    new FormulasPanel(byId('formulas'), store),
+    new PaperPanel(byId('paper'), store),
+  ];
+  views.figures.unshift(...further.map(viewOf));
   schedule();
 }
 

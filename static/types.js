@@ -39,7 +39,8 @@
  * @property {number} [rtol]
  * @property {Digital} [digital]  absent: continuous
  * @property {Disturbance} [disturbance]
- * @typedef {{sample_time?: number, delay?: boolean, encoders?: Encoders, rates?: 'filtered'|'true', noise?: number, seed?: number}} Digital
+ * @typedef {{sample_time?: number, delay?: boolean, encoders?: Encoders, rates?: 'filtered'|'true', noise?: number,
+ *   seed?: number}} Digital
  * @typedef {{V_p: number, V_y: number, time: number}} Disturbance  V, s
  * @typedef {{theta: number, psi: number}} Encoders  counts per revolution; 0: exact
  *
@@ -101,35 +102,45 @@
  *
  * @typedef {object} Reply
  * @property {number} seq
- * @property {{K: number[][], A?: number[][], B?: number[][], closed_loop_poles: Complex[], pole_error?: number, norm: number}} gains
+ * @property {{K: number[][], A?: number[][], B?: number[][], closed_loop_poles: Complex[], pole_error?: number, norm:
+ *   number}} gains
  * @property {Complex[]} open_loop_poles
- * @property {{rga?: number[][], pairing?: string[][], reason?: string, niederlinski?: number, niederlinski_cross?: number}} [rga]
+ * @property {{rga?: number[][], pairing?: string[][], reason?: string, niederlinski?: number, niederlinski_cross?:
+ *   number}} [rga]
  * @property {StepPair} step
  * @property {{theta?: StepPair, psi?: StepPair}} axis_steps
  * @property {Record<string, {gain_margin?: number, phase_margin?: number, delay_margin?: number}>} [margins]
- * @property {{peak: number, peak_frequency?: number, disk_margin: number, gain_low: number, gain_high?: number, phase: number}} [sensitivity]
+ * @property {{peak: number, peak_frequency?: number, disk_margin: number, gain_low: number, gain_high?: number, phase:
+ *   number}} [sensitivity]
  * @property {Complex[]} loop_poles
  * @property {boolean} stable
  * @property {{V_p: number, V_y: number}} trim
  * @property {{V_p?: number, V_y?: number, theta?: number}} limits
  * @property {Finding[]} findings
  *
- * @typedef {{title?: string, detail?: string, code?: string, field?: string, value?: any, hint?: string, seq?: number}} Problem
+ * @typedef {{title?: string, detail?: string, code?: string, field?: string, value?: any, hint?: string, seq?: number}}
+ *   Problem
  * @typedef {'theta'|'psi'|'both'} Motion
  * @typedef {'connecting'|'open'|'lost'} Connection
  *
  * @typedef {{theta: number[][], psi: number[][]}} Envelopes  a row per percentile
- * @typedef {{done: number, samples: number, loop_poles: Complex[][], t: number[], envelopes: Envelopes, share_stable: number, share_within_limits: number}} Cloud
+ * @typedef {{done: number, samples: number, loop_poles: Complex[][], t: number[], envelopes: Envelopes, share_stable:
+ *   number, share_within_limits: number}} Cloud
  *
  * What the placed poles are held to; null: not asked. It is the yardstick, not the design, so undo leaves it alone.
  * @typedef {{settling: number|null, overshoot: number|null}} Requirements  s, %
  *
  * A design that is kept for comparison; its reply is missing until the server has given one.
- * @typedef {{id: number, index: number, name: string, design: Design, reply: Reply|null, refused?: string}} Pin  index: its letter, colour and mark
+ * @typedef {{id: number, index: number, name: string, design: Design, reply: Reply|null, refused?: string}} Pin index:
+ *   its letter, colour and mark
  *
- * @typedef {{names: Record<string, string>, time_unit: string, unit: string, units: Record<string, string>, voltage_unit: string, signs: {theta: number, psi: number},
- *   offsets: {theta: number, psi: number}, sample_time: number|null, decimate: number}} RecordingColumns  names: column by role
- * @typedef {{preview: any, columns: RecordingColumns|null, driver: string, busy: string, problem: Problem|null, overlay: any, overlaid: Design|null, progress: any, found: any, foundFor: Design|null}} Recorded  a recording of a real rig, and what is known of it
+ * @typedef {{names: Record<string, string>, time_unit: string, unit: string, units: Record<string, string>,
+ *   voltage_unit: string, signs: {theta: number, psi: number},
+ *   offsets: {theta: number, psi: number}, sample_time: number|null, decimate: number}} RecordingColumns names: column
+ *   by role
+ * @typedef {{preview: any, columns: RecordingColumns|null, driver: string, busy: string, problem: Problem|null,
+ *   overlay: any, overlaid: Design|null, progress: any, found: any, foundFor: Design|null}} Recorded a recording of a
+ *   real rig, and what is known of it
  *
  * @typedef {object} State
  * @property {Requirements} requirements

@@ -41,7 +41,7 @@ def test_wheel_holds_what_is_needed_and_nothing_else(wheel: Path):
     names = zipfile.ZipFile(wheel).namelist()
     tops = {name.split("/")[0] for name in names}
     assert {top for top in tops if not top.endswith(".dist-info")} == {"heli2dof_app", "heli2dof_core"}
-    wanted = ("index.html", "main.js", "scene_shim.js", "vendor/uplot/uPlot.esm.js", "vendor/uplot/LICENSE")
+    wanted = ("index.html", "main.js", "scene/shim.js", "vendor/uplot/uPlot.esm.js", "vendor/uplot/LICENSE")
     assert {f"heli2dof_app/static/{name}" for name in wanted} <= set(names)
     assert "heli2dof_core/py.typed" in names
     assert not [name for name in names if "__pycache__" in name or "test" in name or "node_modules" in name]
@@ -85,7 +85,7 @@ def test_wheel_serves_outside_the_checkout(installed: Path, tmp_path: Path):
         assert httpx2.get(f"{url}/static/vendor/uplot/uPlot.esm.js").status_code == 200
         assert httpx2.post(f"{url}/api/v1/gains", json={}, timeout=PATIENCE).json()["pole_error"] < 1e-9
         session = "/scene/wheel_wheel_wheel_wheel"
-        assert "scene_shim.js" in httpx2.get(f"{url}{session}/").text
+        assert "scene/shim.js" in httpx2.get(f"{url}{session}/").text
         viser = {"subprotocols": [Subprotocol(VISER)], "compression": None, "max_size": None}
         with connect(f"{server.ws}{session}", **viser) as scene:
             assert len(scene.recv(timeout=PATIENCE)) > 1000

@@ -2,7 +2,7 @@
 
 Nodes that the page moves: /rig/yoke (ψ), /rig/yoke/body (θ), its rotors and blurs (spin) and thrust
 arrows; /rig/yoke's two stops; /ghost (the reference), /ghosts/linear and /ghosts/0 to 5 (pinned
-designs), each with a yoke and a body. static/scene/pose.js and scene_ghosts.js name the same nodes.
+designs), each with a yoke and a body. static/scene/pose.js and scene/ghosts.js name the same nodes.
 """
 
 from __future__ import annotations

@@ -13,7 +13,8 @@ import { FrequencyPlot } from './frequency_plot.js';
  * @property {string} testid of the sentence
  * @property {string} wait
  * @property {(body: any) => Promise<any>} ask
- * @property {(reply: any) => {text: string, warning?: boolean, figures?: boolean}} words  figures: whether there is anything to plot
+ * @property {(reply: any) => {text: string, warning?: boolean, figures?: boolean}} words figures: whether there is
+ *   anything to plot
  */
 
 export class FrequencyCard {

@@ -1,4 +1,7 @@
-/** A plot of two lines over frequency, its values under the pointer or by the arrow keys, to be saved as picture and numbers. */
+/**
+ * A plot of two lines over frequency, its values under the pointer or by the arrow keys, to be saved as picture and
+ * numbers.
+ */
 import uPlot from '../vendor/uplot/uPlot.esm.js';
 import { forField, inField, say, significant, t } from '../text/index.js';
 import { followsPage, h, pictureScale, setText } from '../ui/index.js';
@@ -16,10 +19,14 @@ const plain = (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.
 
 /**
  * @typedef {'series-0'|'series-1'|'pitch'|'yaw'} Kind
- * @typedef {{kind: Kind, name: () => (Node|string)[], plain: string, title: string, of: (reply: any) => number[]}} Series  plain: the name where only letters can be
+ * @typedef {{kind: Kind, name: () => (Node|string)[], plain: string, title: string, of: (reply: any) => number[]}}
+ *   Series plain: the name where only letters can be
  * @typedef {{kind: Kind, at: number, from: number, to: number, label: string}} Span  a measured height at a frequency
- * @typedef {{id: string, title: string, full?: string, unit?: string, steps?: number[], rule?: {value: number, every?: number, label: string, above: boolean}, range: (data: number[][]) => [number, number], spans?: (reply: any) => Span[], series: Series[]}} About
- *   full: the title where it stands alone. steps: between the numbers of a linear axis; a logarithmic one without. rule: a border, where it comes again, and whether what lies above it is shaded
+ * @typedef {{id: string, title: string, full?: string, unit?: string, steps?: number[], rule?: {value: number, every?:
+ *   number, label: string, above: boolean}, range: (data: number[][]) => [number, number], spans?: (reply: any) =>
+ *   Span[], series: Series[]}} About
+ *   full: the title where it stands alone. steps: between the numbers of a linear axis; a logarithmic one without.
+ *   rule: a border, where it comes again, and whether what lies above it is shaded
  */
 
 export class FrequencyPlot {
@@ -28,7 +35,11 @@ export class FrequencyPlot {
   /** @type {number[][]} */ #data = [];
   /** @type {Span[]} */ #spans = [];
 
-  /** @param {About} about @param {number[]} frequencies rad/s @param {{onHover: (i: number|null) => void, subtitle: () => string}} how subtitle: of its picture */
+  /**
+   * @param {About} about
+   * @param {number[]} frequencies rad/s
+   * @param {{onHover: (i: number|null) => void, subtitle: () => string}} how subtitle: of its picture
+   */
   constructor(about, frequencies, { onHover, subtitle }) {
     this.about = about;
     this.frequencies = frequencies;

@@ -1,4 +1,7 @@
-/** How much pitch and yaw feel each other at each frequency: relative gains, and off-diagonal over diagonal entries of Ĝ(jω). */
+/**
+ * How much pitch and yaw feel each other at each frequency: relative gains, and off-diagonal over diagonal entries of
+ * Ĝ(jω).
+ */
 import { dominanceWords, largest, logSpaced } from '../model/index.js';
 import { relativeGain } from '../net/index.js';
 import { h, symbol } from '../ui/index.js';

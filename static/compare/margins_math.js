@@ -1,5 +1,6 @@
 /**
- * Where on a loop's frequency response its margins are measured. The margins themselves are the server's, exact; here they are found again on the samples, so that they can be drawn. Pure.
+ * Where on a loop's frequency response its margins are measured. The margins themselves are the server's, exact; here
+ * they are found again on the samples, so that they can be drawn. Pure.
  * @typedef {{gain: number[], phase: number[]}} Loop  phase in rad, without jumps
  * @typedef {{gain_margin?: number, phase_margin?: number}} Margins
  * @typedef {{at: number, from: number, to: number}} Place  rad/s; dB or degrees: of the curve, and of the border
@@ -15,7 +16,12 @@ export const decibels = (gain) => gain.map((v) => 20 * Math.log10(v));
 /** The multiple of a whole turn next to −180°. @param {number} phase degrees */
 const critical = (phase) => 360 * Math.round((phase + 180) / 360) - 180;
 
-/** Where values cross a level, as places between two samples. @param {number[]} values @param {number} level @returns {{i: number, share: number}[]} */
+/**
+ * Where values cross a level, as places between two samples.
+ * @param {number[]} values
+ * @param {number} level
+ * @returns {{i: number, share: number}[]}
+ */
 export function crossings(values, level) {
   const out = [];
   for (let i = 1; i < values.length; i++) {
@@ -28,7 +34,12 @@ export function crossings(values, level) {
 /** @param {number[]} values @param {{i: number, share: number}} where */
 const between = (values, { i, share }) => values[i - 1] + share * (values[i] - values[i - 1]);
 
-/** @param {Place[]} places @param {(p: Place) => number} off how far from the exact margin @param {number} near @returns {Place|undefined} */
+/**
+ * @param {Place[]} places
+ * @param {(p: Place) => number} off how far from the exact margin
+ * @param {number} near
+ * @returns {Place|undefined}
+ */
 const nearest = (places, off, near) => places.filter((p) => off(p) <= near).sort((a, b) => off(a) - off(b))[0];
 
 /**

@@ -1,4 +1,7 @@
-/** The section below the instrument: the same poles through every method, dealt every way, interaction and open loops over frequency. */
+/**
+ * The section below the instrument: the same poles through every method, dealt every way, interaction and open loops
+ * over frequency.
+ */
 import { h } from '../ui/index.js';
 import { CompareTable } from './table.js';
 import { InteractionCard } from './interaction.js';

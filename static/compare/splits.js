@@ -57,7 +57,8 @@ export class SplitsCard {
       wait: 'Computing the splits…',
       ask: compareSplits,
       show: (answer) => this.#show(answer),
-      body: (d) => ({ ...bodyOf(d), method: FULL_RANK, poles: inOrder(d.poles) }), // the rows keep their places whichever is in use
+      // the rows keep their places whichever is in use
+      body: (d) => ({ ...bodyOf(d), method: FULL_RANK, poles: inOrder(d.poles) }),
     });
   }
 
@@ -92,7 +93,10 @@ export class SplitsCard {
     if (focused >= 0) this.#rows[focused]?.use.focus({ preventScroll: true });
   }
 
-  /** Only full-rank placement tells the pairs apart, so it comes with them. @param {import('../types.js').Poles} poles */
+  /**
+   * Only full-rank placement tells the pairs apart, so it comes with them.
+   * @param {import('../types.js').Poles} poles
+   */
   #use(poles) {
     this.store.edit((d) =>
       d.method === FULL_RANK && sameSplit(d.poles, poles) ? d : { ...d, poles, method: FULL_RANK },
@@ -114,7 +118,8 @@ export class SplitsCard {
     const structure = nameOf({ ...design, method: FULL_RANK });
     setText(
       this.words,
-      `Full-rank, ${structure}.${own ? '' : ' The method in use does not tell the pairs apart: “Use” takes full-rank with the split.'}`,
+      `Full-rank, ${structure}.` +
+        (own ? '' : ' The method in use does not tell the pairs apart: “Use” takes full-rank with the split.'),
     );
   }
 }

@@ -1,5 +1,8 @@
-/** The table of the methods: a row for each, its figures, the best of each column, and "Use", which makes it the design's own. */
-import { decibel, degrees, fixed, percent, seconds, significant } from '../text/index.js';
+/**
+ * The table of the methods: a row for each, its figures, the best of each column, and "Use", which makes it the
+ * design's own.
+ */
+import { decibel, degrees, fixed, seconds, significant } from '../text/index.js';
 import { best, bodyOf, FULL_RANK, hardest, keyOf, nameOf, partOf, scenarioOf, worseMargins } from '../model/index.js';
 import { compareMethods } from '../net/index.js';
 import { h, Lazy, setAttr, setText, symbol } from '../ui/index.js';
@@ -18,13 +21,15 @@ const voltage = (/** @type {any} */ row, /** @type {'V_p'|'V_y'} */ name) => har
 function marginText(row) {
   const worse = worseMargins(row.margins);
   return worse
-    ? `${Number.isFinite(worse.gain) ? decibel(worse.gain) : '∞'} · ${Number.isFinite(worse.phase) ? degrees(worse.phase, 0) : '∞'}`
+    ? `${Number.isFinite(worse.gain) ? decibel(worse.gain) : '∞'} · ` +
+        `${Number.isFinite(worse.phase) ? degrees(worse.phase, 0) : '∞'}`
     : '–';
 }
 
 /**
  * `cost` is least for the best row; `cross` says whether the loops are paired crosswise.
- * @typedef {{id: string, group?: Axis, name: () => (Node|string)[], title: string, text: (row: any) => string, cost?: (row: any, cross: boolean) => number|undefined, warn?: (row: any) => boolean}} Column
+ * @typedef {{id: string, group?: Axis, name: () => (Node|string)[], title: string, text: (row: any) => string, cost?:
+ *   (row: any, cross: boolean) => number|undefined, warn?: (row: any) => boolean}} Column
  * @type {Column[]}
  */
 const COLUMNS = [
@@ -97,7 +102,9 @@ const COLUMNS = [
   .../** @type {('V_p'|'V_y')[]} */ (['V_p', 'V_y']).map((name) => ({
     id: name,
     name: () => [symbol('V', name[2]), ' peak'],
-    title: `${name === 'V_p' ? 'pitch' : 'yaw'} motor over both steps, trim included; or the longer share of time at its limit`,
+    title:
+      `${name === 'V_p' ? 'pitch' : 'yaw'} motor over both steps, trim included; or the longer share of time ` +
+      'at its limit',
     text: (/** @type {any} */ r) => motorText({ [name]: voltage(r, name) ?? {} }, name),
     cost: (/** @type {any} */ r) => {
       const m = voltage(r, name);

@@ -1,6 +1,7 @@
 /**
- * Keeps the address in step with the state, so that it can be mailed, reloaded, and walked through with the browser's Back and Forward: an entry of the
- * history for every step of undo, rewritten while the gesture goes on. Browsers allow about a hundred such calls in half a minute.
+ * Keeps the address in step with the state, so that it can be mailed, reloaded, and walked through with the browser's
+ * Back and Forward: an entry of the history for every step of undo, rewritten while the gesture goes on. Browsers allow
+ * about a hundred such calls in half a minute.
  * @typedef {import('../types.js').State} State
  * @typedef {import('./permalink.js').Known} Known
  */
@@ -36,7 +37,10 @@ const held = (s) => [s.design, s.motion, s.showLinear, s.showMarks, s.spread, s.
 /** Their replies are no part of it. @param {State['pins']} pins */
 const pinKey = (pins) => pins.map((p) => `${p.id} ${p.index} ${p.name}`).join('\n');
 
-/** @typedef {{hash: () => string, push: (hash: string) => void, replace: (hash: string) => void, now: () => number, later: (f: () => void, ms: number) => any, cancel: (id: any) => void}} Browser */
+/**
+ * @typedef {{hash: () => string, push: (hash: string) => void, replace: (hash: string) => void, now: () => number,
+ *   later: (f: () => void, ms: number) => any, cancel: (id: any) => void}} Browser
+ */
 /** @type {() => Browser} */
 const browser = () => ({
   hash: () => location.hash,
@@ -79,7 +83,10 @@ export class Address {
     return linkOf({ ...this.store.state, locks }, this.#known);
   }
 
-  /** Fills the store from the address; called once, when the presets are known. @returns {string|null} the place to which it leads */
+  /**
+   * Fills the store from the address; called once, when the presets are known.
+   * @returns {string|null} the place to which it leads
+   */
   open() {
     const link = readLink(this.of.hash(), this.#known);
     const { design } = readLink('#v1', this.#known);
@@ -89,7 +96,8 @@ export class Address {
     this.store.set({ notice: troubleWords(link.trouble) });
     this.#place = link.place ?? null;
     this.#step = this.store.step;
-    if (!link.trouble.length) this.#write(this.store.state, this.#step); // a link that was not understood stays to be read
+    // a link that was not understood stays to be read
+    if (!link.trouble.length) this.#write(this.store.state, this.#step);
     return this.#place;
   }
 
@@ -111,7 +119,8 @@ export class Address {
     this.#place = link.place ?? null;
     this.#shown = hash;
     const known = new Set(this.store.state.pins.map((p) => p.name));
-    this.store.addPins((link.pins ?? []).filter((p) => !known.has(p.name)).map((pin) => ({ ...pin, reply: null }))); // going back takes no pin away
+    // going back takes no pin away
+    this.store.addPins((link.pins ?? []).filter((p) => !known.has(p.name)).map((pin) => ({ ...pin, reply: null })));
     this.store.restore(link.design);
     this.#step = this.store.step;
     this.#seen = held(this.store.state);

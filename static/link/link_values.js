@@ -1,7 +1,8 @@
 /**
  * Values as they stand in a link: exact, readable, and safe in mails. Pure.
  *
- * A design is compared with its preset's proposal leaf by leaf, so that fields which this module has never heard of are carried too.
+ * A design is compared with its preset's proposal leaf by leaf, so that fields which this module has never heard of are
+ * carried too.
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {import('../types.js').Poles} Poles
  * @typedef {string|number|boolean|null|unknown[]} Leaf
@@ -18,7 +19,10 @@ const WORDS = new Set(['true', 'false', 'null']);
 const SEGMENT = /^[A-Za-z]\w*$/;
 const ANGLE = /(^|\.)(theta0?|psi)$/;
 
-/** For a part of a link: nothing that separates parts, nor what mail programs take for the end of an address. @param {string} text */
+/**
+ * For a part of a link: nothing that separates parts, nor what mail programs take for the end of an address.
+ * @param {string} text
+ */
 export const escaped = (text) =>
   encodeURIComponent(text)
     .replace(/%(?:2C|3A|2F|2B)/g, (code) => decodeURIComponent(code))
@@ -72,7 +76,12 @@ export function polesOf(text) {
   return poles.length === 4 && near && closed ? /** @type {Poles} */ (poles) : undefined;
 }
 
-/** Every leaf of an object under its dotted path; arrays are leaves. @param {any} value @param {string} [path] @returns {[string, Leaf][]} */
+/**
+ * Every leaf of an object under its dotted path; arrays are leaves.
+ * @param {any} value
+ * @param {string} [path]
+ * @returns {[string, Leaf][]}
+ */
 export function leaves(value, path = '') {
   if (value === undefined) return [];
   if (value === null || typeof value !== 'object' || Array.isArray(value)) return [[path, value]];
@@ -82,7 +91,12 @@ export function leaves(value, path = '') {
 /** @param {Leaf|undefined} a @param {Leaf|undefined} b */
 const same = (a, b) => Object.is(a, b) || (typeof a === 'object' && JSON.stringify(a) === JSON.stringify(b));
 
-/** What must be written so that `base` becomes `value`: leaves that differ, and empty ones that are gone. @param {any} value @param {any} base @returns {[string, string][]} path, text */
+/**
+ * What must be written so that `base` becomes `value`: leaves that differ, and empty ones that are gone.
+ * @param {any} value
+ * @param {any} base
+ * @returns {[string, string][]} path, text
+ */
 export function differences(value, base) {
   const [own, old] = [new Map(leaves(value)), new Map(leaves(base))];
   const gone = [...old.keys()]
@@ -98,7 +112,10 @@ export function differences(value, base) {
 
 /**
  * Sets a leaf, or takes it away with the parents that it leaves empty.
- * @param {any} target changed in place @param {string} path @param {Leaf|undefined} leaf @returns {boolean} whether the path can be one
+ * @param {any} target changed in place
+ * @param {string} path
+ * @param {Leaf|undefined} leaf
+ * @returns {boolean} whether the path can be one
  */
 export function setLeaf(target, path, leaf) {
   const [key, ...rest] = path.split('.');

@@ -12,7 +12,11 @@ export class LockedControls {
     this.root = root;
   }
 
-  /** Gives back what other locks held; before the panels, which disable what their own state forbids. @param {import('../types.js').State} state @returns {boolean} whether the locks are others */
+  /**
+   * Gives back what other locks held; before the panels, which disable what their own state forbids.
+   * @param {import('../types.js').State} state
+   * @returns {boolean} whether the locks are others
+   */
   release({ locks }) {
     const key = locks.join();
     if (key === this.#key) return false;

@@ -1,11 +1,15 @@
 /**
- * The whole state as the fragment of an address, and back: `#v1&preset=quanser-aero&p=-5,-4,-3+2j,-3-2j&step.theta=5deg`. Pure.
+ * The whole state as the fragment of an address, and back:
+ * `#v1&preset=quanser-aero&p=-5,-4,-3+2j,-3-2j&step.theta=5deg`. Pure.
  *
- * Written is what differs from the preset's proposal. `p`: the four poles. `pi`: k_p, T_i of pitch, k_p, T_i of yaw. `set.…`: parameters; `limits.…`; `step.…`: references;
- * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`, `spread`, `req.…`: what is shown. `lock`: what is
- * locked. `pin`: a pinned design, its parts parted by `~`. `at`: the place on the page. A part that cannot be read is named and left out; the rest is restored.
+ * Written is what differs from the preset's proposal. `p`: the four poles. `pi`: k_p, T_i of pitch, k_p, T_i of yaw.
+ * `set.…`: parameters; `limits.…`; `step.…`: references;
+ * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`,
+ * `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`. `at`: the
+ * place on the page. A part that cannot be read is named and left out; the rest is restored.
  *
- * The format is part of the page's contract: a change that an old reader would misread takes a new version, and the reader of the old one stays.
+ * The format is part of the page's contract: a change that an old reader would misread takes a new version, and the
+ * reader of the old one stays.
  * @typedef {import('../types.js').Design} Design
  * @typedef {import('../types.js').State} State
  * @typedef {import('../types.js').Preset} Preset
@@ -69,7 +73,13 @@ function designParts(design, presets) {
 /** @param {[string, string][]} parts @param {string} separator */
 const joined = (parts, separator) => parts.map(([key, text]) => `${key}=${escaped(text)}`).join(separator);
 
-/** @param {State} state @param {Known} known @param {string|null} [place] @param {number} [most] the length that pins may make it @returns {string} with its #; empty while there is no design */
+/**
+ * @param {State} state
+ * @param {Known} known
+ * @param {string|null} [place]
+ * @param {number} [most] the length that pins may make it
+ * @returns {string} with its #; empty while there is no design
+ */
 export function linkOf(state, { presets }, place = null, most = MOST) {
   const { design, motion, showLinear, showMarks, spread, requirements, locks, pins } = state;
   if (!design) return '';
@@ -88,7 +98,14 @@ export function linkOf(state, { presets }, place = null, most = MOST) {
   return link.length + pinned.length <= most ? link + pinned : link;
 }
 
-/** Why a leaf cannot be what the link says, or nothing. @param {string} path @param {any} leaf @param {any} base what the preset proposes there @param {Known} known @param {Preset} preset */
+/**
+ * Why a leaf cannot be what the link says, or nothing.
+ * @param {string} path
+ * @param {any} leaf
+ * @param {any} base what the preset proposes there
+ * @param {Known} known
+ * @param {Preset} preset
+ */
 function objection(path, leaf, base, { methods }, preset) {
   const [top, key] = path.split('.');
   if (typeof leaf === 'number' && !Number.isFinite(leaf)) return 'not a finite number';
@@ -122,7 +139,13 @@ const at = (object, path) =>
       object,
     );
 
-/** @param {[string, string][]} parts those of a design @param {Known} known @param {Trouble[]} trouble @param {string} [where] @returns {Design} */
+/**
+ * @param {[string, string][]} parts those of a design
+ * @param {Known} known
+ * @param {Trouble[]} trouble
+ * @param {string} [where]
+ * @returns {Design}
+ */
 function readDesign(parts, known, trouble, where = '') {
   const complain = (/** @type {string} */ part, /** @type {string} */ why) => trouble.push({ part: where + part, why });
   const name = parts.find(([key]) => key === 'preset')?.[1];
@@ -177,7 +200,13 @@ const split = (text, separator) =>
       return i < 0 ? [unescaped(part), ''] : [unescaped(part.slice(0, i)), unescaped(part.slice(i + 1))];
     });
 
-/** @param {string} raw @param {Known} known @param {Trouble[]} trouble @param {number} order @returns {PinnedDesign[]} */
+/**
+ * @param {string} raw
+ * @param {Known} known
+ * @param {Trouble[]} trouble
+ * @param {number} order
+ * @returns {PinnedDesign[]}
+ */
 function readPin(raw, known, trouble, order) {
   const [index, name, ...parts] = raw.split('~');
   if (!/^\d{1,3}$/.test(index) || name === undefined) {
@@ -238,7 +267,8 @@ function readFirst(body, known) {
 const READERS = { 1: readFirst };
 
 /**
- * What an address holds. Without a design where the fragment is none of ours: then it is a place on the page, or nothing.
+ * What an address holds. Without a design where the fragment is none of ours: then it is a place on the page, or
+ * nothing.
  * @param {string} hash @param {Known} known @returns {Link}
  */
 export function readLink(hash, known) {

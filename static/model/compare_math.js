@@ -1,5 +1,6 @@
 /**
- * What is read off the comparisons: the best of a column, the worse of two motors, how poles are dealt, and where Ĝ(jω) is dominant. Pure.
+ * What is read off the comparisons: the best of a column, the worse of two motors, how poles are dealt, and where Ĝ(jω)
+ * is dominant. Pure.
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {{rows: number[][], columns: number[][]}} Dominance  off-diagonal over diagonal size, one pair a frequency
  */
@@ -10,7 +11,8 @@ export const logSpaced = (from, to, count) =>
   Array.from({ length: count }, (_, k) => Number((from * (to / from) ** (k / (count - 1))).toPrecision(9)));
 
 /**
- * The rows whose figure is best: the least cost, and all that cost or read the same. Where most are alike, none stands out.
+ * The rows whose figure is best: the least cost, and all that cost or read the same. Where most are alike, none stands
+ * out.
  * @param {(number|undefined)[]} costs @param {string[]} texts @returns {Set<number>}
  */
 export function best(costs, texts) {
@@ -22,8 +24,10 @@ export function best(costs, texts) {
 }
 
 /**
- * The smaller margins of both motors; a gain margin that is missing is infinite. Without any margin (unstable) undefined.
- * @param {Record<string, {gain_margin?: number, phase_margin?: number}>|undefined} margins @returns {{gain: number, phase: number}|undefined}
+ * The smaller margins of both motors; a gain margin that is missing is infinite. Without any margin (unstable)
+ * undefined.
+ * @param {Record<string, {gain_margin?: number, phase_margin?: number}>|undefined} margins
+ * @returns {{gain: number, phase: number}|undefined}
  */
 export function worseMargins(margins) {
   const both = Object.values(margins ?? {});
@@ -34,7 +38,10 @@ export function worseMargins(margins) {
   };
 }
 
-/** Each motor over both single steps: the higher peak, the longer share of time at the limit. @param {Record<string, any>|undefined} steps */
+/**
+ * Each motor over both single steps: the higher peak, the longer share of time at the limit.
+ * @param {Record<string, any>|undefined} steps
+ */
 export function hardest(steps) {
   const of = (/** @type {string} */ name) => {
     const both = Object.values(steps ?? {})
@@ -51,13 +58,21 @@ export function hardest(steps) {
 export const pairText = ([a, b]) =>
   a.im === 0 ? `${significant(a.re, 3)}, ${significant(b.re, 3)}` : `${fixed(a.re)} ± ${fixed(Math.abs(a.im))}j`;
 
-/** Conjugates first, so that any four poles stay two closed pairs, and in one order however they are dealt. @param {readonly Complex[]} poles @returns {Complex[]} */
+/**
+ * Conjugates first, so that any four poles stay two closed pairs, and in one order however they are dealt.
+ * @param {readonly Complex[]} poles
+ * @returns {Complex[]}
+ */
 export const inOrder = (poles) =>
   [...poles].sort(
     (a, b) => Number(a.im === 0) - Number(b.im === 0) || a.re - b.re || Math.abs(a.im) - Math.abs(b.im) || a.im - b.im,
   );
 
-/** Whether both deal the same poles to pitch, and so to yaw. @param {readonly Complex[]} a @param {readonly Complex[]} b */
+/**
+ * Whether both deal the same poles to pitch, and so to yaw.
+ * @param {readonly Complex[]} a
+ * @param {readonly Complex[]} b
+ */
 export function sameSplit(a, b) {
   const text = (/** @type {readonly Complex[]} */ poles) =>
     [poles.slice(0, 2), poles.slice(2)].map((pair) =>
@@ -88,7 +103,11 @@ function where(w, ratio) {
   return `except between ${at(first)} and ${at(last)}`;
 }
 
-/** Whether Ĝ(jω) is diagonally dominant, as the paper says of its rig. @param {number[]} w rad/s @param {Dominance} dominance */
+/**
+ * Whether Ĝ(jω) is diagonally dominant, as the paper says of its rig.
+ * @param {number[]} w rad/s
+ * @param {Dominance} dominance
+ */
 export function dominanceWords(w, dominance) {
   const kinds = [largest(dominance.rows), largest(dominance.columns)];
   const [rows, columns] = kinds.map((ratio) => where(w, ratio));

@@ -1,7 +1,9 @@
 /**
- * The experiment's options: what they are unless someone says otherwise, how they change, and what differs in words. Pure.
+ * The experiment's options: what they are unless someone says otherwise, how they change, and what differs in words.
+ * Pure.
  *
- * Besides its steps and its duration a scenario holds only what differs from this, in the contract's names and units: what is absent is standard.
+ * Besides its steps and its duration a scenario holds only what differs from this, in the contract's names and units:
+ * what is absent is standard.
  * @typedef {import('../types.js').Scenario} Scenario
  * @typedef {import('../types.js').Digital} Digital
  * @typedef {import('../types.js').Disturbance} Disturbance
@@ -9,7 +11,10 @@
  */
 import { DEGREE, fixed, significant } from '../text/index.js';
 
-/** @type {{saturation: boolean, anti_windup: NonNullable<Scenario['anti_windup']>, travel_stops: boolean, trim_feedforward: boolean, rtol: number}} */
+/**
+ * @type {{saturation: boolean, anti_windup: NonNullable<Scenario['anti_windup']>, travel_stops: boolean,
+ *   trim_feedforward: boolean, rtol: number}}
+ */
 export const STANDARD = {
   saturation: true,
   anti_windup: 'clamping',
@@ -18,13 +23,22 @@ export const STANDARD = {
   rtol: 1e-5,
 };
 
-/** The rig's own controller. @type {{sample_time: number, delay: boolean, rates: 'filtered'|'true', noise: number, seed: number}} */
+/**
+ * The rig's own controller.
+ * @type {{sample_time: number, delay: boolean, rates: 'filtered'|'true', noise: number, seed: number}}
+ */
 export const DIGITAL = { sample_time: 0.002, delay: false, rates: 'filtered', noise: 0, seed: 0 };
 
 /** What the server's cloud of uncertain rigs does not know. */
 const NOT_IN_CLOUD = ['digital', 'disturbance'];
 
-/** Without what is absent or standard. @template {object} T @param {T} values @param {Record<string, unknown>} standard @returns {T} */
+/**
+ * Without what is absent or standard.
+ * @template {object} T
+ * @param {T} values
+ * @param {Record<string, unknown>} standard
+ * @returns {T}
+ */
 const differing = (values, standard) =>
   /** @type {T} */ (
     Object.fromEntries(
@@ -39,13 +53,22 @@ export const standard = ({ reference, duration }) => ({ reference, duration });
 export const isStandard = (scenario) =>
   Object.keys(scenario).every((name) => name === 'reference' || name === 'duration');
 
-/** A tracking time belongs to back-calculation and goes with it. @param {Scenario} scenario @param {Partial<Scenario>} part undefined: standard @returns {Scenario} */
+/**
+ * A tracking time belongs to back-calculation and goes with it.
+ * @param {Scenario} scenario
+ * @param {Partial<Scenario>} part undefined: standard
+ * @returns {Scenario}
+ */
 export function withOption(scenario, part) {
   const after = differing({ ...scenario, ...part }, STANDARD);
   return after.anti_windup === 'back-calculation' ? after : differing({ ...after, tracking_time: undefined }, {});
 }
 
-/** @param {Scenario} scenario @param {Partial<Digital>|null} part of the digital controller; null: continuous @returns {Scenario} */
+/**
+ * @param {Scenario} scenario
+ * @param {Partial<Digital>|null} part of the digital controller; null: continuous
+ * @returns {Scenario}
+ */
 export const withDigital = (scenario, part) =>
   withOption(scenario, { digital: part ? differing({ ...scenario.digital, ...part }, DIGITAL) : undefined });
 
@@ -57,13 +80,24 @@ export const withDisturbance = (scenario, part) =>
       : undefined,
   });
 
-/** @param {Scenario} scenario @param {'theta'|'psi'} axis @param {number|undefined} angle rad; undefined: at rest @returns {Scenario} */
+/**
+ * @param {Scenario} scenario
+ * @param {'theta'|'psi'} axis
+ * @param {number|undefined} angle rad; undefined: at rest
+ * @returns {Scenario}
+ */
 export function withStart(scenario, axis, angle) {
   const initial = differing({ ...scenario.initial, [axis]: angle }, {});
   return withOption(scenario, { initial: Object.keys(initial).length ? initial : undefined });
 }
 
-/** @param {Scenario} scenario @param {'theta'|'psi'} axis @param {number|undefined} counts undefined: the rig's @param {Encoders} rig @returns {Scenario} */
+/**
+ * @param {Scenario} scenario
+ * @param {'theta'|'psi'} axis
+ * @param {number|undefined} counts undefined: the rig's
+ * @param {Encoders} rig
+ * @returns {Scenario}
+ */
 export function withEncoder(scenario, axis, counts, rig) {
   const encoders = { ...rig, ...scenario.digital?.encoders, [axis]: counts ?? rig[axis] };
   return withDigital(scenario, {
@@ -120,7 +154,11 @@ function disturbanceWords({ disturbance }) {
   return [`disturbance ${volts || '0 V'} at ${significantShort(at)} s`];
 }
 
-/** What differs from the standard experiment, in the order in which it matters. @param {Scenario} scenario @returns {string[]} */
+/**
+ * What differs from the standard experiment, in the order in which it matters.
+ * @param {Scenario} scenario
+ * @returns {string[]}
+ */
 export function experimentWords(scenario) {
   const { saturation, anti_windup, travel_stops, trim_feedforward } = { ...STANDARD, ...scenario };
   const { initial = {}, tracking_time, rtol } = scenario;

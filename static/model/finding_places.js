@@ -37,7 +37,11 @@ const PLACES = {
   nearly_uncontrollable: testid('rig-K_pp'),
 };
 
-/** Which of the placed poles a finding is about, by how it is measured. @type {Record<string, (p: import('../types.js').Complex, index: number, s: Pick<State, 'requirements'|'reply'>) => number>} */
+/**
+ * Which of the placed poles a finding is about, by how it is measured.
+ * @type {Record<string, (p: import('../types.js').Complex, index: number, s: Pick<State, 'requirements'|'reply'>) =>
+ *   number>}
+ */
 const POLES = {
   right_half_plane: (p) => p.re,
   imaginary_axis: (p) => p.re,
@@ -52,7 +56,11 @@ const POLES = {
     (verdictOf(reply, AXES[index < 2 ? 0 : 1], requirements)?.met === false ? 1e6 : 0) + p.re,
 };
 
-/** @param {string} code @param {Pick<State, 'design'|'requirements'|'problem'|'reply'>} state @returns {string} a selector; empty where it belongs to no place */
+/**
+ * @param {string} code
+ * @param {Pick<State, 'design'|'requirements'|'problem'|'reply'>} state
+ * @returns {string} a selector; empty where it belongs to no place
+ */
 export function placeOf(code, { design, requirements, problem, reply }) {
   if (problem) return problem.field ? `[data-field="${CSS_SAFE.test(problem.field) ? problem.field : ''}"]` : '';
   const measure = POLES[code];
@@ -68,7 +76,8 @@ const first = (findings, codes) =>
 
 /**
  * What is said at the loops and at the plots, each in few words with its whole sentence behind.
- * @param {Pick<State, 'reply'|'problem'>} state @returns {Record<'loops'|'theta'|'V_p'|'V_y', {text: string, severity: string, message: string}|null>}
+ * @param {Pick<State, 'reply'|'problem'>} state
+ * @returns {Record<'loops'|'theta'|'V_p'|'V_y', {text: string, severity: string, message: string}|null>}
  */
 export function remarksOf({ reply, problem }) {
   const findings = problem ? [] : (reply?.findings ?? []);

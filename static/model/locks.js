@@ -1,7 +1,8 @@
 /**
  * What a link can lock, for a class: parts of the design that keep the values with which the link opened. Pure.
  * @typedef {import('../types.js').Design} Design
- * @typedef {{name: string, keys: (keyof Design)[], controls: string}} Lock  controls: where the page changes them, as a selector
+ * @typedef {{name: string, keys: (keyof Design)[], controls: string}} Lock controls: where the page changes them, as a
+ *   selector
  */
 
 /** @type {Record<string, Lock>} */
@@ -22,12 +23,19 @@ export const LOCKS = {
     name: 'outer loops',
     keys: ['outer', 'pairing', 'decoupler', 'loops'],
     controls:
-      '#loops [data-testid^=outer-], #loops .pis input, [data-field=pairing], [data-field=decoupler], [data-testid=suggest-pi], [data-testid=pair-advised]',
+      '#loops [data-testid^=outer-], #loops .pis input, [data-field=pairing], [data-field=decoupler], ' +
+      '[data-testid=suggest-pi], [data-testid=pair-advised]',
   },
   scenario: { name: 'steps', keys: ['scenario'], controls: '#scenario [data-field^=scenario]' },
 };
 
-/** The change, but for what is locked; the design itself where nothing is left of the change. @param {Design} before @param {Design} after @param {string[]} locks @returns {Design} */
+/**
+ * The change, but for what is locked; the design itself where nothing is left of the change.
+ * @param {Design} before
+ * @param {Design} after
+ * @param {string[]} locks
+ * @returns {Design}
+ */
 export function guarded(before, after, locks) {
   if (!locks.length || after === before) return after;
   /** @type {any} */ const kept = { ...after };

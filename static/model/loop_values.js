@@ -15,8 +15,12 @@ export function inverseOf([[a, b], [c, d]]) {
 }
 
 /**
- * Which controller's output reaches which command, rows v_p, v_y, columns pitch, yaw: the pairing with its signs, or the static decoupler scaled so that
- * each loop keeps the gain of the channel it is paired with. @param {number[][]|undefined} G0 @param {'diagonal'|'cross'} pairing @param {boolean} decoupler @returns {Two|undefined}
+ * Which controller's output reaches which command, rows v_p, v_y, columns pitch, yaw: the pairing with its signs, or
+ * the static decoupler scaled so that each loop keeps the gain of the channel it is paired with.
+ * @param {number[][]|undefined} G0
+ * @param {'diagonal'|'cross'} pairing
+ * @param {boolean} decoupler
+ * @returns {Two|undefined}
  */
 export function mixingOf(G0, pairing, decoupler) {
   if (pairing === 'diagonal' && !decoupler)

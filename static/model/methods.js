@@ -49,7 +49,10 @@ export function nameOf(way) {
   return STRUCTURES.find(([own]) => own === key)?.[1] ?? NAMES[way.method] ?? way.title ?? way.method;
 }
 
-/** Whether the poles in the s-plane are those that the method gives the loop. @param {import('../types.js').State} state */
+/**
+ * Whether the poles in the s-plane are those that the method gives the loop.
+ * @param {import('../types.js').State} state
+ */
 export function placesPoles({ design, methods }) {
   return methods.find((m) => m.name === design?.method)?.places_poles !== false;
 }

@@ -33,8 +33,10 @@ const volts = (/** @type {number|undefined} */ v) => (v === undefined ? '–' : 
 const gain = (/** @type {number|undefined} */ v) => (v === Infinity ? '∞' : decibel(v));
 
 /**
- * `of` gives the figure, `text` shows it, `shift` shows a difference, `sign` is 1 where less is better and −1 where more is.
- * @typedef {{id: string, axis?: 'theta'|'psi', name: string, sub?: string, title: string, sign: 1|-1, of: (r: Reply) => number|undefined, text: (v: number|undefined) => string, shift?: (d: number, v: number) => string}} Figure
+ * `of` gives the figure, `text` shows it, `shift` shows a difference, `sign` is 1 where less is better and −1 where
+ * more is.
+ * @typedef {{id: string, axis?: 'theta'|'psi', name: string, sub?: string, title: string, sign: 1|-1, of: (r: Reply) =>
+ *   number|undefined, text: (v: number|undefined) => string, shift?: (d: number, v: number) => string}} Figure
  * @type {Figure[]}
  */
 export const FIGURES = [
@@ -154,7 +156,12 @@ export const FIGURES = [
   },
 ];
 
-/** @param {Figure} figure @param {number|undefined} v @param {number|undefined} reference the present design's @returns {string} with its sign; empty where they read the same */
+/**
+ * @param {Figure} figure
+ * @param {number|undefined} v
+ * @param {number|undefined} reference the present design's
+ * @returns {string} with its sign; empty where they read the same
+ */
 export function shiftText(figure, v, reference) {
   if (
     v === undefined ||
@@ -171,7 +178,8 @@ export function shiftText(figure, v, reference) {
 
 /**
  * A row for each reply, a cell for each figure. The best of a column is marked; where most are alike, none is.
- * @param {(Reply|null)[]} replies the present design's first @returns {{text: string, shift: string, best: boolean, better: boolean, worse: boolean}[][]}
+ * @param {(Reply|null)[]} replies the present design's first
+ * @returns {{text: string, shift: string, best: boolean, better: boolean, worse: boolean}[][]}
  */
 export function differenceTable(replies) {
   const values = replies.map((r) => FIGURES.map((f) => (r ? f.of(r) : undefined)));

@@ -32,7 +32,12 @@ function withPair(poles, pair, a, b) {
   return next;
 }
 
-/** Sets one pole of a complex pair; its conjugate follows. @param {readonly Complex[]} poles @param {number} index @param {Complex} to */
+/**
+ * Sets one pole of a complex pair; its conjugate follows.
+ * @param {readonly Complex[]} poles
+ * @param {number} index
+ * @param {Complex} to
+ */
 export function setComplex(poles, index, to) {
   const conjugate = { re: to.re, im: -to.im };
   const [a, b] = index % 2 === 0 ? [to, conjugate] : [conjugate, to];
@@ -48,9 +53,9 @@ export function setReal(poles, index, re) {
 }
 
 /**
- * One step of a drag. A complex pair follows the pointer and turns into a double real pole within `snap` of the axis; a real pole slides
- * along the axis and, once it has met its partner (within `meet`), leaves the axis together with it. `together` remembers within one
- * gesture that the pair moves as one.
+ * One step of a drag. A complex pair follows the pointer and turns into a double real pole within `snap` of the axis; a
+ * real pole slides along the axis and, once it has met its partner (within `meet`), leaves the axis together with it.
+ * `together` remembers within one gesture that the pair moves as one.
  * @param {readonly Complex[]} poles
  * @param {number} index
  * @param {Complex} to
@@ -69,8 +74,8 @@ export function drag(poles, index, to, { snap, meet, together }) {
 }
 
 /**
- * One press of a key. Up and down leave the axis only where the pair has met: there is no other way a real pair can turn complex. So that it can
- * meet, a pole that would step onto its partner, or over it, stops there.
+ * One press of a key. Up and down leave the axis only where the pair has met: there is no other way a real pair can
+ * turn complex. So that it can meet, a pole that would step onto its partner, or over it, stops there.
  * @param {readonly Complex[]} poles @param {number} index @param {Complex} by
  * @returns {Poles}
  */

@@ -1,6 +1,7 @@
 /**
- * What a designer asks of the response: to settle soon enough and not to overshoot by more. The verdict is on the rig's steps. The s-plane's hatching is a
- * guide: there a pair alone, as a second-order system, would miss it: settling to 2 % within 4/σ, overshoot e^(−πζ/√(1 − ζ²)). Pure.
+ * What a designer asks of the response: to settle soon enough and not to overshoot by more. The verdict is on the rig's
+ * steps. The s-plane's hatching is a guide: there a pair alone, as a second-order system, would miss it: settling to 2
+ * % within 4/σ, overshoot e^(−πζ/√(1 − ζ²)). Pure.
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {import('../types.js').Requirements} Requirements
  */
@@ -18,7 +19,13 @@ export const RANGES = {
   overshoot: { min: 0, max: 100, positive: false },
 };
 
-/** With one of them changed. @param {Requirements} r @param {string} name @param {unknown} value @returns {Requirements|null} null where that cannot be asked */
+/**
+ * With one of them changed.
+ * @param {Requirements} r
+ * @param {string} name
+ * @param {unknown} value
+ * @returns {Requirements|null} null where that cannot be asked
+ */
 export function asking(r, name, value) {
   if (name !== 'settling' && name !== 'overshoot') return null;
   const { min, max, positive } = RANGES[name];
@@ -42,7 +49,11 @@ export function leastDamping({ overshoot }) {
   return -log / Math.hypot(Math.PI, log);
 }
 
-/** What a pole alone would miss. One that grows never settles, and overshoots without end. @param {Complex} p @param {Requirements} r */
+/**
+ * What a pole alone would miss. One that grows never settles, and overshoots without end.
+ * @param {Complex} p
+ * @param {Requirements} r
+ */
 export function missed(p, { settling, overshoot }) {
   const it = character(p);
   return {
@@ -52,23 +63,39 @@ export function missed(p, { settling, overshoot }) {
   };
 }
 
-/** Where a pole lies in the hatched plane, which is a guide; empty where it lies outside. @param {Complex} p @param {Requirements} r @returns {string} */
+/**
+ * Where a pole lies in the hatched plane, which is a guide; empty where it lies outside.
+ * @param {Complex} p
+ * @param {Requirements} r
+ * @returns {string}
+ */
 export function guideWords(p, r) {
   const m = missed(p, r);
   return [m.settling && t('slower'), m.overshoot && t('less damped')].filter(Boolean).join(t(' and '));
 }
 
-/** @typedef {'theta'|'psi'} Axis @typedef {{met: boolean, settling: boolean, overshoot: boolean, text: string}} Verdict  of each requirement whether it is missed */
+/**
+ * @typedef {'theta'|'psi'} Axis
+ * @typedef {{met: boolean, settling: boolean, overshoot: boolean, text: string}} Verdict of each requirement whether it
+ *   is missed
+ */
 /** @type {Record<Axis, string>} */
 const NAMES = { theta: 'pitch', psi: 'yaw' };
 export const AXES = /** @type {Axis[]} */ (['theta', 'psi']);
 
-/** Whether a figure of the response misses what is asked; one that does not come about does. @param {number|undefined} value @param {number|null} asked */
+/**
+ * Whether a figure of the response misses what is asked; one that does not come about does.
+ * @param {number|undefined} value
+ * @param {number|null} asked
+ */
 export const misses = (value, asked) => asked !== null && !((value ?? Infinity) <= asked * SLACK);
 
 /**
  * The one verdict on an axis: on the rig's own response, as the table shows it.
- * @param {import('../types.js').Reply|null} reply @param {Axis} axis @param {Requirements} r @returns {Verdict|null} null where nothing is asked or the axis is not stepped
+ * @param {import('../types.js').Reply|null} reply
+ * @param {Axis} axis
+ * @param {Requirements} r
+ * @returns {Verdict|null} null where nothing is asked or the axis is not stepped
  */
 export function verdictOf(reply, axis, r) {
   const own = reply?.axis_steps?.[axis]?.nonlinear.metrics?.[axis];
@@ -86,12 +113,18 @@ export function verdictOf(reply, axis, r) {
   };
 }
 
-/** The axes that miss what is asked, in words. @param {import('../types.js').Reply|null} reply @param {Requirements} r @returns {string[]} */
+/**
+ * The axes that miss what is asked, in words.
+ * @param {import('../types.js').Reply|null} reply
+ * @param {Requirements} r
+ * @returns {string[]}
+ */
 export const missing = (reply, r) =>
   AXES.filter((axis) => verdictOf(reply, axis, r)?.met === false).map((axis) => t(NAMES[axis]));
 
 /**
- * The forbidden regions as polygons in the plane, large enough for what is seen: right of −4/T, and outside the wedge of least damping.
+ * The forbidden regions as polygons in the plane, large enough for what is seen: right of −4/T, and outside the wedge
+ * of least damping.
  * @param {{left: number, right: number, bottom: number, top: number}} seen @param {Requirements} r
  * @returns {{settling?: Complex[], overshoot?: Complex[]}}
  */

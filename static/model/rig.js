@@ -1,11 +1,13 @@
 /**
  * The rig's parameters and limits: what they are, and how a design's differ from its preset's. Pure.
  *
- * A design holds only what differs from its preset, in the contract's names and SI units; here the pitch travel is in degrees, as everywhere on the page.
+ * A design holds only what differs from its preset, in the contract's names and SI units; here the pitch travel is in
+ * degrees, as everywhere on the page.
  * @typedef {import('../types.js').Design} Design
  * @typedef {import('../types.js').Preset} Preset
  * @typedef {'parameters'|'limits'} Kind
- * @typedef {{kind: Kind, name: string, meaning: string, unit: string, min: number, max: number, scale: number, free: boolean}} Quantity  in the unit shown; `scale` leads to it from SI; free: may be absent
+ * @typedef {{kind: Kind, name: string, meaning: string, unit: string, min: number, max: number, scale: number, free:
+ *   boolean}} Quantity in the unit shown; `scale` leads to it from SI; free: may be absent
  */
 import { count, DEGREE } from '../text/index.js';
 
@@ -35,7 +37,11 @@ export const quantities = (preset) => [
 export const proposed = (preset, { kind, name }) =>
   /** @type {Record<string, number|undefined>} */ (preset[kind])[name];
 
-/** Without what a change of units leaves in the last digits. @param {number|undefined} v @param {Quantity} q as shown; NaN where it is free */
+/**
+ * Without what a change of units leaves in the last digits.
+ * @param {number|undefined} v
+ * @param {Quantity} q as shown; NaN where it is free
+ */
 const shown = (v, { scale }) => (v === undefined ? NaN : Number((v * scale).toPrecision(12)));
 
 /** @param {Preset} preset @param {Quantity} q as shown; NaN where it is free */
@@ -50,7 +56,14 @@ export function valueOf(design, preset, q) {
 /** @param {Design} design @param {Quantity} q */
 export const isChanged = (design, { kind, name }) => Object.hasOwn(design[kind], name);
 
-/** With one of them changed, or as the preset has it. @param {Design} design @param {Preset} preset @param {Quantity} q @param {number} v as shown; NaN: free @returns {Design} */
+/**
+ * With one of them changed, or as the preset has it.
+ * @param {Design} design
+ * @param {Preset} preset
+ * @param {Quantity} q
+ * @param {number} v as shown; NaN: free
+ * @returns {Design}
+ */
 export function withValue(design, preset, q, v) {
   if (Object.is(v, proposedShown(preset, q))) return without(design, q);
   return { ...design, [q.kind]: { ...design[q.kind], [q.name]: Number.isNaN(v) ? null : v / q.scale } };

@@ -1,8 +1,8 @@
 /**
  * The page's one state, and the only place that changes it. Knows no DOM and no network.
  *
- * `edit` changes the design (what the user chose) and can be undone; `set` changes everything else. Views listen to `change` and read; whoever
- * sends the design listens to `design`.
+ * `edit` changes the design (what the user chose) and can be undone; `set` changes everything else. Views listen to
+ * `change` and read; whoever sends the design listens to `design`.
  * @typedef {import('../types.js').State} State
  * @typedef {import('../types.js').Design} Design
  * @typedef {import('../types.js').Preset} Preset
@@ -122,7 +122,8 @@ export class Store extends EventTarget {
 
   /**
    * Changes the design. Edits with the same gesture in a row are one step of undo.
-   * @param {(d: Design) => Design} change @param {{gesture?: string, stamp?: number}} [how] stamp: time of the input event
+   * @param {(d: Design) => Design} change
+   * @param {{gesture?: string, stamp?: number}} [how] stamp: time of the input event
    */
   edit(change, { gesture, stamp } = {}) {
     const before = this.state.design;

@@ -1,6 +1,10 @@
 /** Round numbers for the ticks of an axis. */
 
-/** A step of 1, 2 or 5 times a power of ten, for about `count` steps in `span`. @param {number} span @param {number} count */
+/**
+ * A step of 1, 2 or 5 times a power of ten, for about `count` steps in `span`.
+ * @param {number} span
+ * @param {number} count
+ */
 export function niceStep(span, count) {
   const raw = span / count;
   const power = 10 ** Math.floor(Math.log10(raw));

@@ -28,7 +28,8 @@ function scaled(values, factor, offset) {
 }
 
 /**
- * One trace in the plots' units. Linear voltages are deviations from trim; with the trim added, both models share one absolute scale.
+ * One trace in the plots' units. Linear voltages are deviations from trim; with the trim added, both models share one
+ * absolute scale.
  * @param {Step|undefined} step @param {Signal} signal @param {boolean} linear
  */
 export function trace(step, signal, linear) {
@@ -71,9 +72,10 @@ export function extent(list) {
 }
 
 /**
- * The vertical range of a plot. It grows at once and shrinks only when much too large, so that a drag does not make the axes dance. A linear trace
- * that runs away may not squeeze what the rig really does.
- * @param {{solid: [number, number]|undefined, dashed: [number, number]|undefined, include: number[], limit?: number, previous?: [number, number]}} what
+ * The vertical range of a plot. It grows at once and shrinks only when much too large, so that a drag does not make the
+ * axes dance. A linear trace that runs away may not squeeze what the rig really does.
+ * @param {{solid: [number, number]|undefined, dashed: [number, number]|undefined, include: number[], limit?: number,
+ *   previous?: [number, number]}} what
  * @returns {[number, number]}
  */
 export function rangeOf({ solid, dashed, include, limit, previous }) {
@@ -99,7 +101,11 @@ export function rangeOf({ solid, dashed, include, limit, previous }) {
   return holds && !tooLarge ? previous : wanted;
 }
 
-/** Index of the sample at a time; samples are evenly spaced. @param {import('../types.js').Series} t @param {number} time */
+/**
+ * Index of the sample at a time; samples are evenly spaced.
+ * @param {import('../types.js').Series} t
+ * @param {number} time
+ */
 export function indexAt(t, time) {
   const last = t.length - 1;
   if (last < 1) return 0;

@@ -1,6 +1,6 @@
 /**
- * The server, as the page sees it: a few REST calls and the live socket. All addresses are relative to the page
- * and name the tab's session, by which a proxy in front of several servers finds the one that knows this tab.
+ * The server, as the page sees it: a few REST calls and the live socket. All addresses are relative to the page and
+ * name the tab's session, by which a proxy in front of several servers finds the one that knows this tab.
  * @typedef {import('../types.js').Connection} Connection
  */
 import { backoff } from './backoff.js';
@@ -12,7 +12,12 @@ const PROTOCOL = 'heli2dof.v1+binary';
 const PATIENCE_MS = 10_000;
 const UNUSUAL = /[^\w\-.~:/?#[\]@!$&'()*+,;=%]/gu; // what RFC 3986 knows in no address, and browsers leave in it
 
-/** What the browser says where no server answers differs from one to another, and helps nobody. @param {string|URL} address @param {RequestInit} options @returns {Promise<Response>} */
+/**
+ * What the browser says where no server answers differs from one to another, and helps nobody.
+ * @param {string|URL} address
+ * @param {RequestInit} options
+ * @returns {Promise<Response>}
+ */
 async function reach(address, options) {
   try {
     return await fetch(address, options);
@@ -74,7 +79,12 @@ export const putRig = (id, rig) => call(sceneAt(id, 'rig'), { method: 'PUT', bod
 /** What cameras need to know of each rig. @returns {Promise<Record<string, import('../scene/cameras.js').RigView>>} */
 export const getRigViews = () => call('scene/rigs');
 
-/** A file that the server makes of a design. @param {string} path @param {unknown} design with scenario @returns {Promise<Blob>} */
+/**
+ * A file that the server makes of a design.
+ * @param {string} path
+ * @param {unknown} design with scenario
+ * @returns {Promise<Blob>}
+ */
 async function fileOf(path, design) {
   const response = await reach(at(path), {
     method: 'POST',
@@ -93,7 +103,12 @@ async function post(path, body, type = 'application/octet-stream') {
   return response;
 }
 
-/** A recorded file, and how its text is to be read where that is not to be judged. @param {Blob} file @param {string} name @param {Record<string, string>} [dialect] */
+/**
+ * A recorded file, and how its text is to be read where that is not to be judged.
+ * @param {Blob} file
+ * @param {string} name
+ * @param {Record<string, string>} [dialect]
+ */
 export const sendRecording = async (file, name, dialect = {}) =>
   (await post(`api/v1/recordings?${new URLSearchParams({ name, ...dialect })}`, file)).json();
 /** Files of one run as one recording. @param {string[]} recordings their ids */
@@ -107,7 +122,12 @@ export const overlayRecording = (id, body) =>
 
 /** The motion of a design. @param {'html'|'viser'} format @param {unknown} design */
 export const recordMotion = (format, design) => fileOf(`api/v1/recording?format=${format}`, design);
-/** A design for another program or for print. @param {string} format @param {string} link that opens it @param {unknown} design */
+/**
+ * A design for another program or for print.
+ * @param {string} format
+ * @param {string} link that opens it
+ * @param {unknown} design
+ */
 export const exportDesign = (format, link, design) =>
   fileOf(`api/v1/export/${format}?${new URLSearchParams({ link: link.replace(UNUSUAL, encodeURIComponent) })}`, design);
 /** The rig in a window of its own. @param {string} id of a session */
@@ -126,8 +146,8 @@ export const identifyAddress = () => socketAddress(at('api/v1/recordings/identif
 export const cloudAddress = () => socketAddress(at('api/v1/robustness'));
 
 /**
- * The live socket. One request is in flight at most; while it is, only the newest one waits. A lost connection is tried again, ever more slowly,
- * and what was last asked is asked again.
+ * The live socket. One request is in flight at most; while it is, only the newest one waits. A lost connection is tried
+ * again, ever more slowly, and what was last asked is asked again.
  */
 export class Live {
   /** @type {WebSocket|null} */ #socket = null;

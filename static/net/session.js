@@ -1,4 +1,7 @@
-/** This tab's session: whose scene it shows, and what a proxy in front of several servers keeps together. And whether the browser can show a scene. */
+/**
+ * This tab's session: whose scene it shows, and what a proxy in front of several servers keeps together. And whether
+ * the browser can show a scene.
+ */
 
 const KEY = 'heli2dof-scene';
 

@@ -1,4 +1,7 @@
-/** How the experiment is run: where it starts, what limits it, which controller, what disturbs it. Folded away; one line says what differs from the standard. */
+/**
+ * How the experiment is run: where it starts, what limits it, which controller, what disturbs it. Folded away; one line
+ * says what differs from the standard.
+ */
 import { experimentWords, isStandard, presetOf, standard } from '../model/index.js';
 import { h, setAttr, setText } from '../ui/index.js';
 import {

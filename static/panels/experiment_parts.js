@@ -37,7 +37,8 @@ export class ScenarioFields {
 
   /**
    * A number; `scale` from the contract's unit to the one shown. Emptied, an optional field changes to undefined.
-   * @param {{id: string, label: string, mark: Node|string, unit?: string, field: string, min: number, max: number, scale?: number, positive?: boolean, integer?: boolean, optional?: boolean,
+   * @param {{id: string, label: string, mark: Node|string, unit?: string, field: string, min: number, max: number,
+   *   scale?: number, positive?: boolean, integer?: boolean, optional?: boolean,
    *   change: (s: Scenario, v: number|undefined) => Scenario}} options
    */
   number({ id, scale = 1, change, ...rest }) {
@@ -50,7 +51,13 @@ export class ScenarioFields {
     });
   }
 
-  /** @param {string} id @param {string} text @param {string} title @param {(s: Scenario, on: boolean) => Scenario} change @param {string} [field] */
+  /**
+   * @param {string} id
+   * @param {string} text
+   * @param {string} title
+   * @param {(s: Scenario, on: boolean) => Scenario} change
+   * @param {string} [field]
+   */
   check(id, text, title, change, field) {
     const input = h('input', {
       type: 'checkbox',
@@ -139,7 +146,8 @@ export class LimitsPart {
         [
           'back-calculation',
           'back-calculation',
-          'the integrals follow what the limits leave of the voltages, with the tracking time (Åström and Hägglund, Advanced PID Control, 2006, section 3.5)',
+          'the integrals follow what the limits leave of the voltages, with the tracking time (Åström and ' +
+            'Hägglund, Advanced PID Control, 2006, section 3.5)',
         ],
       ],
     });
@@ -377,7 +385,8 @@ export class AccuracyPart {
         {
           class: 'select',
           title:
-            'relative tolerance of the adaptive integration; where a finer one changes the picture, the picture was wrong',
+            'relative tolerance of the adaptive integration; where a finer one changes the picture, the picture ' +
+            'was wrong',
         },
         'tolerance',
         this.tolerance,

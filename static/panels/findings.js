@@ -1,4 +1,7 @@
-/** The verdict on the whole loop, and what else is to be said of the design, worst first, in a place that is always kept free for it. */
+/**
+ * The verdict on the whole loop, and what else is to be said of the design, worst first, in a place that is always kept
+ * free for it.
+ */
 import { fixed, say, t } from '../text/index.js';
 import { AXES, placeOf, verdictOf } from '../model/index.js';
 import { h, setText } from '../ui/index.js';
@@ -11,7 +14,10 @@ const SHOWN = 2;
 /** What explains others of its severity, or says what they cost. */
 const CAUSES = ['slow_sampling', 'fast_tracking', 'unlike_linear'];
 
-/** The requirements that the steps miss, in words; empty where they are met or none is asked. @param {import('../types.js').State} state */
+/**
+ * The requirements that the steps miss, in words; empty where they are met or none is asked.
+ * @param {import('../types.js').State} state
+ */
 function missedWords({ reply, requirements }) {
   const [pitch, yaw] = AXES.map((axis) => verdictOf(reply, axis, requirements)).map((v) =>
     v?.met === false ? v.text : '',

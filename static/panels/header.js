@@ -1,4 +1,7 @@
-/** The top line: which rig, where its numbers come from, what of them is changed, one step back or forth, pin and link, and whether the server is there. */
+/**
+ * The top line: which rig, where its numbers come from, what of them is changed, one step back or forth, pin and link,
+ * and whether the server is there.
+ */
 import { say } from '../text/index.js';
 import { designOf, lockNames, presetOf } from '../model/index.js';
 import { h, setAttr, setText } from '../ui/index.js';
@@ -9,7 +12,12 @@ import { ShareButtons } from './share.js';
 const STATUS = { connecting: 'connecting…', open: 'live', lost: 'connection lost' };
 
 export class HeaderPanel {
-  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store @param {import('../link/address.js').Address} address @param {{tour: (from: HTMLElement) => void, projector: import('../ui/projector.js').Projector}} aids */
+  /**
+   * @param {HTMLElement} root
+   * @param {import('../model/store.js').Store} store
+   * @param {import('../link/address.js').Address} address
+   * @param {{tour: (from: HTMLElement) => void, projector: import('../ui/projector.js').Projector}} aids
+   */
   constructor(root, store, address, { tour, projector }) {
     this.store = store;
     this.select = h('select', {

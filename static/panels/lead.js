@@ -1,9 +1,16 @@
-/** Leads to a place on the page: opens what hides it, brings it into sight, gives it the focus, and marks it until the focus leaves. */
+/**
+ * Leads to a place on the page: opens what hides it, brings it into sight, gives it the focus, and marks it until the
+ * focus leaves.
+ */
 
 /** @param {Element} node */
 const usable = (node) => node.checkVisibility?.() !== false && !(/** @type {HTMLInputElement} */ (node).disabled);
 
-/** @param {string} selector of what takes the focus; its panel does where it is hidden or disabled @param {Document} [page] @returns {boolean} whether there was such a place */
+/**
+ * @param {string} selector of what takes the focus; its panel does where it is hidden or disabled
+ * @param {Document} [page]
+ * @returns {boolean} whether there was such a place
+ */
 export function leadTo(selector, page = document) {
   /** @type {HTMLElement|SVGElement|null} */ let node = selector ? page.querySelector(selector) : null;
   if (!node) return false;

@@ -1,4 +1,6 @@
-/** The outer loops: on or off, their PI values, how they are paired; and the method that makes the inner loop's gain. */
+/**
+ * The outer loops: on or off, their PI values, how they are paired; and the method that makes the inner loop's gain.
+ */
 import { bodyOf, FULL_RANK, keyOf, nameOf, partOf, STRUCTURES } from '../model/index.js';
 import { suggestLoops } from '../net/index.js';
 import { Choice, h, NumberField, setText, symbol } from '../ui/index.js';
@@ -108,7 +110,12 @@ export class LoopsPanel {
     this.store.edit((d) => ({ ...d, ...part }));
   }
 
-  /** @param {string} text @param {string} key @param {string[][]} options value, name, explanation @param {(value: string) => Partial<import('../types.js').Design>} read */
+  /**
+   * @param {string} text
+   * @param {string} key
+   * @param {string[][]} options value, name, explanation
+   * @param {(value: string) => Partial<import('../types.js').Design>} read
+   */
   #select(text, key, options, read) {
     const select = h(
       'select',

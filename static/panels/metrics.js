@@ -1,4 +1,7 @@
-/** How well it does, in figures: one column for the step of each axis, from the nonlinear rig; the linear model's in parentheses where they differ. */
+/**
+ * How well it does, in figures: one column for the step of each axis, from the nonlinear rig; the linear model's in
+ * parentheses where they differ.
+ */
 import {
   brief,
   decibel,
@@ -45,7 +48,11 @@ export function motorText(m, name) {
   return limit ? `at ${limit}` : volts(motor(m, name).peak);
 }
 
-/** What the linear model asks of a motor, trim included. @param {import('../types.js').Step|undefined} step @param {Motor} name */
+/**
+ * What the linear model asks of a motor, trim included.
+ * @param {import('../types.js').Step|undefined} step
+ * @param {Motor} name
+ */
 export function linearPeak(step, name) {
   if (!step) return undefined;
   let peak = 0;
@@ -54,11 +61,15 @@ export function linearPeak(step, name) {
 }
 
 /**
- * One figure of an axis' step. `value` is compared with the linear model's and shown by `text`; `most` replaces that text where the rig has something else to say.
- * @typedef {{id: string, group: string, more?: boolean, name: () => (Node|string)[], title: string, text: (v: number|undefined) => string, value: (m: any, axis: Axis, step?: import('../types.js').Step) => number|undefined,
- *   least?: number, linear?: (step: import('../types.js').Step|undefined, axis: Axis) => number|undefined, most?: (m: any, axis: Axis) => string|undefined}} Figure
+ * One figure of an axis' step. `value` is compared with the linear model's and shown by `text`; `most` replaces that
+ * text where the rig has something else to say.
+ * @typedef {{id: string, group: string, more?: boolean, name: () => (Node|string)[], title: string, text: (v:
+ *   number|undefined) => string, value: (m: any, axis: Axis, step?: import('../types.js').Step) => number|undefined,
+ *   least?: number, linear?: (step: import('../types.js').Step|undefined, axis: Axis) => number|undefined, most?: (m:
+ *   any, axis: Axis) => string|undefined}} Figure
  * One figure of the loop: per motor, or of both at once.
- * @typedef {{id: string, group: string, more?: boolean, name: () => (Node|string)[], title: string, margin?: (g: any) => string, both?: (s: NonNullable<Reply['sensitivity']>) => string}} Robustness
+ * @typedef {{id: string, group: string, more?: boolean, name: () => (Node|string)[], title: string, margin?: (g: any)
+ *   => string, both?: (s: NonNullable<Reply['sensitivity']>) => string}} Robustness
  */
 const OGATA = 'Ogata, Modern Control Engineering, 2010, section 5.3';
 const GRAHAM = 'Graham and Lathrop, Trans. AIEE 72 (1953) 273';
@@ -72,7 +83,9 @@ const motorRows = (name) => [
     id: name,
     group: 'motors',
     name: () => [symbol('V', name[2]), ' peak'],
-    title: `Largest voltage of the ${name === 'V_p' ? 'pitch' : 'yaw'} motor, trim included; or the share of time at its limit. In parentheses what the linear model asks for.`,
+    title:
+      `Largest voltage of the ${name === 'V_p' ? 'pitch' : 'yaw'} motor, trim included; or the share of time ` +
+      'at its limit. In parentheses what the linear model asks for.',
     text: volts,
     value: (m) => motor(m, name).peak,
     least: 0.5,
@@ -85,7 +98,8 @@ const motorRows = (name) => [
     more: true,
     name: () => [symbol('V', name[2]), ' effort, V²s'],
     title:
-      '∫ (V − V_trim)² dt over the time shown: what control costs beyond holding still; the inputs’ part of the quadratic cost (Anderson and Moore, Optimal Control, 1990)',
+      '∫ (V − V_trim)² dt over the time shown: what control costs beyond holding still; the inputs’ part of the ' +
+      'quadratic cost (Anderson and Moore, Optimal Control, 1990)',
     text: effort,
     value: (m) => motor(m, name).effort,
     least: 0.05,
@@ -128,7 +142,8 @@ const FIGURES = [
     more: true,
     name: () => ['Undershoot'],
     title:
-      'Largest excursion from the start away from the reference, in percent of the step (Skogestad and Postlethwaite, Multivariable Feedback Control, 2005, section 5.6)',
+      'Largest excursion from the start away from the reference, in percent of the step (Skogestad and ' +
+      'Postlethwaite, Multivariable Feedback Control, 2005, section 5.6)',
     text: (v) => (v === undefined ? '–' : `${fixed(v, 1)} %`),
     value: (m, a) => m?.[a]?.undershoot,
     least: 1,
@@ -182,7 +197,8 @@ const ROBUSTNESS = [
     group: 'robustness',
     name: () => ['Gain · phase margin'],
     title:
-      'Smallest factor on this axis’ own motor, and smallest phase change there, that make the loop unstable, everything else closed (Ogata, Modern Control Engineering, 2010, section 7.7)',
+      'Smallest factor on this axis’ own motor, and smallest phase change there, that make the loop unstable, ' +
+      'everything else closed (Ogata, Modern Control Engineering, 2010, section 7.7)',
     margin: (g) =>
       g?.gain_margin === undefined && g?.phase_margin === undefined
         ? '–'
@@ -202,9 +218,11 @@ const ROBUSTNESS = [
     more: true,
     name: () => ['Disk margin'],
     title:
-      'Size α of the disks of gain and phase changes, at both motors at once and independent of each other, that the loop tolerates (Seiler, Packard and Gahinet, IEEE Control Systems 40 (2020) 78)',
+      'Size α of the disks of gain and phase changes, at both motors at once and independent of each other, that ' +
+      'the loop tolerates (Seiler, Packard and Gahinet, IEEE Control Systems 40 (2020) 78)',
     both: (s) =>
-      `${fixed(s.disk_margin)}: × ${fixed(s.gain_low)} to ${s.gain_high === undefined ? '∞' : fixed(s.gain_high)}, ± ${degrees(s.phase, 0)}`,
+      `${fixed(s.disk_margin)}: × ${fixed(s.gain_low)} to ${s.gain_high === undefined ? '∞' : fixed(s.gain_high)}, ` +
+      `± ${degrees(s.phase, 0)}`,
   },
   {
     id: 'sensitivity',
@@ -212,18 +230,25 @@ const ROBUSTNESS = [
     more: true,
     name: () => ['Sensitivity peak'],
     title:
-      'Largest singular value of S(jω) over all frequencies, at the motors: its inverse is the distance to instability under an additive change of the loop (Skogestad and Postlethwaite, Multivariable Feedback Control, 2005, section 2.4.3)',
+      'Largest singular value of S(jω) over all frequencies, at the motors: its inverse is the distance to ' +
+      'instability under an additive change of the loop (Skogestad and Postlethwaite, Multivariable Feedback ' +
+      'Control, 2005, section 2.4.3)',
     both: (s) => (s.peak < 1.005 ? fixed(s.peak) : `${fixed(s.peak)} at ${significant(s.peak_frequency, 3)} rad/s`),
   },
 ];
 
 /** The disk margin in words. @param {Reply['sensitivity']} s */
-const bothMotors = (s) =>
-  s
-    ? say`both motors at once: gains × ${fixed(s.gain_low)} to ${s.gain_high === undefined ? '∞' : fixed(s.gain_high)}, phases ± ${degrees(s.phase, 0)} (disk margin ${fixed(s.disk_margin)}); sensitivity peak ${fixed(s.peak)}`
-    : '';
+function bothMotors(s) {
+  if (!s) return '';
+  const gains = `${fixed(s.gain_low)} to ${s.gain_high === undefined ? '∞' : fixed(s.gain_high)}`;
+  const margins = say`gains × ${gains}, phases ± ${degrees(s.phase, 0)} (disk margin ${fixed(s.disk_margin)})`;
+  return say`both motors at once: ${margins}; sensitivity peak ${fixed(s.peak)}`;
+}
 
-/** @param {{id: string, more?: boolean, name: () => (Node|string)[], title: string}} row @param {HTMLElement[]} cells */
+/**
+ * @param {{id: string, more?: boolean, name: () => (Node|string)[], title: string}} row
+ * @param {HTMLElement[]} cells
+ */
 const tableRow = ({ more, name, title }, cells) =>
   h('tr', { class: more ? 'more-figures' : undefined }, h('th', { scope: 'row', title }, name()), cells);
 

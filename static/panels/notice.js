@@ -1,6 +1,7 @@
 /**
- * Three quiet words at the lower edge: what could not be taken from a link, until it is dismissed or the design changes; that a part of the page fails,
- * until it is dismissed; and that what is shown is an older design's while the server is away.
+ * Three quiet words at the lower edge: what could not be taken from a link, until it is dismissed or the design
+ * changes; that a part of the page fails, until it is dismissed; and that what is shown is an older design's while the
+ * server is away.
  */
 import { h, setText } from '../ui/index.js';
 
@@ -48,7 +49,8 @@ export class Notice {
     const unheard = connection === 'lost' && design !== null && answered !== design;
     this.stale.hidden = !unheard;
     document.documentElement.classList.toggle('unheard', unheard);
-    document.documentElement.classList.toggle('stale', unheard || problem !== null); // a refused design has no figures: those shown are older
+    // a refused design has no figures: those shown are older
+    document.documentElement.classList.toggle('stale', unheard || problem !== null);
     this.fault.say(fault);
     if (notice !== this.#told) {
       this.#told = notice;

@@ -14,7 +14,11 @@ export function advisedPairing(reply) {
   return reply.rga.pairing[0]?.[1] === 'V_y' ? 'cross' : 'diagonal';
 }
 
-/** What the RGA and the Niederlinski index mean for the pairing in use. @param {import('../types.js').Reply} reply @param {Pairing} pairing */
+/**
+ * What the RGA and the Niederlinski index mean for the pairing in use.
+ * @param {import('../types.js').Reply} reply
+ * @param {Pairing} pairing
+ */
 export function pairingWords(reply, pairing) {
   const { rga } = reply;
   const advised = advisedPairing(reply);
@@ -30,7 +34,11 @@ export function pairingWords(reply, pairing) {
   return { level: advised === pairing ? 'good' : 'warning', text: `${verdict}: ${rga.reason ?? ''}${index}` };
 }
 
-/** What of the present design can be copied. @param {import('../types.js').State} state @returns {import('../ui/copy_formats.js').Item[]} */
+/**
+ * What of the present design can be copied.
+ * @param {import('../types.js').State} state
+ * @returns {import('../ui/copy_formats.js').Item[]}
+ */
 export function copied({ reply, design }) {
   if (!reply || !design) return [];
   const { K, A, B } = reply.gains;

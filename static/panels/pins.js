@@ -1,4 +1,7 @@
-/** The table of the pinned designs: their figures, how far each is from the present design's, and the best of each column. */
+/**
+ * The table of the pinned designs: their figures, how far each is from the present design's, and the best of each
+ * column.
+ */
 import { complex } from '../text/index.js';
 import { differenceTable, FIGURES, nameOf } from '../model/index.js';
 import { h, setAttr, setText, symbol } from '../ui/index.js';
@@ -99,7 +102,8 @@ export class PinsPanel {
       h(
         'p',
         { class: 'caption' },
-        'Below each figure, how far it is from the present design’s: ▲ better, ▼ worse. The best of a column is in bold.',
+        'Below each figure, how far it is from the present design’s: ▲ better, ▼ worse. The best of a column is in ' +
+          'bold.',
       ),
       h(
         'div',

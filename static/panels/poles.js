@@ -68,7 +68,11 @@ class PairEditor {
     return setComplex(poles, index, k === 0 ? { re: v, im } : { re, im: sign * Math.max(Math.abs(v), 1e-3) });
   }
 
-  /** @param {import('../types.js').Poles} poles @param {number} reach @param {import('../model/requirements.js').Verdict|null} verdict on its axis' step */
+  /**
+   * @param {import('../types.js').Poles} poles
+   * @param {number} reach
+   * @param {import('../model/requirements.js').Verdict|null} verdict on its axis' step
+   */
   render(poles, reach, verdict) {
     const complex = isComplex(poles, this.pair);
     const [a, b] = [poles[2 * this.pair], poles[2 * this.pair + 1]];

@@ -1,4 +1,7 @@
-/** Findings where they concern: a few words at the loops and in the captions of the plots, in room that is kept for them. */
+/**
+ * Findings where they concern: a few words at the loops and in the captions of the plots, in room that is kept for
+ * them.
+ */
 import { remarksOf } from '../model/index.js';
 import { h, setAttr, setText } from '../ui/index.js';
 

@@ -1,4 +1,7 @@
-/** The rig's parameters and limits as fields, each beside what the preset says. Folded away; the header's line says how many differ. */
+/**
+ * The rig's parameters and limits as fields, each beside what the preset says. Folded away; the header's line says how
+ * many differ.
+ */
 import { inField, say } from '../text/index.js';
 import {
   asProposed,

@@ -1,4 +1,6 @@
-/** What is asked of the rig: where it rests, how far it steps and how long one watches; and what the plots' lines mean. */
+/**
+ * What is asked of the rig: where it rests, how far it steps and how long one watches; and what the plots' lines mean.
+ */
 import { DEGREE } from '../text/index.js';
 import { h, NumberField, symbol } from '../ui/index.js';
 
@@ -73,7 +75,8 @@ export class ScenarioPanel {
           {
             class: 'key',
             title:
-              'The linear model has no voltage limits. Its voltages are deviations from the trim; the trim is added here, so that both models share one scale.',
+              'The linear model has no voltage limits. Its voltages are deviations from the trim; the trim is ' +
+              'added here, so that both models share one scale.',
           },
           this.linear,
           h('span', { class: 'line pitch dashed', 'aria-hidden': 'true' }),
@@ -85,7 +88,8 @@ export class ScenarioPanel {
           {
             class: 'key',
             title:
-              'Rise, peak and settling on each curve, and the largest motion of the other axis. Point at a mark to read it; click it to move the time there.',
+              'Rise, peak and settling on each curve, and the largest motion of the other axis. Point at a mark to ' +
+              'read it; click it to move the time there.',
           },
           this.marks,
           h('span', { class: 'mark-sample', 'aria-hidden': 'true' }),

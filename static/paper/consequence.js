@@ -78,7 +78,8 @@ export function consequence({ consequence: rows, numbers }) {
   const landed = rows[rows.length - 1].poles;
   const pair = landed.find((p) => p.im > 0);
   const says = pair
-    ? `The yaw pair was meant to be real and fast, at ${polesText(wanted.slice(2), 2)}. On the rig of the manual it is ${polesText([pair])}: slower, and it rings, with a damping ratio of ${fixed(dampingRatio(pair))}.`
+    ? `The yaw pair was meant to be real and fast, at ${polesText(wanted.slice(2), 2)}. On the rig of the manual ` +
+      `it is ${polesText([pair])}: slower, and it rings, with a damping ratio of ${fixed(dampingRatio(pair))}.`
     : '';
   return h(
     'section',
@@ -88,7 +89,9 @@ export function consequence({ consequence: rows, numbers }) {
       'p',
       { class: 'prose' },
       rich(
-        `A slip in a formula matters if the poles notice. Here the $K$ that the paper prints, as printed, is put on ${rows.length} plants, each one step nearer to the real rig. The requested poles were ${polesText(wanted, 2)}. ${says}`,
+        'A slip in a formula matters if the poles notice. Here the $K$ that the paper prints, as printed, is put ' +
+          `on ${rows.length} plants, each one step nearer to the real rig. The requested poles were ` +
+          `${polesText(wanted, 2)}. ${says}`,
       ),
     ),
     h(

@@ -42,7 +42,11 @@ export function contents(equations, ...more) {
   );
 }
 
-/** Marks the step at which the reader is, and opens its chapter's list. @param {HTMLElement} nav @param {HTMLElement} text */
+/**
+ * Marks the step at which the reader is, and opens its chapter's list.
+ * @param {HTMLElement} nav
+ * @param {HTMLElement} text
+ */
 export function follow(nav, text) {
   const links = new Map([...nav.querySelectorAll('a')].map((a) => [a.getAttribute('href')?.slice(1), a]));
   const places = /** @type {HTMLElement[]} */ ([...text.querySelectorAll('article.eq, section.chapter')]).filter((e) =>

@@ -9,14 +9,20 @@ import { CURVES } from './words.js';
 /** @typedef {import('./math.js').Curves} Curves @typedef {import('../plots/rules.js').Rule} Rule */
 const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const FONT = '12px system-ui, sans-serif';
-/** The first is drawn broad, since others lie upon it. @type {Record<string, {color: string, width: number, dash: number[]}>} */
+/**
+ * The first is drawn broad, since others lie upon it.
+ * @type {Record<string, {color: string, width: number, dash: number[]}>}
+ */
 const LINES = {
   corrected: { color: 'halo-strong', width: 7, dash: [] },
   printed: { color: 'pitch', width: 2, dash: [9, 5] },
   manual: { color: 'yaw', width: 2.2, dash: [2, 4] },
   limited: { color: 'ink', width: 1.8, dash: [] },
 };
-/** How the saved picture draws them, on white. @type {Record<string, {kind: import('../plots/export.js').Kind, linear?: boolean}>} */
+/**
+ * How the saved picture draws them, on white.
+ * @type {Record<string, {kind: import('../plots/export.js').Kind, linear?: boolean}>}
+ */
 const SAVED = {
   corrected: { kind: 'played' },
   printed: { kind: 'pitch', linear: true },

@@ -1,4 +1,7 @@
-/** The paper's Figs. 2 and 3 as block diagrams with the present values in their blocks: the state feedback, and the loops around it. */
+/**
+ * The paper's Figs. 2 and 3 as block diagrams with the present values in their blocks: the state feedback, and the
+ * loops around it.
+ */
 import { inverseOf, mixingOf } from '../model/index.js';
 import { svg } from '../ui/index.js';
 import { clean, figure } from './math.js';
@@ -33,13 +36,25 @@ const short = (/** @type {number} */ v) => figure(v, Math.abs(v) < 1 ? 3 : 4);
 const block = (x, y, width, height, ...children) =>
   svg('g', { class: 'box' }, svg('rect', { x, y, width, height, rx: 4 }), ...children);
 
-/** A matrix's entries, right-aligned in their columns. @param {number[][]|undefined} matrix @param {number} x right edge of the first column @param {number} y baseline of the first row @param {number} step @param {number} digits @param {string} testid */
+/**
+ * A matrix's entries, right-aligned in their columns.
+ * @param {number[][]|undefined} matrix
+ * @param {number} x right edge of the first column
+ * @param {number} y baseline of the first row
+ * @param {number} step
+ * @param {number} digits
+ * @param {string} testid
+ */
 const entries = (matrix, x, y, step, digits, testid) =>
   (matrix ?? []).flatMap((row, i) =>
     row.map((v, j) => value(x + j * step, y + 18 * i, figure(v, digits), 'end', `${testid}-${i}${j}`)),
   );
 
-/** Fig. 2: the state feedback, and before it what makes the angles come to rest at their references where no outer loop does. @param {Walk} walk */
+/**
+ * Fig. 2: the state feedback, and before it what makes the angles come to rest at their references where no outer loop
+ * does.
+ * @param {Walk} walk
+ */
 export function stateFeedback(walk) {
   const before = walk.asked.outer === 'none' && !walk.integral;
   const inverse = walk.G_0 && inverseOf(walk.G_0);
@@ -55,7 +70,8 @@ export function stateFeedback(walk) {
     WIDTH,
     216,
     'State feedback',
-    `${before ? 'The reference r passes through the inverse of G hat of 0 and becomes the command v. ' : ''}The command v less K x is the input u of the plant x dot equals A x plus B u; C gives the output y. K, ${said}.`,
+    `${before ? 'The reference r passes through the inverse of G hat of 0 and becomes the command v. ' : ''}The ` +
+      `command v less K x is the input u of the plant x dot equals A x plus B u; C gives the output y. K, ${said}.`,
     ...(before
       ? [
           arrow('0,52 14,52'),
@@ -112,7 +128,11 @@ const crossed = (/** @type {number} */ from, /** @type {number} */ to, /** @type
   sign < 0 ? words(154, from + 17, '−', { kind: 'sign' }) : '',
 ];
 
-/** From the controllers to the inner loop. @param {Walk} walk @param {import('../model/loop_values.js').Two|undefined} mixing */
+/**
+ * From the controllers to the inner loop.
+ * @param {Walk} walk
+ * @param {import('../model/loop_values.js').Two|undefined} mixing
+ */
 function between({ asked }, mixing) {
   const names = [label(233, UP - 8, 'v', 'p', 'tiny'), label(233, LOW - 8, 'v', 'y', 'tiny')];
   if (asked.decoupler) {
@@ -184,7 +204,9 @@ export function outerLoops(walk) {
       WIDTH,
       240,
       'The method’s own integral action',
-      `The errors of theta and psi are integrated and weighted by the method's own matrix of gains, rows ${walk.integral.map((/** @type {number[]} */ r) => r.map((v) => figure(v, 4)).join(', ')).join('; ')}; the result enters the inner loop.${tail}`,
+      `The errors of theta and psi are integrated and weighted by the method's own matrix of gains, rows ` +
+        `${walk.integral.map((/** @type {number[]} */ r) => r.map((v) => figure(v, 4)).join(', ')).join('; ')}; ` +
+        `the result enters the inner loop.${tail}`,
       row('pitch', true),
       row('yaw', true),
       block(
@@ -209,7 +231,8 @@ export function outerLoops(walk) {
       WIDTH,
       240,
       'No outer loops',
-      `Without outer loops the references pass through the inverse of G hat of 0 and enter the inner loop; nothing is fed back but the state.${tail}`,
+      'Without outer loops the references pass through the inverse of G hat of 0 and enter the inner loop; nothing ' +
+        `is fed back but the state.${tail}`,
       row('pitch', false),
       row('yaw', false),
       block(
@@ -239,7 +262,9 @@ export function outerLoops(walk) {
     WIDTH,
     240,
     'PI control of the whole loop',
-    `The errors of theta and psi each drive a PI controller: pitch ${figure(pitch.kp)} volts per radian and ${figure(pitch.ti)} seconds, yaw ${figure(yaw.kp)} and ${figure(yaw.ti)}. ${paired} The angles are fed back to their references with a minus sign.${tail}`,
+    `The errors of theta and psi each drive a PI controller: pitch ${figure(pitch.kp)} volts per radian and ` +
+      `${figure(pitch.ti)} seconds, yaw ${figure(yaw.kp)} and ${figure(yaw.ti)}. ${paired} The angles are fed back ` +
+      `to their references with a minus sign.${tail}`,
     row('pitch', true),
     row('yaw', true),
     controller('p', UP, pitch),

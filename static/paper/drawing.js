@@ -25,7 +25,14 @@ export function arrow(points, kind = '') {
   );
 }
 
-/** Mathematics: italic base, small subscript. @param {number} x @param {number} y @param {string} base @param {string} [sub] @param {{kind?: string, anchor?: string}} [how] */
+/**
+ * Mathematics: italic base, small subscript.
+ * @param {number} x
+ * @param {number} y
+ * @param {string} base
+ * @param {string} [sub]
+ * @param {{kind?: string, anchor?: string}} [how]
+ */
 export const math = (x, y, base, sub, { kind = '', anchor = 'middle' } = {}) =>
   svg(
     'text',
@@ -50,7 +57,13 @@ export const sum = (x, y) =>
 /** @param {number} x @param {number} y */
 export const node = (x, y) => svg('circle', { class: 'node', cx: x, cy: y, r: 2.8 });
 
-/** A direction out of the page (dot) or into it (cross). @param {number} x @param {number} y @param {boolean} out @param {string} kind */
+/**
+ * A direction out of the page (dot) or into it (cross).
+ * @param {number} x
+ * @param {number} y
+ * @param {boolean} out
+ * @param {string} kind
+ */
 export const through = (x, y, out, kind) =>
   svg(
     'g',
@@ -67,11 +80,20 @@ export function dimension([x1, y1], [x2, y2]) {
   const [nx, ny] = [(-5 * (y2 - y1)) / length, (5 * (x2 - x1)) / length];
   return svg('path', {
     class: 'dimension',
-    d: `M ${x1} ${y1} L ${x2} ${y2} M ${x1 - nx} ${y1 - ny} L ${x1 + nx} ${y1 + ny} M ${x2 - nx} ${y2 - ny} L ${x2 + nx} ${y2 + ny}`,
+    d:
+      `M ${x1} ${y1} L ${x2} ${y2} M ${x1 - nx} ${y1 - ny} L ${x1 + nx} ${y1 + ny} M ${x2 - nx} ${y2 - ny} L ` +
+      `${x2 + nx} ${y2 + ny}`,
   });
 }
 
-/** @param {string} id @param {number} width @param {number} height @param {string} title @param {string} description @param {...any} children */
+/**
+ * @param {string} id
+ * @param {number} width
+ * @param {number} height
+ * @param {string} title
+ * @param {string} description
+ * @param {...any} children
+ */
 export const drawing = (id, width, height, title, description, ...children) =>
   svg(
     'svg',

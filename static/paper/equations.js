@@ -1,4 +1,7 @@
-/** The chapters of the derivation: prose, and each step with its mark, one plain sentence, its formulas, its figure, what it comes to on the present rig, and its errata. */
+/**
+ * The chapters of the derivation: prose, and each step with its mark, one plain sentence, its formulas, its figure,
+ * what it comes to on the present rig, and its errata.
+ */
 import { h } from '../ui/index.js';
 import { freeBody } from './figures.js';
 import { anchorOf } from './math.js';
@@ -7,8 +10,15 @@ import { erratum } from './errata.js';
 import { typeset } from './forms.js';
 import { CHAPTERS, MARKS } from './words.js';
 
-/** @typedef {import('./math.js').Equation} Equation @typedef {import('./math.js').Form} Form @typedef {import('./math.js').Erratum} Erratum */
-/** @typedef {{live: (number: string) => Element|null, curves: (number: string) => Element|null, structure: (e: Equation) => Element|null}} Parts  what else a step shows */
+/**
+ * @typedef {import('./math.js').Equation} Equation
+ * @typedef {import('./math.js').Form} Form
+ * @typedef {import('./math.js').Erratum} Erratum
+ */
+/**
+ * @typedef {{live: (number: string) => Element|null, curves: (number: string) => Element|null, structure: (e: Equation)
+ *   => Element|null}} Parts what else a step shows
+ */
 /** @type {Record<string, Record<string, string>>} what stands above a form */
 const CAPTIONS = {
   both: { printed: 'printed', derived: 'derived' },
@@ -39,7 +49,12 @@ function forms(e) {
   );
 }
 
-/** @param {Equation} e @param {Map<string, Erratum>} errata @param {Set<string>} told errata that stand further up @param {Parts} parts */
+/**
+ * @param {Equation} e
+ * @param {Map<string, Erratum>} errata
+ * @param {Set<string>} told errata that stand further up
+ * @param {Parts} parts
+ */
 function card(e, errata, told, { live, curves, structure }) {
   const anchor = anchorOf(e.number);
   const named = /^(Eqs?\.|Fig\.|Table) /.test(e.number);
@@ -93,7 +108,8 @@ function card(e, errata, told, { live, curves, structure }) {
               h(
                 'a',
                 { class: 'see', href: `#erratum-${name}` },
-                `${errata.get(name)?.standing === 'unclear' ? 'unclear in our copy' : 'erratum'}, ${errata.get(name)?.where ?? name}`,
+                `${errata.get(name)?.standing === 'unclear' ? 'unclear in our copy' : 'erratum'}, ` +
+                  `${errata.get(name)?.where ?? name}`,
               ),
             ),
           )

@@ -1,4 +1,7 @@
-/** The paper's errata, and what is unclear in our copy: printed, corrected, why, what follows, the paper's numbers that confirm it, and the proof that the server has just computed. Each stands at its step; the lists lead there. */
+/**
+ * The paper's errata, and what is unclear in our copy: printed, corrected, why, what follows, the paper's numbers that
+ * confirm it, and the proof that the server has just computed. Each stands at its step; the lists lead there.
+ */
 import { h } from '../ui/index.js';
 import { countsOf } from './math.js';
 import { rich } from './rich.js';
@@ -97,14 +100,16 @@ export function errata(paper) {
     h(
       'p',
       { class: 'prose' },
-      `${confirmed} errata, each confirmed by the paper’s own printed numbers and proved. They stand at the steps where they occur.`,
+      `${confirmed} errata, each confirmed by the paper’s own printed numbers and proved. They stand at the steps ` +
+        'where they occur.',
     ),
     list(having('confirmed'), 'errata'),
     h('h4', {}, 'Unclear in our copy'),
     h(
       'p',
       { class: 'prose' },
-      `${unclear} more places in our copy are wrong, which is proved too, but no printed number of the paper shows them. ${COPY}`,
+      `${unclear} more places in our copy are wrong, which is proved too, but no printed number of the paper shows ` +
+        `them. ${COPY}`,
     ),
     list(having('unclear'), 'unclear'),
   );

@@ -5,7 +5,12 @@ import { arrow, dimension, drawing, math, through, wire, words } from './drawing
 const TILT = (16 * Math.PI) / 180;
 const TURN = (24 * Math.PI) / 180;
 
-/** A point on the body: so far along it and so far above it. @param {number[]} pivot @param {number} angle counterclockwise @returns {(along: number, above?: number) => number[]} */
+/**
+ * A point on the body: so far along it and so far above it.
+ * @param {number[]} pivot
+ * @param {number} angle counterclockwise
+ * @returns {(along: number, above?: number) => number[]}
+ */
 const frame =
   ([x, y], angle) =>
   (along, above = 0) => [
@@ -23,7 +28,10 @@ function sideView() {
     384,
     276,
     'The helicopter from its side',
-    'A body on a post, nose to the right and up by the pitch angle theta from the horizontal. The pitch propeller at the nose, at distance r p from the pivot, pushes with F p at right angles to the body. The yaw propeller at the tail, at distance r y, pushes with F y into the page. Gravity m g acts at the centre of mass, at distance l ahead of the pivot. The yaw angle psi turns about the vertical axis.',
+    'A body on a post, nose to the right and up by the pitch angle theta from the horizontal. The pitch propeller ' +
+      'at the nose, at distance r p from the pivot, pushes with F p at right angles to the body. The yaw propeller ' +
+      'at the tail, at distance r y, pushes with F y into the page. Gravity m g acts at the centre of mass, at ' +
+      'distance l ahead of the pivot. The yaw angle psi turns about the vertical axis.',
     svg(
       'g',
       { transform: 'translate(-10 -18)' },
@@ -73,7 +81,8 @@ function topView() {
     320,
     250,
     'The helicopter from above',
-    'The body turned clockwise by the yaw angle psi from the x axis. The yaw propeller at the tail pushes with F y at right angles to the body; the thrust F p of the pitch propeller comes out of the page.',
+    'The body turned clockwise by the yaw angle psi from the x axis. The yaw propeller at the tail pushes with F y ' +
+      'at right angles to the body; the thrust F p of the pitch propeller comes out of the page.',
     wire('40,140 300,140', 'dashed'),
     wire('160,140 160,36', 'dashed'),
     math(308, 144, 'x', '', { kind: 'muted' }),

@@ -1,4 +1,7 @@
-/** K and the RGA as typeset formulas, each entry of K beside its present value. Fetched once per structure, when first seen. */
+/**
+ * K and the RGA as typeset formulas, each entry of K beside its present value. Fetched once per structure, when first
+ * seen.
+ */
 import { significant } from '../text/index.js';
 import { bodyOf, FULL_RANK, presetOf } from '../model/index.js';
 import { getSymbolic } from '../net/index.js';
@@ -60,7 +63,8 @@ export class FormulasPanel {
       this.#load(design.coupling, design.lead, structure);
     }
     for (const { cell, i, j } of this.#values)
-      setText(cell, reply && design.method === FULL_RANK ? significant(reply.gains.K[i][j], 6) : '–'); // another method's K is not this formula's
+      // another method's K is not this formula's
+      setText(cell, reply && design.method === FULL_RANK ? significant(reply.gains.K[i][j], 6) : '–');
   }
 
   /** @param {string} coupling @param {string} lead @param {string} structure */

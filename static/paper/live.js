@@ -1,4 +1,7 @@
-/** What the paper's equations come to on the present rig, with the present poles: matrices and constants beside their formulas. */
+/**
+ * What the paper's equations come to on the present rig, with the present poles: matrices and constants beside their
+ * formulas.
+ */
 import { DEGREE } from '../text/index.js';
 import { FULL_RANK, nameOf } from '../model/index.js';
 import { h, Matrix, setText, symbol } from '../ui/index.js';
@@ -14,7 +17,10 @@ const motors = () => [sym('V', 'p'), sym('V', 'y')];
 const chain = (/** @type {string} */ z) => [1, 2, 3, 4].map((i) => sym(z, String(i)));
 const pairs = (/** @type {string[]} */ names) => names.flatMap((n) => [sym(n, '1'), sym(n, '2')]);
 
-/** @typedef {{key: string, name: () => Node, rows: () => Node[], columns: () => Node[], unit: string, above?: string}} Spec */
+/**
+ * @typedef {{key: string, name: () => Node, rows: () => Node[], columns: () => Node[], unit: string, above?: string}}
+ *   Spec
+ */
 const bar = (/** @type {string} */ name) => () => h('b', {}, name);
 const outputs = () => [sym('θ'), sym('ψ')];
 const commands = () => [sym('v', 'p'), sym('v', 'y')];
@@ -82,7 +88,8 @@ const LINES = {
     `Indices: ${p} for the pitch motor, ${y} for the yaw motor.`,
   'Eq. 18': ({ asked }) => `Requested: ${polesText(asked.poles, 4)} rad/s.`,
   'closed loop': ({ closed_loop_poles: poles, pole_error: error }) =>
-    `Eigenvalues of A − BK: ${polesText(poles, 4)} rad/s${error === undefined ? '' : `; largest distance from those asked for ${figure(error, 2)}`}.`,
+    `Eigenvalues of A − BK: ${polesText(poles, 4)} ` +
+    `rad/s${error === undefined ? '' : `; largest distance from those asked for ${figure(error, 2)}`}.`,
 };
 const OWN = new Set(['T', 'Q', 'A_bar', 'B_bar', 'K_bar', 'closed_loop_bar', 'coefficients']);
 const DIAGRAMS = { 'Fig. 2': stateFeedback, 'Fig. 3': outerLoops };
@@ -90,7 +97,10 @@ const DIAGRAMS = { 'Fig. 2': stateFeedback, 'Fig. 3': outerLoops };
 /** Why a step has no numbers. @param {string} key @param {any} answer */
 function whyNot(key, { asked }) {
   if (OWN.has(key))
-    return `The method chosen above, ${nameOf(asked)}, has no such step. Choose the full-rank method to see its numbers.`;
+    return (
+      `The method chosen above, ${nameOf(asked)}, has no such step. Choose the full-rank method to see its ` +
+      'numbers.'
+    );
   return 'There is none: with a pole at 0 the closed loop has no steady state.';
 }
 
@@ -233,7 +243,8 @@ export class LiveNumbers {
     setText(
       this.loop,
       own
-        ? `The method’s own integral action takes the place of the PI loops. Poles of the whole loop: ${polesText(/** @type {any} */ (reply).loop_poles, 2)} rad/s.`
+        ? 'The method’s own integral action takes the place of the PI loops. Poles of the whole loop: ' +
+            `${polesText(/** @type {any} */ (reply).loop_poles, 2)} rad/s.`
         : design.outer === 'pi'
           ? `PI: ${controllers}. Poles of the whole loop: ${reply ? polesText(reply.loop_poles, 2) : '–'} rad/s.`
           : `No PI loops now. Poles of the loop: ${reply ? polesText(reply.loop_poles, 2) : '–'} rad/s.`,

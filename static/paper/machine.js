@@ -59,7 +59,11 @@ export class Machine {
     }
   }
 
-  /** @param {Step[]} steps @param {Record<string, number>} values @param {string} other whose components they are, where not the present rig's */
+  /**
+   * @param {Step[]} steps
+   * @param {Record<string, number>} values
+   * @param {string} other whose components they are, where not the present rig's
+   */
   #steps(steps, values, other) {
     const compare = steps
       .filter(({ name }) => name in values)

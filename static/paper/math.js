@@ -3,7 +3,8 @@
  *
  * @typedef {{latex?: string, mathml?: string, text?: string}} Form
  * @typedef {'reproduced'|'corrected'|'explained'} Status
- * @typedef {{number: string, title: string, chapter: string, plain: string, status: Status, note: string, errata: string[], formulas: string[], printed?: Form, derived?: Form}} Equation
+ * @typedef {{number: string, title: string, chapter: string, plain: string, status: Status, note: string, errata:
+ *   string[], formulas: string[], printed?: Form, derived?: Form}} Equation
  * @typedef {object} PrintedNumber
  * @property {string} where
  * @property {string} name
@@ -19,11 +20,15 @@
  * @property {'reproduced'|'differs'|'given'} verdict
  * @property {string} note
  * @typedef {{statement: string, correct: Form, printed: Form, holds: boolean, labels: [string, string]}} Proof
- * @typedef {{name: string, where: string, printed: Form, correct: Form, why: string, effect: string, standing: 'confirmed'|'unclear', evidence?: string, proof: Proof}} Erratum  an erratum of the paper where its own numbers confirm it, else unclear in our copy
+ * @typedef {{name: string, where: string, printed: Form, correct: Form, why: string, effect: string, standing:
+ *   'confirmed'|'unclear', evidence?: string, proof: Proof}} Erratum an erratum of the paper where its own numbers
+ *   confirm it, else unclear in our copy
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {{plant: string, poles: Complex[], unrounded: Complex[]}} Consequence
- * @typedef {{number: number, output: string, t: number[], curves: {name: string, title: string, angle: number[]}[]}} Curves
- * @typedef {{title: string, authors: string, equations: Equation[], symbols: import('./symbols.js').Term[], numbers: PrintedNumber[], errata: Erratum[], consequence: Consequence[], figures: Curves[]}} Paper
+ * @typedef {{number: number, output: string, t: number[], curves: {name: string, title: string, angle: number[]}[]}}
+ *   Curves
+ * @typedef {{title: string, authors: string, equations: Equation[], symbols: import('./symbols.js').Term[], numbers:
+ *   PrintedNumber[], errata: Erratum[], consequence: Consequence[], figures: Curves[]}} Paper
  */
 import { complex } from '../text/index.js';
 
@@ -40,7 +45,12 @@ export function anchorOf(number) {
 /** As short as a table of contents wants it. @param {string} number */
 export const shortOf = (number) => number.replace(/^Eqs?\. /, '').replace(', ', '–');
 
-/** @template T @param {T[]} items @param {(item: T) => string} key @returns {[string, T[]][]} in the order of first appearance */
+/**
+ * @template T
+ * @param {T[]} items
+ * @param {(item: T) => string} key
+ * @returns {[string, T[]][]} in the order of first appearance
+ */
 export function groupBy(items, key) {
   /** @type {Map<string, T[]>} */ const groups = new Map();
   for (const item of items) groups.set(key(item), [...(groups.get(key(item)) ?? []), item]);
@@ -85,7 +95,11 @@ export function figure(v, digits = 5) {
   return text.replaceAll('-', MINUS);
 }
 
-/** What rounding has left of zeros, taken away. @param {number[][]|undefined|null} matrix @returns {number[][]|undefined} */
+/**
+ * What rounding has left of zeros, taken away.
+ * @param {number[][]|undefined|null} matrix
+ * @returns {number[][]|undefined}
+ */
 export function clean(matrix) {
   if (!matrix) return undefined;
   const floor = 1e-13 * Math.max(...matrix.flat().map(Math.abs));
@@ -102,7 +116,10 @@ export const polesText = (poles, decimals = 3) =>
 /** @param {Complex} p */
 export const dampingRatio = (p) => -p.re / Math.hypot(p.re, p.im);
 
-/** @typedef {{name: string, symbols: string, figures: string, value: number, unit: string, digits?: number}} Step  one line of a worked example */
+/**
+ * @typedef {{name: string, symbols: string, figures: string, value: number, unit: string, digits?: number}} Step one
+ *   line of a worked example
+ */
 const f = (/** @type {number} */ v) => figure(v, 7);
 
 /** Eq. 8 with the components' values. @param {Record<string, number>} c @returns {Step[]} */

@@ -1,4 +1,6 @@
-/** Every number that the paper prints, beside what its formula gives: the table that is meant to be searched in seconds. */
+/**
+ * Every number that the paper prints, beside what its formula gives: the table that is meant to be searched in seconds.
+ */
 import { h } from '../ui/index.js';
 import { countsOf, digitsText, figure, groupBy, minus } from './math.js';
 import { named, rich } from './rich.js';
@@ -50,8 +52,12 @@ export function numbers(paper) {
     h(
       'p',
       { class: 'prose' },
-      `The paper prints ${c.numbers} numbers. ${c.derivable} of them can be computed from its formulas: ${c.reproduced} come out to every printed digit, ${c.differs} do not. The other ${c.given} are given, not derived. `,
-      '“From the printed formula” takes the values that reproduce the paper’s results, in Table I the components of the design file; “corrected” puts the same values into the right formula, in Table I it is the value that the results used; “on the rig of the manual” puts the manual’s values into the right formula.',
+      `The paper prints ${c.numbers} numbers. ${c.derivable} of them can be computed from its formulas: ` +
+        `${c.reproduced} come out to every printed digit, ${c.differs} do not. The other ${c.given} are given, not ` +
+        'derived. ',
+      '“From the printed formula” takes the values that reproduce the paper’s results, in Table I the components ' +
+        'of the design file; “corrected” puts the same values into the right formula, in Table I it is the value ' +
+        'that the results used; “on the rig of the manual” puts the manual’s values into the right formula.',
     ),
     h(
       'div',

@@ -1,4 +1,7 @@
-/** The derivation as a reading view along the paper: its equations derived again, its numbers recomputed, its errata proved. Fetched when it is first seen. */
+/**
+ * The derivation as a reading view along the paper: its equations derived again, its numbers recomputed, its errata
+ * proved. Fetched when it is first seen.
+ */
 import { bodyOf, presetOf } from '../model/index.js';
 import { getPaper } from '../net/index.js';
 import { h, Lazy } from '../ui/index.js';
@@ -21,7 +24,8 @@ import { MARKS, MEANINGS } from './words.js';
 /** The place in this section to which the address leads. */
 const place = () => placeIn(location.hash)?.match(/^(paper|eq|fig|table|erratum)\b.*/)?.[0];
 const WAIT =
-  'Reading the paper: its formulas are derived, its numbers recomputed, its errata proved. The first time this takes some seconds.';
+  'Reading the paper: its formulas are derived, its numbers recomputed, its errata proved. The first time this ' +
+  'takes some seconds.';
 
 /** Prints this section alone. */
 function print() {
@@ -98,7 +102,8 @@ export class PaperPanel {
         h(
           'p',
           { class: 'prose' },
-          'What the formulas’ symbols mean, with their values on the present rig. In a formula each shows this under the pointer, at a tap, and with the arrow keys.',
+          'What the formulas’ symbols mean, with their values on the present rig. In a formula each shows this ' +
+            'under the pointer, at a tap, and with the arrow keys.',
         ),
         list.node,
       ),
@@ -144,7 +149,11 @@ export class PaperPanel {
         'p',
         {},
         rich(
-          'The paper places the four poles of a laboratory helicopter by a state feedback that is written out in symbols, and closes PI loops around it. Here the derivation is followed step by step, from the energies to $K$, the relative gain array and the PI loops. Every formula is derived again and every number recomputed; where paper and derivation differ, both are shown. Beside the formulas stand their values for the rig and poles chosen above. Point at a symbol for its name, value and unit.',
+          'The paper places the four poles of a laboratory helicopter by a state feedback that is written out in ' +
+            'symbols, and closes PI loops around it. Here the derivation is followed step by step, from the ' +
+            'energies to $K$, the relative gain array and the PI loops. Every formula is derived again and every ' +
+            'number recomputed; where paper and derivation differ, both are shown. Beside the formulas stand their ' +
+            'values for the rig and poles chosen above. Point at a symbol for its name, value and unit.',
         ),
       ),
       h(
@@ -153,7 +162,8 @@ export class PaperPanel {
         h('b', {}, `${c.reproduced} of ${c.derivable}`),
         ` numbers that follow from a formula come out to every printed digit. `,
         h('b', {}, String(c.errata)),
-        ` errata are confirmed by the paper’s own numbers; ${c.unclear} more places are unclear in our copy. ${c.proofs === c.errata + c.unclear ? 'Each has its proof.' : `${c.proofs} of them are proved.`}`,
+        ` errata are confirmed by the paper’s own numbers; ${c.unclear} more places are unclear in our copy. ` +
+          `${c.proofs === c.errata + c.unclear ? 'Each has its proof.' : `${c.proofs} of them are proved.`}`,
       ),
       h(
         'ul',

@@ -1,4 +1,7 @@
-/** Plain text of the server as typeset text: K_pp gets its subscript, −8.7 its minus, "Eq. 13" leads to it, and $x$ is mathematics. */
+/**
+ * Plain text of the server as typeset text: K_pp gets its subscript, −8.7 its minus, "Eq. 13" leads to it, and $x$ is
+ * mathematics.
+ */
 import { h, symbol } from '../ui/index.js';
 import { anchorOf, minus } from './math.js';
 
@@ -13,7 +16,11 @@ const inline = (text) =>
     text.split(LETTERS).map((part, i) => (i % 2 ? h('i', {}, part) : part)),
   );
 
-/** @param {string} text @param {string} [self] the anchor where it stands, to which it need not lead @returns {(Node|string)[]} */
+/**
+ * @param {string} text
+ * @param {string} [self] the anchor where it stands, to which it need not lead
+ * @returns {(Node|string)[]}
+ */
 export function rich(text, self) {
   /** @type {(Node|string)[]} */ const parts = [];
   let end = 0;

@@ -20,7 +20,10 @@ const NAMES = {
   RGA: 'RGA =',
 };
 
-/** The structure whose formulas are missing: none where it is the paper's, or where another method has no structure. @param {Design} design */
+/**
+ * The structure whose formulas are missing: none where it is the paper's, or where another method has no structure.
+ * @param {Design} design
+ */
 export const structureOf = ({ method, coupling, lead }) =>
   method === FULL_RANK && (coupling !== 'triangular' || lead !== 'pitch')
     ? { coupling, lead: coupling === 'triangular' ? lead : /** @type {const} */ ('pitch') }

@@ -1,5 +1,6 @@
 /**
- * A small card for the symbol under the pointer, the finger or the keyboard's focus: name, meaning, value now, unit. A formula is one stop of the Tab key;
+ * A small card for the symbol under the pointer, the finger or the keyboard's focus: name, meaning, value now, unit. A
+ * formula is one stop of the Tab key;
  * the arrow keys walk through its symbols.
  */
 import { formula, h, setText } from '../ui/index.js';
@@ -41,7 +42,7 @@ function make(root) {
     if (e.key === 'Escape' && shown) close();
   });
   addEventListener('pointerdown', (e) => {
-    if (shown && !/** @type {Element} */ (e.target).closest('[data-symbol], .symbol-card')) close();
+    if (shown && !(/** @type {Element} */ (e.target).closest('[data-symbol], .symbol-card'))) close();
   });
   return node;
 }
@@ -109,7 +110,11 @@ export class SymbolCards {
     this.#glossary = new Glossary(terms, (mathml) => /** @type {any} */ (formula(mathml)));
   }
 
-  /** Makes the symbols of all formulas in there known; what they mean depends on the chapter. @param {Element} part @param {string} [chapter] */
+  /**
+   * Makes the symbols of all formulas in there known; what they mean depends on the chapter.
+   * @param {Element} part
+   * @param {string} [chapter]
+   */
   mark(part, chapter = '') {
     const glossary = this.#glossary;
     if (!glossary) return;

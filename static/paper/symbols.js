@@ -1,7 +1,9 @@
 /**
- * The symbols in a formula: how a sign of MathML is told from another, what it means where it stands, and what it is worth now. Pure.
+ * The symbols in a formula: how a sign of MathML is told from another, what it means where it stands, and what it is
+ * worth now. Pure.
  *
- * @typedef {{localName: string, textContent: string|null, children: ArrayLike<any>, nextElementSibling: any}} MathElement  as much of an element as is looked at
+ * @typedef {{localName: string, textContent: string|null, children: ArrayLike<any>, nextElementSibling: any}}
+ *   MathElement as much of an element as is looked at
  * @typedef {{name: string, mathml: string, meaning: string, unit: string, chapters?: string[], latex?: string}} Term
  * @typedef {{parameters: Record<string, number>, components: Record<string, number>, walk: any}} Now
  * @typedef {{text?: string, matrix?: number[][], of?: string}} Worth
@@ -12,7 +14,11 @@ import { clean, figure } from './math.js';
 const text = (/** @type {MathElement} */ e) => (e.textContent ?? '').replace(/\s/g, '');
 const LETTERS = /^[\p{L}\p{M}]+$/u;
 
-/** The name of what an element writes, such as K_pp, θ˙ or λ_11; empty where it is no sign of its own. @param {MathElement} e @returns {string} */
+/**
+ * The name of what an element writes, such as K_pp, θ˙ or λ_11; empty where it is no sign of its own.
+ * @param {MathElement} e
+ * @returns {string}
+ */
 export function signOf(e) {
   if (e.localName === 'mi' || e.localName === 'mtext') return LETTERS.test(text(e)) ? text(e) : '';
   const [base, second] = Array.from(e.children);
@@ -22,7 +28,13 @@ export function signOf(e) {
   return e.localName === 'mover' ? sign + text(second) : `${sign}_${text(second)}`;
 }
 
-/** Every symbol in a formula with what a finder says of it; an exponent is none, and neither are the parts of a symbol. @template T @param {MathElement} root @param {(sign: string, applied: boolean) => T|undefined} find @returns {{element: any, term: T}[]} */
+/**
+ * Every symbol in a formula with what a finder says of it; an exponent is none, and neither are the parts of a symbol.
+ * @template T
+ * @param {MathElement} root
+ * @param {(sign: string, applied: boolean) => T|undefined} find
+ * @returns {{element: any, term: T}[]}
+ */
 export function symbolsIn(root, find) {
   /** @type {{element: any, term: T}[]} */ const found = [];
   const visit = (/** @type {MathElement} */ e, /** @type {MathElement|null} */ outer) => {
@@ -55,7 +67,12 @@ export class Glossary {
     }
   }
 
-  /** @param {string} sign @param {boolean} applied whether a bracket follows @param {string} chapter @returns {Term|undefined} */
+  /**
+   * @param {string} sign
+   * @param {boolean} applied whether a bracket follows
+   * @param {string} chapter
+   * @returns {Term|undefined}
+   */
   find(sign, applied, chapter) {
     for (const key of applied ? [`${sign}(`, sign] : [sign]) {
       const term = this.#terms.get(`${chapter}/${key}`) ?? this.#terms.get(`/${key}`);

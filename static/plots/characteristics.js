@@ -1,12 +1,13 @@
 /**
- * What can be pointed at on a step's own curve: rise, peak, settling; and how far the other axis' step moves this one. The figures are the server's, as in the table of
- * figures; here is only where on the curve they are. Pure.
+ * What can be pointed at on a step's own curve: rise, peak, settling; and how far the other axis' step moves this one.
+ * The figures are the server's, as in the table of figures; here is only where on the curve they are. Pure.
  * @typedef {import('../types.js').Reply} Reply
  * @typedef {import('../types.js').Step} Step
  * @typedef {import('../types.js').Series} Series
  * @typedef {import('../model/traces.js').Signal} Signal
  * @typedef {'rise'|'peak'|'settling'|'coupling'} Kind
- * @typedef {{kind: Kind, axis: 'theta'|'psi', t: number, value: number, brief: string, text: string}} Mark  axis: whose step; s, degrees
+ * @typedef {{kind: Kind, axis: 'theta'|'psi', t: number, value: number, brief: string, text: string}} Mark axis: whose
+ *   step; s, degrees
  */
 import { DEGREE, degrees, fixed, say, seconds } from '../text/index.js';
 import { isVoltage } from '../model/index.js';
@@ -23,7 +24,15 @@ export function valueAt(t, values, time) {
   return values[i - 1] + share * (values[i] - values[i - 1]);
 }
 
-/** When a share of the way is first reached. @param {Series} t @param {Series} values @param {number} from @param {number} to @param {number} share @returns {number|undefined} */
+/**
+ * When a share of the way is first reached.
+ * @param {Series} t
+ * @param {Series} values
+ * @param {number} from
+ * @param {number} to
+ * @param {number} share
+ * @returns {number|undefined}
+ */
 export function reaches(t, values, from, to, share) {
   const level = from + share * (to - from);
   const up = Math.sign(to - from);
@@ -78,14 +87,21 @@ function ownMarks(step, axis) {
   return marks;
 }
 
-/** How far one axis' step moves the other. @param {Step} step @param {'theta'|'psi'} stepped @param {'theta'|'psi'} other @returns {Mark[]} */
+/**
+ * How far one axis' step moves the other.
+ * @param {Step} step
+ * @param {'theta'|'psi'} stepped
+ * @param {'theta'|'psi'} other
+ * @returns {Mark[]}
+ */
 function couplingMark(step, stepped, other) {
   const values = step[other];
   let k = 0;
   for (let i = 1; i < values.length; i++) if (Math.abs(values[i] - values[0]) > Math.abs(values[k] - values[0])) k = i;
   const moved = (values[k] - values[0]) * DEGREE;
   if (!(Math.abs(moved) >= MOVES)) return [];
-  const figure = `${fixed(Math.abs(step.metrics.coupling_peak * DEGREE || moved), 2)}°`; // the server's, for the samples may miss it
+  // the server's, for the samples may miss it
+  const figure = `${fixed(Math.abs(step.metrics.coupling_peak * DEGREE || moved), 2)}°`;
   const text =
     stepped === 'theta'
       ? say`The pitch step moves yaw by ${figure} at ${seconds(step.t[k])}`
@@ -95,7 +111,13 @@ function couplingMark(step, stepped, other) {
   ];
 }
 
-/** The marks of a plot in the order of time; none where the loop is unstable, as then what is largest says only how long one has looked. @param {Reply|null} reply @param {Signal} signal @returns {Mark[]} */
+/**
+ * The marks of a plot in the order of time; none where the loop is unstable, as then what is largest says only how long
+ * one has looked.
+ * @param {Reply|null} reply
+ * @param {Signal} signal
+ * @returns {Mark[]}
+ */
 export function marksOf(reply, signal) {
   if (!reply?.stable || isVoltage(signal)) return [];
   const own = /** @type {'theta'|'psi'} */ (signal);

@@ -4,7 +4,8 @@
  * @typedef {import('../types.js').Series} Series
  * @typedef {import('../model/traces.js').Signal} Signal
  * @typedef {'pitch'|'yaw'|'played'|'pin'|'series-0'|'series-1'} Kind
- * @typedef {{name: string, kind: Kind, linear?: boolean, index?: number, axis?: 'theta'|'psi', t: Series, values: Series}} Line
+ * @typedef {{name: string, kind: Kind, linear?: boolean, index?: number, axis?: 'theta'|'psi', t: Series, values:
+ *   Series}} Line
  */
 import { t as word } from '../text/index.js';
 import { isVoltage, letterOf, tracesOf } from '../model/index.js';
@@ -22,7 +23,12 @@ const STEPS = { theta: 'pitch step', psi: 'yaw step', both: 'both steps' };
 /** @param {Signal} signal */
 export const unitOf = (signal) => (isVoltage(signal) ? 'V' : 'deg');
 
-/** Every line of a plot in the order of the legend, which is that of drawing from the top down. @param {State} state @param {Signal} signal @returns {Line[]} */
+/**
+ * Every line of a plot in the order of the legend, which is that of drawing from the top down.
+ * @param {State} state
+ * @param {Signal} signal
+ * @returns {Line[]}
+ */
 export function linesOf({ reply, motion, showLinear, pins }, signal) {
   if (!reply) return [];
   const { t, plots } = tracesOf(reply, motion, showLinear);
@@ -63,11 +69,20 @@ const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"
 /** @param {Series} a @param {Series} b */
 const alike = (a, b) => a === b || (a.length === b.length && Math.abs(a[a.length - 1] - b[b.length - 1]) < 1e-6);
 
-/** RFC 4180 with units in the header; lines over another time get a column of that time before them. @param {Signal} signal @param {Line[]} lines */
+/**
+ * RFC 4180 with units in the header; lines over another time get a column of that time before them.
+ * @param {Signal} signal
+ * @param {Line[]} lines
+ */
 export const csvOf = (signal, lines) =>
   tableOf(lines, 't [s]', (name) => `${NAMES[signal]}, ${name} [${unitOf(signal)}]`);
 
-/** The same for lines over anything. @param {Line[]} lines @param {string} over the header of what they are over @param {(name: string) => string} header */
+/**
+ * The same for lines over anything.
+ * @param {Line[]} lines
+ * @param {string} over the header of what they are over
+ * @param {(name: string) => string} header
+ */
 export function tableOf(lines, over, header) {
   /** @type {{name: string, values: Series}[]} */ const columns = [];
   /** @type {Series|null} */ let t = null;

@@ -1,13 +1,16 @@
 /**
- * Responses of pinned designs under the plots' own, on a canvas of their own: a drag redraws the chart above it and leaves this one alone. Each line carries its
- * pin's letter, round on the pitch step's, square on the yaw step's.
+ * Responses of pinned designs under the plots' own, on a canvas of their own: a drag redraws the chart above it and
+ * leaves this one alone. Each line carries its pin's letter, round on the pitch step's, square on the yaw step's.
  * @typedef {import('../types.js').Pin} Pin
  * @typedef {import('../model/traces.js').Signal} Signal
  */
 import { colorOf, extent, letterOf, trace } from '../model/index.js';
 import { h, pictureScale } from '../ui/index.js';
 
-/** @typedef {{pin: Pin, axis: 'theta'|'psi', t: import('../types.js').Series, values: import('../types.js').Series}} Ghost */
+/**
+ * @typedef {{pin: Pin, axis: 'theta'|'psi', t: import('../types.js').Series, values: import('../types.js').Series}}
+ *   Ghost
+ */
 const AXES = /** @type {const} */ (['theta', 'psi']);
 const BADGE = 6; // px, half its size
 
@@ -51,7 +54,9 @@ export class PlotGhosts {
     const { chart } = this;
     const { x, y } = chart.scales;
     const scale = pictureScale();
-    const key = `${chart.width} ${chart.height} ${x.min} ${x.max} ${y.min} ${y.max} ${this.ghosts.length} ${color('pin-0')} ${devicePixelRatio} ${scale.type} ${scale.line}`;
+    const key =
+      `${chart.width} ${chart.height} ${x.min} ${x.max} ${y.min} ${y.max} ${this.ghosts.length} ` +
+      `${color('pin-0')} ${devicePixelRatio} ${scale.type} ${scale.line}`;
     if (key === this.#key) return;
     this.#key = key;
     const { left, top, width, height } = chart.bbox;
@@ -79,7 +84,15 @@ export class PlotGhosts {
   }
 }
 
-/** @param {CanvasRenderingContext2D} ctx @param {Ghost[]} ghosts @param {(t: number) => number} px @param {(v: number) => number} py @param {{width: number, type: number, line: number, color: (name: string) => string}} how  its size, and that of letters and lines, to a CSS pixel each @returns {() => void} draws their letters, over what may come between */
+/**
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {Ghost[]} ghosts
+ * @param {(t: number) => number} px
+ * @param {(v: number) => number} py
+ * @param {{width: number, type: number, line: number, color: (name: string) => string}} how its size, and that of
+ *   letters and lines, to a CSS pixel each
+ * @returns {() => void} draws their letters, over what may come between
+ */
 export function drawGhosts(ctx, ghosts, px, py, { width, type, line, color }) {
   ctx.lineJoin = 'round';
   const badges = ghosts.map(({ pin, axis, t, values }, k) => {
@@ -89,7 +102,8 @@ export function drawGhosts(ctx, ghosts, px, py, { width, type, line, color }) {
     ctx.beginPath();
     for (let i = 0; i < t.length; i++) ctx.lineTo(px(t[i]), py(values[i]));
     ctx.stroke();
-    const aim = width * (0.06 + 0.4 * ((k * 0.381966 + 0.2) % 1)); // apart from one another, and early, where responses differ
+    // apart from one another, and early, where responses differ
+    const aim = width * (0.06 + 0.4 * ((k * 0.381966 + 0.2) % 1));
     let i = 0;
     while (i < t.length - 1 && px(t[i]) < aim) i += 1;
     return {
@@ -104,7 +118,12 @@ export function drawGhosts(ctx, ghosts, px, py, { width, type, line, color }) {
   return () => drawBadges(ctx, badges, type, color('panel'));
 }
 
-/** @param {CanvasRenderingContext2D} ctx @param {{x: number, y: number, round: boolean, letter: string, ink: string|CanvasGradient|CanvasPattern}[]} badges @param {number} ratio @param {string} paper */
+/**
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {{x: number, y: number, round: boolean, letter: string, ink: string|CanvasGradient|CanvasPattern}[]} badges
+ * @param {number} ratio
+ * @param {string} paper
+ */
 function drawBadges(ctx, badges, ratio, paper) {
   Object.assign(ctx, {
     font: `700 ${9 * ratio}px system-ui, sans-serif`,

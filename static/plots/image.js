@@ -5,9 +5,19 @@ import { say, t } from '../text/index.js';
 import { isVoltage } from '../model/index.js';
 
 /** @typedef {import('./export.js').Line} Line @typedef {import('../model/traces.js').Signal} Signal */
-/** @typedef {{x: [number, number], y: [number, number], rules: import('./rules.js').Rule[], regions?: import('./rules.js').Region[], marks?: import('./characteristics.js').Mark[]}} Seen  ranges in s and in the plot's unit */
+/**
+ * @typedef {{x: [number, number], y: [number, number], rules: import('./rules.js').Rule[], regions?:
+ *   import('./rules.js').Region[], marks?: import('./characteristics.js').Mark[]}} Seen ranges in s and in the plot's
+ *   unit
+ */
 
-/** @param {Signal} signal @param {Line[]} lines @param {any[]} pins their pins, for the letters @param {Seen & {subtitle: string}} how @returns {HTMLCanvasElement} */
+/**
+ * @param {Signal} signal
+ * @param {Line[]} lines
+ * @param {any[]} pins their pins, for the letters
+ * @param {Seen & {subtitle: string}} how
+ * @returns {HTMLCanvasElement}
+ */
 export function drawPlot(signal, lines, pins, { x, y, subtitle, rules, regions, marks }) {
   const symbol = TITLES[signal].split(' ').pop();
   return drawPicture({

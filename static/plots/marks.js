@@ -1,4 +1,7 @@
-/** Points on the curves that say what they are under the pointer or by Tab, and take the time there when pressed: round on the pitch step's, square on the yaw step's. */
+/**
+ * Points on the curves that say what they are under the pointer or by Tab, and take the time there when pressed: round
+ * on the pitch step's, square on the yaw step's.
+ */
 import { drawingUnit, h, setAttr, setText } from '../ui/index.js';
 
 /** @typedef {import('./characteristics.js').Mark} Mark */
@@ -53,7 +56,9 @@ export class PlotMarks {
       const mark = this.#marks[i];
       point.hidden = !mark || !(mark.t >= x.min && mark.t <= x.max && mark.value >= y.min && mark.value <= y.max);
       if (!point.hidden)
-        point.style.transform = `translate(${chart.valToPos(mark.t, 'x').toFixed(1)}px, ${chart.valToPos(mark.value, 'y').toFixed(1)}px)`;
+        point.style.transform =
+          `translate(${chart.valToPos(mark.t, 'x').toFixed(1)}px, ` +
+          `${chart.valToPos(mark.value, 'y').toFixed(1)}px)`;
     });
     if (this.#told !== null) this.#tell(this.points[this.#told].hidden ? null : this.#told);
   }

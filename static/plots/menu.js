@@ -6,7 +6,11 @@ import { drawPicture } from './picture.js';
 import { csvOf, linesOf, tableOf } from './export.js';
 import { drawPlot, fileName } from './image.js';
 
-/** @typedef {import('../model/traces.js').Signal} Signal @typedef {import('./image.js').Seen} Seen @typedef {import('./picture.js').Picture} Picture */
+/**
+ * @typedef {import('../model/traces.js').Signal} Signal
+ * @typedef {import('./image.js').Seen} Seen
+ * @typedef {import('./picture.js').Picture} Picture
+ */
 
 /** What the picture is of. @param {import('../model/store.js').Store} store */
 export function subtitle(store) {
@@ -25,7 +29,12 @@ const WORDS = {
   CSV: 'Numbers: time and every line, units in the header',
 };
 
-/** The button that saves as a picture or as numbers. @param {string} testid @param {string} title @param {{PNG: () => void, CSV: () => void}} save */
+/**
+ * The button that saves as a picture or as numbers.
+ * @param {string} testid
+ * @param {string} title
+ * @param {{PNG: () => void, CSV: () => void}} save
+ */
 function saveButton(testid, title, save) {
   const content = () => [
     h(
@@ -54,7 +63,12 @@ const savePicture = (/** @type {HTMLCanvasElement} */ canvas, /** @type {string}
 const saveNumbers = (/** @type {string} */ csv, /** @type {string} */ name) =>
   saveFile(`${name}.csv`, new Blob([csv], { type: 'text/csv;charset=utf-8' }));
 
-/** @param {import('../model/store.js').Store} store @param {Signal} signal @param {string} title @param {() => Seen} seen */
+/**
+ * @param {import('../model/store.js').Store} store
+ * @param {Signal} signal
+ * @param {string} title
+ * @param {() => Seen} seen
+ */
 export const plotMenu = (store, signal, title, seen) =>
   saveButton(signal, title, {
     PNG: () =>
@@ -65,14 +79,27 @@ export const plotMenu = (store, signal, title, seen) =>
     CSV: () => saveNumbers(csvOf(signal, linesOf(store.state, signal)), fileName(signal)),
   });
 
-/** The same for lines that are not the design's. @param {string} name of the file @param {string} title @param {Signal} signal @param {import('./export.js').Line[]} lines @param {Seen & {subtitle: string}} seen */
+/**
+ * The same for lines that are not the design's.
+ * @param {string} name of the file
+ * @param {string} title
+ * @param {Signal} signal
+ * @param {import('./export.js').Line[]} lines
+ * @param {Seen & {subtitle: string}} seen
+ */
 export const linesMenu = (name, title, signal, lines, seen) =>
   saveButton(name, title, {
     PNG: () => savePicture(drawPlot(signal, lines, [], seen), name),
     CSV: () => saveNumbers(csvOf(signal, lines), name),
   });
 
-/** The same for what is not over time. @param {string} name of the file @param {string} title @param {() => Picture} picture @param {string} over header of what the lines are over */
+/**
+ * The same for what is not over time.
+ * @param {string} name of the file
+ * @param {string} title
+ * @param {() => Picture} picture
+ * @param {string} over header of what the lines are over
+ */
 export const pictureMenu = (name, title, picture, over) =>
   saveButton(name, title, {
     PNG: () => savePicture(drawPicture(picture()), name),

@@ -1,13 +1,18 @@
 /**
- * A trace as a path with no more corners than the eye needs: a step response of 500 points is straight for most of its length, and every corner costs at each
- * frame of a drag. Pure but for Path2D.
+ * A trace as a path with no more corners than the eye needs: a step response of 500 points is straight for most of its
+ * length, and every corner costs at each frame of a drag. Pure but for Path2D.
  */
 const TOLERANCE = 0.2; // device pixels that a point may lie above or below the line drawn past it
 
 /**
- * The corners of a polyline through all points that keeps every one of them within the tolerance: from the last corner, the next line's slope is bounded by each
- * point that it passes; where no slope is left, the point before becomes a corner.
- * @param {ArrayLike<number>} xs rising @param {ArrayLike<number>} ys as many @param {number} first @param {number} last indices @param {(i: number) => void} corner
+ * The corners of a polyline through all points that keeps every one of them within the tolerance: from the last corner,
+ * the next line's slope is bounded by each point that it passes; where no slope is left, the point before becomes a
+ * corner.
+ * @param {ArrayLike<number>} xs rising
+ * @param {ArrayLike<number>} ys as many
+ * @param {number} first
+ * @param {number} last indices
+ * @param {(i: number) => void} corner
  */
 export function corners(xs, ys, first, last, corner, tolerance = TOLERANCE) {
   corner(first);
@@ -27,7 +32,13 @@ export function corners(xs, ys, first, last, corner, tolerance = TOLERANCE) {
   if (last > first) corner(last);
 }
 
-/** uPlot's builder of paths. @param {any} u @param {number} k of the series @param {number} first @param {number} last indices */
+/**
+ * uPlot's builder of paths.
+ * @param {any} u
+ * @param {number} k of the series
+ * @param {number} first
+ * @param {number} last indices
+ */
 export function plainPath(u, k, first, last) {
   const [t, values] = [u.data[0], u.data[k]];
   if (values[first] === null) return null; // a trace is there as a whole or not at all

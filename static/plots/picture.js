@@ -4,9 +4,20 @@ import { niceStep, ticks } from '../model/index.js';
 import { drawGhosts } from './ghosts.js';
 import { hatch } from './rules.js';
 
-/** @typedef {import('./export.js').Line} Line @typedef {import('./rules.js').Rule} Rule @typedef {import('./characteristics.js').Mark} Mark */
-/** @typedef {{range: [number, number], title: string, log?: boolean, steps?: number[]}} Axis  steps: between its numbers, where not any round one will do */
-/** @typedef {{title: string, subtitle: string, x: Axis, y: Axis, lines: Line[], rules?: Rule[], regions?: import('./rules.js').Region[], pins?: any[], marks?: (Mark & {to?: number})[]}} Picture  to: where a line leads from the mark. pins: those of the lines, for their letters */
+/**
+ * @typedef {import('./export.js').Line} Line
+ * @typedef {import('./rules.js').Rule} Rule
+ * @typedef {import('./characteristics.js').Mark} Mark
+ */
+/**
+ * @typedef {{range: [number, number], title: string, log?: boolean, steps?: number[]}} Axis steps: between its numbers,
+ *   where not any round one will do
+ */
+/**
+ * @typedef {{title: string, subtitle: string, x: Axis, y: Axis, lines: Line[], rules?: Rule[], regions?:
+ *   import('./rules.js').Region[], pins?: any[], marks?: (Mark & {to?: number})[]}} Picture to: where a line leads from
+ *   the mark. pins: those of the lines, for their letters
+ */
 
 /** style.css's, sharing.css's and compare.css's own for a light page. @type {Record<string, string>} */
 const LIGHT = {
@@ -190,7 +201,14 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions 
   return canvas;
 }
 
-/** Round on a pitch step's curve, square on a yaw step's, with its figure beside it. @param {CanvasRenderingContext2D} ctx @param {Mark} mark @param {number} x @param {number} y @param {any} text */
+/**
+ * Round on a pitch step's curve, square on a yaw step's, with its figure beside it.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {Mark} mark
+ * @param {number} x
+ * @param {number} y
+ * @param {any} text
+ */
 function drawMark(ctx, { kind, axis, brief }, x, y, text) {
   const color = LIGHT[AXIS[axis]];
   ctx.setLineDash([]);
@@ -209,7 +227,11 @@ function drawMark(ctx, { kind, axis, brief }, x, y, text) {
   text(brief, x + dx, y + dy, align, '11px', color);
 }
 
-/** @param {CanvasRenderingContext2D} ctx @param {{left: number, top: number, right: number, bottom: number}} box @param {any} to */
+/**
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {{left: number, top: number, right: number, bottom: number}} box
+ * @param {any} to
+ */
 function drawAxes(ctx, box, { x, y, px, py, text }) {
   const words = (/** @type {number} */ v) => inField(v);
   ctx.lineWidth = 1;
@@ -228,7 +250,13 @@ function drawAxes(ctx, box, { x, y, px, py, text }) {
   ctx.stroke();
 }
 
-/** Gaps where there is no value. @param {CanvasRenderingContext2D} ctx @param {any} line @param {(t: number) => number} px @param {(v: number) => number} py */
+/**
+ * Gaps where there is no value.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {any} line
+ * @param {(t: number) => number} px
+ * @param {(v: number) => number} py
+ */
 function stroke(ctx, line, px, py) {
   const { color, width, dash } = line.style ?? styleOf(line);
   ctx.save();

@@ -1,6 +1,6 @@
 /**
- * Four plots over one time axis: θ, ψ in degrees, V_p, V_y in volts. The pointer's cursor is shared; the scene's time is a line of its own, moved
- * without redrawing anything.
+ * Four plots over one time axis: θ, ψ in degrees, V_p, V_y in volts. The pointer's cursor is shared; the scene's time
+ * is a line of its own, moved without redrawing anything.
  * @typedef {import('../types.js').State} State
  * @typedef {import('../model/traces.js').Signal} Signal
  */
@@ -49,7 +49,11 @@ export class Plots {
   /** @type {import('../types.js').Requirements|null} */ #asked = null;
   /** @type {{t: import('../types.js').Series, plots: Record<Signal, any[]>}|null} */ #data = null;
 
-  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store @param {{onSeek: (t: number) => void, onPeek: (t: number|null) => void}} handlers */
+  /**
+   * @param {HTMLElement} root
+   * @param {import('../model/store.js').Store} store
+   * @param {{onSeek: (t: number) => void, onPeek: (t: number|null) => void}} handlers
+   */
   constructor(root, store, { onSeek, onPeek }) {
     this.store = store;
     this.onSeek = onSeek;
@@ -346,7 +350,8 @@ export class Plots {
   #movePlayhead() {
     for (const { chart, head } of this.plots) {
       const x = chart.valToPos(this.#playhead, 'x');
-      const inside = Number.isFinite(x) && x >= 0 && x <= chart.bbox.width / devicePixelRatio; // the element's own width would have the page laid out anew
+      // the element's own width would have the page laid out anew
+      const inside = Number.isFinite(x) && x >= 0 && x <= chart.bbox.width / devicePixelRatio;
       head.hidden = !inside;
       if (inside) head.style.transform = `translateX(${x.toFixed(1)}px)`;
     }

@@ -1,9 +1,11 @@
 /**
- * What is drawn across a plot besides its lines: limits with what lies beyond them, the reference, the band of uncertain rigs. Shades lie under the lines; what
- * is written lies over them on the paper's colour, so that it can be read where lines pass.
+ * What is drawn across a plot besides its lines: limits with what lies beyond them, the reference, the band of
+ * uncertain rigs. Shades lie under the lines; what is written lies over them on the paper's colour, so that it can be
+ * read where lines pass.
  * @typedef {{value: number, label: string, danger: boolean}} Rule  in the plot's unit
  * @typedef {(name: string) => string} Color
- * @typedef {{left: number, right: number, inner: number, outer: number}} Region  s, and in the plot's unit: the border, and how far it is drawn
+ * @typedef {{left: number, right: number, inner: number, outer: number}} Region s, and in the plot's unit: the border,
+ *   and how far it is drawn
  */
 import { DEGREE, fixed, say } from '../text/index.js';
 import { isVoltage } from '../model/index.js';
@@ -11,13 +13,23 @@ import { pictureScale } from '../ui/index.js';
 
 /** @typedef {import('../model/traces.js').Signal} Signal @typedef {import('../types.js').Reply} Reply */
 
-/** The step that is asked of this axis, degrees. @param {Reply|null} reply @param {Signal} signal @returns {number|undefined} */
+/**
+ * The step that is asked of this axis, degrees.
+ * @param {Reply|null} reply
+ * @param {Signal} signal
+ * @returns {number|undefined}
+ */
 export function referenceOf(reply, signal) {
   const reference = reply?.step.nonlinear.reference;
   return isVoltage(signal) || !reference ? undefined : reference[/** @type {'theta'|'psi'} */ (signal)] * DEGREE;
 }
 
-/** How far the motor goes, in volts, or pitch between its stops, in degrees. @param {Reply|null} reply @param {Signal} signal @returns {number|undefined} */
+/**
+ * How far the motor goes, in volts, or pitch between its stops, in degrees.
+ * @param {Reply|null} reply
+ * @param {Signal} signal
+ * @returns {number|undefined}
+ */
 export function limitOf(reply, signal) {
   const limits = reply?.limits;
   if (signal === 'theta') return limits?.theta === undefined ? undefined : limits.theta * DEGREE;
@@ -43,11 +55,16 @@ export function rulesOf(reply, signal) {
 }
 
 const SETTLED = 0.02; // of the step
-const WALL = 0.25; // of the step: how thick what is forbidden is drawn, as the other axis' step has its line in the same plot
+// of the step: how thick what is forbidden is drawn, as the other axis' step has its line in the same plot
+const WALL = 0.25;
 
 /**
- * Where this axis' own response may not be if it is to meet what is asked of the poles: past the overshoot, and off the reference once it should have settled.
- * @param {Reply|null} reply @param {Signal} signal @param {import('../types.js').Requirements} asked @returns {Region[]}
+ * Where this axis' own response may not be if it is to meet what is asked of the poles: past the overshoot, and off the
+ * reference once it should have settled.
+ * @param {Reply|null} reply
+ * @param {Signal} signal
+ * @param {import('../types.js').Requirements} asked
+ * @returns {Region[]}
  */
 export function regionsOf(reply, signal, { settling, overshoot }) {
   if (!reply || isVoltage(signal)) return [];
@@ -73,7 +90,12 @@ export function regionsOf(reply, signal, { settling, overshoot }) {
   ];
 }
 
-/** Hatched as in the s-plane, over the grid and under the lines. @param {any} u @param {Region[]} regions @param {Color} color */
+/**
+ * Hatched as in the s-plane, over the grid and under the lines.
+ * @param {any} u
+ * @param {Region[]} regions
+ * @param {Color} color
+ */
 export function drawRegions(u, regions, color) {
   const { ctx, bbox } = u;
   const size = devicePixelRatio * pictureScale().line;
@@ -95,7 +117,12 @@ export function drawRegions(u, regions, color) {
   ctx.restore();
 }
 
-/** @param {CanvasRenderingContext2D} ctx @param {Region} box pixels @param {string} color @param {number} size of a pixel */
+/**
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {Region} box pixels
+ * @param {string} color
+ * @param {number} size of a pixel
+ */
 export function hatch(ctx, { left, right, inner, outer }, color, size) {
   const [top, height] = [Math.min(inner, outer), Math.abs(outer - inner)];
   if (right - left < 1) return;
@@ -125,7 +152,12 @@ export const rulesSeen = (u, rules) => rules.filter(({ value }) => value <= u.sc
 /** @param {any} u @param {Rule} rule */
 const heightOf = (u, { value }) => Math.round(u.valToPos(value, 'y', true));
 
-/** Limits and what lies beyond them, over the grid and under the lines. @param {any} u @param {Rule[]} rules @param {Color} color */
+/**
+ * Limits and what lies beyond them, over the grid and under the lines.
+ * @param {any} u
+ * @param {Rule[]} rules
+ * @param {Color} color
+ */
 export function drawShades(u, rules, color) {
   const { ctx, bbox } = u;
   ctx.save();
@@ -157,7 +189,15 @@ export function drawRule({ ctx, bbox }, y, stroke, dash) {
   ctx.stroke();
 }
 
-/** What a line is called, at its right end, on paper. @param {any} u @param {number} y @param {string} label @param {1|-1} side 1: below it @param {string} ink @param {string} paper */
+/**
+ * What a line is called, at its right end, on paper.
+ * @param {any} u
+ * @param {number} y
+ * @param {string} label
+ * @param {1|-1} side 1: below it
+ * @param {string} ink
+ * @param {string} paper
+ */
 export function drawLabel({ ctx, bbox }, y, label, side, ink, paper) {
   const size = devicePixelRatio * pictureScale().type;
   const [x, foot] = [bbox.left + bbox.width - 4 * size, y + side * 3 * size];
@@ -175,7 +215,13 @@ export function drawLabel({ ctx, bbox }, y, label, side, ink, paper) {
   ctx.fillText(label, x, foot);
 }
 
-/** Between the 5th and the 95th percentile of the cloud's responses. @param {any} u @param {Signal} signal @param {import('../types.js').Cloud|null} cloud @param {Color} color */
+/**
+ * Between the 5th and the 95th percentile of the cloud's responses.
+ * @param {any} u
+ * @param {Signal} signal
+ * @param {import('../types.js').Cloud|null} cloud
+ * @param {Color} color
+ */
 export function drawBand(u, signal, cloud, color) {
   if (!cloud || isVoltage(signal)) return;
   const { t, envelopes } = cloud;

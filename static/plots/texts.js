@@ -1,18 +1,25 @@
 /**
- * What is written in a plot: the numbers at its axes, and what the lines across it are called. As elements over the canvas, they are laid out when they change, which in
- * a drag is seldom, and not drawn anew with every line.
+ * What is written in a plot: the numbers at its axes, and what the lines across it are called. As elements over the
+ * canvas, they are laid out when they change, which in a drag is seldom, and not drawn anew with every line.
  */
 import { h } from '../ui/index.js';
 
 const GAP = { x: 4, y: 5, rule: 3 }; // px at the usual size of type
 const FOOT = 4;
 
-/** @typedef {import('./rules.js').Rule} Rule @typedef {{key: string, text: string, x: number, y: number}} Text  CSS pixels in the chart */
+/**
+ * @typedef {import('./rules.js').Rule} Rule
+ * @typedef {{key: string, text: string, x: number, y: number}} Text CSS pixels in the chart
+ */
 
 export class PlotTexts {
   #drawn = '';
 
-  /** @param {any} chart @param {{axis: (value: number) => string, time: (value: number, last: boolean) => string}} words of the numbers at the axes */
+  /**
+   * @param {any} chart
+   * @param {{axis: (value: number) => string, time: (value: number, last: boolean) => string}} words of the numbers at
+   *   the axes
+   */
   constructor(chart, words) {
     this.chart = chart;
     this.words = words;
@@ -55,7 +62,12 @@ export class PlotTexts {
     return [...times.filter((/** @type {Text} */ { text }) => text), ...values];
   }
 
-  /** At the right end of their lines, away from zero's side. @param {Rule[]} rules @param {number} size @returns {Text[]} */
+  /**
+   * At the right end of their lines, away from zero's side.
+   * @param {Rule[]} rules
+   * @param {number} size
+   * @returns {Text[]}
+   */
   #rules(rules, size) {
     const { right } = box(this.chart);
     return rules.map(({ value, label, danger }) => ({

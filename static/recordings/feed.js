@@ -1,4 +1,7 @@
-/** Asks the server about a recording and keeps its answers in the store: file, overlay, identification with progress and cancel. */
+/**
+ * Asks the server about a recording and keeps its answers in the store: file, overlay, identification with progress and
+ * cancel.
+ */
 import { bodyOf } from '../model/index.js';
 import {
   identifyAddress,
@@ -39,7 +42,11 @@ export class RecordingFeed {
 
   /** @type {{file: Blob, name: string}[]} */ #files = [];
 
-  /** Another recording, of one file or of one per signal; its columns are guessed. @param {{file: Blob, name: string}[]} files @param {Record<string, string>} [dialect] */
+  /**
+   * Another recording, of one file or of one per signal; its columns are guessed.
+   * @param {{file: Blob, name: string}[]} files
+   * @param {Record<string, string>} [dialect]
+   */
   async send(files, dialect = {}) {
     const mine = ++this.#file;
     this.cancel();
@@ -62,7 +69,11 @@ export class RecordingFeed {
 
   #refused = { separator: '', decimal: '' };
 
-  /** How the text of what was sent may be read otherwise: as it was, or, where nothing was read, as was said. @param {Recorded} recorded @returns {{separator: string, decimal: string}|null} */
+  /**
+   * How the text of what was sent may be read otherwise: as it was, or, where nothing was read, as was said.
+   * @param {Recorded} recorded
+   * @returns {{separator: string, decimal: string}|null}
+   */
   dialect({ preview, problem }) {
     if (preview) return preview.dialect;
     return problem && this.#files.length ? this.#refused : null;

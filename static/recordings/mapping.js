@@ -82,7 +82,10 @@ export class RecordingMapping {
     if (this.#timed) this.#timed.hidden = !columns.names.time;
   }
 
-  /** Lets the user say how text is split. @param {{separator: string, decimal: string}|null} dialect as it was; null: it is no text */
+  /**
+   * Lets the user say how text is split.
+   * @param {{separator: string, decimal: string}|null} dialect as it was; null: it is no text
+   */
   dialect(dialect) {
     this.text.hidden = !dialect;
     if (!dialect || dialect === this.#shown) return;
@@ -197,7 +200,15 @@ export class RecordingMapping {
     return h('span', { class: 'recording-role' }, symbol(letter), sign, field.node);
   }
 
-  /** @param {string} id @param {string} label @param {string} mark @param {string} unit @param {{min: number, max: number, integer?: boolean}} range @param {number} value @param {(v: number) => void} commit */
+  /**
+   * @param {string} id
+   * @param {string} label
+   * @param {string} mark
+   * @param {string} unit
+   * @param {{min: number, max: number, integer?: boolean}} range
+   * @param {number} value
+   * @param {(v: number) => void} commit
+   */
   #number(id, label, mark, unit, range, value, commit) {
     const field = new NumberField({
       label,

@@ -1,4 +1,7 @@
-/** A recording of a real rig: file and columns, the simulation over it with its fit, and the rig's parameters identified from it. */
+/**
+ * A recording of a real rig: file and columns, the simulation over it with its fit, and the rig's parameters identified
+ * from it.
+ */
 import { significant } from '../text/index.js';
 import { h, setText, symbol } from '../ui/index.js';
 import { RecordingFeed } from './feed.js';
@@ -108,7 +111,8 @@ export class RecordingsPanel {
       h(
         'p',
         { class: 'caption' },
-        'Least squares on the nonlinear model under the recorded voltages. Intervals allow for correlated residuals. J, m and l are held fixed.',
+        'Least squares on the nonlinear model under the recorded voltages. Intervals allow for correlated ' +
+          'residuals. J, m and l are held fixed.',
       ),
       h(
         'div',

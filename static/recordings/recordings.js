@@ -29,7 +29,11 @@ export const TIME_UNITS = { s: 's', ms: 'ms', us: 'µs', ns: 'ns', min: 'min', h
 export const SEPARATORS = { comma: 'comma', semicolon: 'semicolon', tab: 'tab', bar: 'bar |', blank: 'blanks' };
 export const DECIMALS = { point: 'point', comma: 'comma' };
 
-/** What the server guessed, as the controls hold it; without a column of time the sample time is for the user to say. @param {any} preview @returns {RecordingColumns} */
+/**
+ * What the server guessed, as the controls hold it; without a column of time the sample time is for the user to say.
+ * @param {any} preview
+ * @returns {RecordingColumns}
+ */
 export const guessed = ({ guess }) => ({
   names: { ...guess.columns },
   time_unit: guess.time_unit ?? 's',
@@ -42,7 +46,10 @@ export const guessed = ({ guess }) => ({
   decimate: 1,
 });
 
-/** The columns as the server takes them; the sample time only where no column is the time. @param {RecordingColumns} columns */
+/**
+ * The columns as the server takes them; the sample time only where no column is the time.
+ * @param {RecordingColumns} columns
+ */
 export function columnsBody({ names, time_unit, unit, units, voltage_unit, signs, offsets, sample_time, decimate }) {
   const chosen = Object.fromEntries(Object.entries(names).filter(([, name]) => name));
   return {
@@ -57,7 +64,10 @@ export function columnsBody({ names, time_unit, unit, units, voltage_unit, signs
   };
 }
 
-/** Whether all is chosen that is needed: the time too, as a column or as the time between two rows. @param {RecordingColumns|null} columns */
+/**
+ * Whether all is chosen that is needed: the time too, as a column or as the time between two rows.
+ * @param {RecordingColumns|null} columns
+ */
 export const isMapped = (columns) =>
   Boolean(columns) &&
   ROLES.every(({ role, optional }) => optional || columns?.names[role] || (role === 'time' && columns?.sample_time));
@@ -80,7 +90,12 @@ export const identifyBody = (design, { preview, columns }, free) => ({
   free,
 });
 
-/** Measured and simulated, in degrees. @param {any} overlay @param {'theta'|'psi'} axis @returns {(number|null)[][]} t, measured, simulated, reference */
+/**
+ * Measured and simulated, in degrees.
+ * @param {any} overlay
+ * @param {'theta'|'psi'} axis
+ * @returns {(number|null)[][]} t, measured, simulated, reference
+ */
 export function curves(overlay, axis) {
   const shown = (/** @type {(number|null)[]|undefined} */ values) =>
     overlay.t.map((/** @type {number} */ _t, /** @type {number} */ i) =>
@@ -89,7 +104,11 @@ export function curves(overlay, axis) {
   return [overlay.t, shown(overlay.measured[axis]), shown(overlay.simulated[axis]), shown(overlay.references?.[axis])];
 }
 
-/** Room for what was measured; what runs away is cut off. @param {(number|null)[][]} data @returns {[number, number]} */
+/**
+ * Room for what was measured; what runs away is cut off.
+ * @param {(number|null)[][]} data
+ * @returns {[number, number]}
+ */
 export function rangeOfCurves([, measured, , reference]) {
   const seen = [...measured, ...reference].filter((v) => v !== null);
   const [low, high] = [Math.min(...seen), Math.max(...seen)];
@@ -107,7 +126,8 @@ const duration = (seconds) =>
 
 /** @param {any} preview */
 export function previewWords(preview) {
-  const about = say`${preview.name || 'Recording'}: ${preview.rows} rows, ${count(preview.columns.length, '{0} column', '{0} columns')}`;
+  const columns = count(preview.columns.length, '{0} column', '{0} columns');
+  const about = say`${preview.name || 'Recording'}: ${preview.rows} rows, ${columns}`;
   return preview.guess.sample_time > 0 ? say`${about}, ${duration(preview.guess.sample_time)} apart` : about;
 }
 
@@ -121,25 +141,35 @@ export function missingWords(columns) {
 
 /** @param {any} overlay */
 export function overlayWords(overlay) {
-  const about = say`${overlay.samples} samples in ${fixed(overlay.duration, 1)} s, ${duration(overlay.sample_time)} apart`;
+  const { samples, sample_time } = overlay;
+  const about = say`${samples} samples in ${fixed(overlay.duration, 1)} s, ${duration(sample_time)} apart`;
   return overlay.segments > 1
     ? say`${about}, ${overlay.segments} segments, each from the state that fits it best`
     : about;
 }
 
 /** @param {any} progress */
-export const progressWords = (progress) =>
-  progress
-    ? say`Simulation ${progress.evaluations}: residuals ${significant(progress.rms.theta * DEGREE, 3)}° in pitch, ${significant(progress.rms.psi * DEGREE, 3)}° in yaw`
-    : 'Identifying…';
+export function progressWords(progress) {
+  if (!progress) return 'Identifying…';
+  const [pitch, yaw] = [progress.rms.theta, progress.rms.psi].map((v) => significant(v * DEGREE, 3));
+  return say`Simulation ${progress.evaluations}: residuals ${pitch}° in pitch, ${yaw}° in yaw`;
+}
 
-/** As many decimals as two digits of the interval's half width need. @param {number} v @param {{low: number, high: number}} e */
+/**
+ * As many decimals as two digits of the interval's half width need.
+ * @param {number} v
+ * @param {{low: number, high: number}} e
+ */
 function as(v, { low, high }) {
   const half = (high - low) / 2;
   return fixed(v, half > 0 ? Math.max(0, Math.min(12, 1 - Math.floor(Math.log10(half)))) : 6);
 }
 
-/** One row per parameter. @param {any} found @returns {{name: string, unit: string, before: string, value: string, width: string, interval: string}[]} */
+/**
+ * One row per parameter.
+ * @param {any} found
+ * @returns {{name: string, unit: string, before: string, value: string, width: string, interval: string}[]}
+ */
 export function estimateRows(found) {
   return found.estimates.map((/** @type {any} */ e) => ({
     name: e.name,
@@ -151,7 +181,12 @@ export function estimateRows(found) {
   }));
 }
 
-/** The design on the rig that was found. @param {import('../types.js').Design} design @param {any} found @returns {import('../types.js').Design} */
+/**
+ * The design on the rig that was found.
+ * @param {import('../types.js').Design} design
+ * @param {any} found
+ * @returns {import('../types.js').Design}
+ */
 export const adopted = (design, found) => ({
   ...design,
   parameters: {

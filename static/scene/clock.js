@@ -1,4 +1,5 @@
-// The playback clock: where time stands in a response, and how it runs. Pure: who calls `advance` says how much time has passed.
+// The playback clock: where time stands in a response, and how it runs. Pure: who calls `advance` says how much time
+// has passed.
 
 /**
  * What another window needs to play in step. `time` lies beyond the response's end while a loop rests there.
@@ -50,7 +51,10 @@ export class SceneClock {
     return this.#duration;
   }
 
-  /** Of another response; time stays where it is, within it, and a loop's rest goes on. @param {number} duration seconds */
+  /**
+   * Of another response; time stays where it is, within it, and a loop's rest goes on.
+   * @param {number} duration seconds
+   */
   setDuration(duration) {
     const rested = Math.max(this.#position - this.#duration, 0);
     const time = this.time;

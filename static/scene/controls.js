@@ -6,7 +6,10 @@ import { cameraNamed, CAMERAS } from './cameras.js';
 const [CAMERA, LINEAR, PINS] = ['camera', 'fly-linear', 'fly-pins'];
 
 export class SceneControls {
-  /** @param {{onCamera: (camera: CameraName) => void, onReset: () => void, onFlights: () => void, onSeen: () => void}} handlers */
+  /**
+   * @param {{onCamera: (camera: CameraName) => void, onReset: () => void, onFlights: () => void, onSeen: () => void}}
+   *   handlers
+   */
   constructor({ onCamera, onReset, onFlights, onSeen }) {
     this.#onCamera = onCamera;
     this.camera = cameraNamed(recall(CAMERA));

@@ -3,8 +3,8 @@ import { change, sampleTrajectory, show, turn } from './pose.js';
 import { colorOf, COLORS, letterOf, motionOf } from '../model/index.js';
 
 /**
- * One ghost: its node under /ghosts, as app/scene/rig.py makes them, what is written at it and what
- * it flies. Its voltages are not drawn.
+ * One ghost: its node under /ghosts, as app/scene/rig.py makes them, what is written at it and what it flies. Its
+ * voltages are not drawn.
  * @typedef {{slot: string, label: string, color: import("./pose.js").Color,
  *   trajectory: Pick<import("./pose.js").Trajectory, "t" | "theta" | "psi">}} Flight
  */
@@ -41,8 +41,8 @@ export function flightsOf({ reply, motion, pins }, wanted, color) {
 }
 
 /**
- * Returns viser's messages that put the ghosts where they are at a time in seconds, each held at
- * the end of its own response, and hide the others.
+ * Returns viser's messages that put the ghosts where they are at a time in seconds, each held at the end of its own
+ * response, and hide the others.
  * @param {Flight[]} flights @param {number} time
  * @returns {import("./pose.js").SceneMessage[]}
  */

@@ -1,7 +1,8 @@
 /**
- * The socket on which the windows of one session tell one another what is shown and how time runs. A page sends nothing while nobody else listens;
- * of what is shown, the newest waits until the server has taken the last. Each window plays by itself: the server's clock says how long ago a
- * snapshot was taken.
+ * The socket on which the windows of one session tell one another what is shown and how time runs. A page sends nothing
+ * while nobody else listens;
+ * of what is shown, the newest waits until the server has taken the last. Each window plays by itself: the server's
+ * clock says how long ago a snapshot was taken.
  * @typedef {import('./clock.js').Snapshot} Snapshot
  * @typedef {{others: number, leads: boolean, count: number}} Windows  count: of the panel's messages so far
  */
@@ -17,8 +18,8 @@ export class Hub {
   #others = 0;
   #busy = false;
   /** @type {any} */ #waiting = null;
-  /** The server's clock less ours, and how well it is known; seconds. @type {{offset: number, trip: number}|null} */ #clock =
-    null;
+  /** The server's clock less ours, and how well it is known; seconds. @type {{offset: number, trip: number}|null} */
+  #clock = null;
   /** @type {(() => void)[]} What needs the server's time. */ #later = [];
   #pings = 0;
   #attempt = 0;
@@ -31,7 +32,8 @@ export class Hub {
    * @param {boolean} [how.always]  send even if there is no other window: where the panel listens
    * @param {(shown: any) => void} how.onShown  what another window shows
    * @param {(snapshot: Snapshot, elapsed: number) => void} how.onTransport  how time ran so many seconds ago
-   * @param {(edits: Record<string, any>, count: number) => void} how.onEdits  what was set at the panel, for the window that leads
+   * @param {(edits: Record<string, any>, count: number) => void} how.onEdits what was set at the panel, for the window
+   *   that leads
    * @param {(windows: Windows) => void} how.onWindows  also after every new connection
    * @param {() => number} [how.now]  seconds
    */

@@ -40,8 +40,8 @@ export class SceneLink {
   }
 
   /**
-   * At once rather than by postMessage: the frame's own animation callbacks come after the page's in
-   * each frame, so that the scene draws a pose in the frame that it was sampled for.
+   * At once rather than by postMessage: the frame's own animation callbacks come after the page's in each frame, so
+   * that the scene draws a pose in the frame that it was sampled for.
    * @param {object} message
    */
   post(message) {

@@ -10,7 +10,10 @@ const arrow = () =>
     svg('path', { d: 'M 5 2 H 1.5 V 10.5 H 10 V 7 M 7 1.5 H 10.5 V 5 M 10.5 1.5 L 5.5 6.5' }),
   );
 
-/** The motion that is played, as a call of its own: an axis that is not stepped has no reference. @param {import('../types.js').State} state */
+/**
+ * The motion that is played, as a call of its own: an axis that is not stepped has no reference.
+ * @param {import('../types.js').State} state
+ */
 function requestOf({ design, motion }) {
   if (!design) return null;
   const scenario = scenarioOf(design);

@@ -1,5 +1,6 @@
 /**
- * What the panel beside the rig asks for, as changes of the design and of playing. The names are those of app/scene/panel.py. Pure.
+ * What the panel beside the rig asks for, as changes of the design and of playing. The names are those of
+ * app/scene/panel.py. Pure.
  * @typedef {import('../types.js').Poles} Poles
  * @typedef {import('../types.js').Loops} Loops
  * @typedef {Record<string, number|boolean|string>} Edits
@@ -49,7 +50,12 @@ export function edited(design, edits) {
   return poles === design.poles && loops === design.loops ? design : { ...design, poles, loops };
 }
 
-/** What the edits do to playing. @param {{play: () => void, pause: () => void, replay: () => void, setSpeed: (s: number) => void, setLoop: (l: boolean) => void}} player @param {Edits} edits */
+/**
+ * What the edits do to playing.
+ * @param {{play: () => void, pause: () => void, replay: () => void, setSpeed: (s: number) => void, setLoop: (l:
+ *   boolean) => void}} player
+ * @param {Edits} edits
+ */
 export function steer(player, edits) {
   const { speed, loop } = edits;
   if (typeof speed === 'number') player.setSpeed(speed);
@@ -61,8 +67,11 @@ export function steer(player, edits) {
 
 /**
  * What the windows of a session show one another.
- * @param {any} request the evaluation that was asked for @param {import('../types.js').Reply} reply @param {import('../types.js').Step} motion
- * @param {{motion: string, rig: string, after: number}} more after: number of the panel's last message that the request contains
+ * @param {any} request the evaluation that was asked for
+ * @param {import('../types.js').Reply} reply
+ * @param {import('../types.js').Step} motion
+ * @param {{motion: string, rig: string, after: number}} more after: number of the panel's last message that the request
+ *   contains
  */
 export function shownOf(request, reply, motion, more) {
   const series = Object.fromEntries(

@@ -190,8 +190,8 @@ export function themeMessages(dark) {
 }
 
 /**
- * Returns the messages that draw a motor's thrust: as long as its voltage is large, red and capped
- * where the motor gives all it can.
+ * Returns the messages that draw a motor's thrust: as long as its voltage is large, red and capped where the motor
+ * gives all it can.
  * @param {string} node @param {number} volts @param {number} limit volts @param {boolean} [dark]
  * @returns {SceneMessage[]}
  */
@@ -236,8 +236,8 @@ function stopMessages(limit) {
 }
 
 /**
- * Returns viser's messages that put the rig into a pose. With z up and x towards the nose, positive
- * yaw turns clockwise seen from above and positive pitch lifts the nose: both turns are negative.
+ * Returns viser's messages that put the rig into a pose. With z up and x towards the nose, positive yaw turns clockwise
+ * seen from above and positive pitch lifts the nose: both turns are negative.
  * @param {Pose} pose
  * @returns {SceneMessage[]}
  */

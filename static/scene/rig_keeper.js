@@ -1,6 +1,7 @@
 /**
- * Sees to it that the server shows the wanted rig. What a server forgets (it was started again, another one took over) and what it could not hear
- * is told again; of several wishes only the newest is. Pure but for the clock that it is given.
+ * Sees to it that the server shows the wanted rig. What a server forgets (it was started again, another one took over)
+ * and what it could not hear is told again; of several wishes only the newest is. Pure but for the clock that it is
+ * given.
  */
 import { backoff } from '../net/index.js';
 
@@ -14,7 +15,10 @@ export class RigKeeper {
   #attempt = 0;
   /** @type {any} */ #timer;
 
-  /** @param {(rig: string) => Promise<unknown>} put tells the server @param {(act: () => void, delay: number) => unknown} [later] */
+  /**
+   * @param {(rig: string) => Promise<unknown>} put tells the server
+   * @param {(act: () => void, delay: number) => unknown} [later]
+   */
   constructor(put, later = (act, delay) => setTimeout(act, delay)) {
     this.put = put;
     this.later = later;

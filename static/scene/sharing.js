@@ -1,5 +1,6 @@
 /**
- * The page's part in a session of several windows: it shows the others its design's motion and how time runs, and does what is set at their panel.
+ * The page's part in a session of several windows: it shows the others its design's motion and how time runs, and does
+ * what is set at their panel.
  * Where the page is hidden behind them it gets no frames, so nothing here waits for one.
  * @typedef {import('../types.js').State} State
  */
@@ -37,7 +38,8 @@ export class SceneSharing {
 
   /** @param {import('./clock.js').Snapshot} snapshot @param {import('./player.js').Cause} cause */
   run(snapshot, cause) {
-    if (cause === 'load' && this.step.expects(snapshot.time)) return; // each window loads by itself and stays where it is
+    // each window loads by itself and stays where it is
+    if (cause === 'load' && this.step.expects(snapshot.time)) return;
     this.step.keep(snapshot);
     this.hub.run(snapshot);
   }

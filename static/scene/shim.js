@@ -1,7 +1,7 @@
-// Runs in viser's page before viser's own code. Lets the page around the frame move the nodes of
-// the scene in its own animation frames: viser's messages are handed to the client as if its socket
-// worker had received them, so that the server need not stream poses. In a window of its own the scene
-// has no page around it; there scene_window.js does the same from within.
+// Runs in viser's page before viser's own code. Lets the page around the frame move the nodes of the scene in its own
+// animation frames: viser's messages are handed to the client as if its socket worker had received them, so that the
+// server need not stream poses. In a window of its own the scene has no page around it; there scene/window.js does the
+// same from within.
 (() => {
   'use strict';
 
@@ -18,8 +18,8 @@
   const framed = window.parent !== window;
   document.documentElement.dataset.place = framed ? 'frame' : 'window';
 
-  // Viser's client obeys its address: ?websocket= would connect it to any server, and
-  // ?playbackPath= load any recording, either of which may carry scripts into this origin.
+  // Viser's client obeys its address: ?websocket= would connect it to any server, and ?playbackPath= load any
+  // recording, either of which may carry scripts into this origin.
   history.replaceState(null, '', location.pathname);
 
   /** @type {Worker | null} The worker that holds viser's socket. */
@@ -50,8 +50,8 @@
   }
 
   /**
-   * Viser's client takes messages in its animation frames, the first camera among them, which would overrule
-   * a camera that the page has sent before. So the scene is ready once its queue is empty.
+   * Viser's client takes messages in its animation frames, the first camera among them, which would overrule a camera
+   * that the page has sent before. So the scene is ready once its queue is empty.
    * @param {number} connection when it is another one, nobody waits any longer
    * @param {number} [frames] that are waited for at most, where viser tells nothing of its queue
    */
@@ -110,15 +110,14 @@
     }
   });
 
-  // Viser's sorter of splats makes functions from text when it loads, which the page's policy forbids. No
-  // scene here has splats: what it gets is never called.
+  // Viser's sorter of splats makes functions from text when it loads, which the page's policy forbids. No scene here
+  // has splats: what it gets is never called.
   const sorter = () => {
     throw new Error('functions are not made from text here');
   };
   window.Function = new Proxy(Function, { apply: () => () => sorter, construct: () => () => sorter });
 
-  // In a frame the document has no focus until it is clicked, and viser's client would not
-  // reconnect until then.
+  // In a frame the document has no focus until it is clicked, and viser's client would not reconnect until then.
   Document.prototype.hasFocus = function () {
     return !document.hidden;
   };

@@ -1,5 +1,6 @@
 /**
- * Keeps a player where the session's other windows are: a window that was hidden, or drew slowly, has lost time. Pure but for the clock that it is given.
+ * Keeps a player where the session's other windows are: a window that was hidden, or drew slowly, has lost time. Pure
+ * but for the clock that it is given.
  * @typedef {import('./clock.js').Snapshot} Snapshot
  */
 import { SceneClock } from './clock.js';
@@ -10,7 +11,10 @@ const TOLERATED = 0.12;
 export class InStep {
   /** How time ran, and when that was. @type {{snapshot: Snapshot, since: number}|null} */ #last = null;
 
-  /** @param {{time: number, duration: number, follow: (snapshot: Snapshot, elapsed: number) => void}} player @param {() => number} [now] seconds */
+  /**
+   * @param {{time: number, duration: number, follow: (snapshot: Snapshot, elapsed: number) => void}} player
+   * @param {() => number} [now] seconds
+   */
   constructor(player, now = () => performance.now() / 1000) {
     this.player = player;
     this.now = now;

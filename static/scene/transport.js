@@ -6,7 +6,10 @@ import { SPEEDS } from './clock.js';
 const SPEED_TEXT = /** @type {Record<number, string>} */ ({ 0.25: '¼×', 0.5: '½×' });
 
 export class Transport {
-  /** @param {{onToggle: () => void, onReplay: () => void, onSeek: (t: number) => void, onSpeed: (speed: number) => void, onLoop: (loop: boolean) => void}} handlers */
+  /**
+   * @param {{onToggle: () => void, onReplay: () => void, onSeek: (t: number) => void, onSpeed: (speed: number) => void,
+   *   onLoop: (loop: boolean) => void}} handlers
+   */
   constructor({ onToggle, onReplay, onSeek, onSpeed, onLoop }) {
     this.play = h('button', { type: 'button', class: 'play', 'data-testid': 'play', onclick: onToggle });
     this.replay = h(

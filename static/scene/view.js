@@ -1,6 +1,6 @@
 /**
- * The scene's pane: the frame with the rig, what is written over it, and the transport. Where there is no WebGL it says so, and time still runs for
- * the plots and the read-outs.
+ * The scene's pane: the frame with the rig, what is written over it, and the transport. Where there is no WebGL it says
+ * so, and time still runs for the plots and the read-outs.
  * @typedef {import('../types.js').State} State
  */
 import { degrees, fixed } from '../text/index.js';
@@ -46,7 +46,12 @@ export class SceneView {
   /** @type {Record<string, import('./cameras.js').RigView>|null} */ #views = null;
   #calm = matchMedia('(prefers-reduced-motion: reduce)');
 
-  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store @param {{onTime: (t: number) => void, onTransport: NonNullable<ConstructorParameters<typeof ScenePlayer>[1]>['onTransport']}} handlers */
+  /**
+   * @param {HTMLElement} root
+   * @param {import('../model/store.js').Store} store
+   * @param {{onTime: (t: number) => void, onTransport: NonNullable<ConstructorParameters<typeof
+   *   ScenePlayer>[1]>['onTransport']}} handlers
+   */
   constructor(root, store, { onTime, onTransport }) {
     this.store = store;
     this.onTime = onTime;
@@ -165,7 +170,10 @@ export class SceneView {
     this.player.seek(t);
   }
 
-  /** Shows the rig at the plots' cursor, where time does not run, and where it was when the cursor has left. @param {number|null} t */
+  /**
+   * Shows the rig at the plots' cursor, where time does not run, and where it was when the cursor has left.
+   * @param {number|null} t
+   */
   peek(t) {
     if (t === this.#peeked) return; // the plots share one cursor, and each tells of it
     this.#peeked = t;
@@ -191,7 +199,8 @@ export class SceneView {
     if (state.dragging !== this.#dragging) this.#follow(state.dragging);
     const rig = this.store.preset?.rig;
     if (state.connection === 'lost')
-      this.#rig = null; // a server that returns knows nothing of this tab, and builds the right rig at once if told first
+      // a server that returns knows nothing of this tab, and builds the right rig at once if told first
+      this.#rig = null;
     else if (rig && rig !== this.#rig) this.#setRig(rig);
     if (!state.reply) return;
     const motion = motionOf(state.reply, state.motion) ?? state.reply.step;
@@ -211,7 +220,10 @@ export class SceneView {
     }
   }
 
-  /** A response: the first plays from its start, as does a drag's, which goes on with each that follows. @param {import('../types.js').Step} step */
+  /**
+   * A response: the first plays from its start, as does a drag's, which goes on with each that follows.
+   * @param {import('../types.js').Step} step
+   */
   #load(step) {
     const first = this.#loaded === null;
     const afresh = first || (this.#fresh && !this.#calm.matches);
@@ -239,8 +251,8 @@ export class SceneView {
   }
 
   /**
-   * Without a graphics card, drawing the rig holds up the whole page. Where that is seen to happen, the rig rests during drags: a drag never
-   * waits. @param {boolean} dragging
+   * Without a graphics card, drawing the rig holds up the whole page. Where that is seen to happen, the rig rests
+   * during drags: a drag never waits. @param {boolean} dragging
    */
   #follow(dragging) {
     this.#dragging = this.#fresh = dragging;
@@ -273,7 +285,8 @@ export class SceneView {
   /** @param {{t: number, theta: number, psi: number, V_p: number, V_y: number}} s */
   #show(s) {
     const now = performance.now();
-    if (this.#dragging && this.player.playing && now - this.#told < CALM) return; // the figures; the rig itself moves on
+    // the figures; the rig itself moves on
+    if (this.#dragging && this.player.playing && now - this.#told < CALM) return;
     this.#told = now;
     setText(this.hud.theta, degrees(s.theta));
     setText(this.hud.psi, degrees(s.psi));

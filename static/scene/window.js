@@ -1,6 +1,7 @@
 /**
- * The rig in a window of its own: plays what the page shows, in step with it. While there is no page, the window that leads asks the server itself, so
- * that the panel goes on working; with a session that nobody has used it starts from the first preset.
+ * The rig in a window of its own: plays what the page shows, in step with it. While there is no page, the window that
+ * leads asks the server itself, so that the panel goes on working; with a session that nobody has used it starts from
+ * the first preset.
  */
 import { degrees, fixed } from '../text/index.js';
 import { designOf, evaluationOf, motionOf } from '../model/index.js';

@@ -4,7 +4,12 @@ import { toPixel } from './math.js';
 const DOT = 2;
 /** @type {unknown} */ let drawn = null;
 
-/** @param {HTMLCanvasElement} canvas @param {import('./math.js').View} view @param {number} unit CSS pixels to one of the view's @param {import('../types.js').Cloud|null} cloud */
+/**
+ * @param {HTMLCanvasElement} canvas
+ * @param {import('./math.js').View} view
+ * @param {number} unit CSS pixels to one of the view's
+ * @param {import('../types.js').Cloud|null} cloud
+ */
 export function drawCloud(canvas, view, unit, cloud) {
   const key = cloud ? JSON.stringify(view) : '';
   if (canvas.dataset.view === key && drawn === cloud) return;

@@ -1,5 +1,6 @@
 /**
- * The cloud of uncertain rigs: the same controller on rigs whose parameters differ a little. A few rigs while something moves, many once the hand rests.
+ * The cloud of uncertain rigs: the same controller on rigs whose parameters differ a little. A few rigs while something
+ * moves, many once the hand rests.
  * @typedef {import('../types.js').State} State
  * @typedef {import('../types.js').Design} Design
  */
@@ -11,7 +12,14 @@ const FEW = 200;
 const MANY = 2000;
 const REST_MS = 500;
 
-/** What is asked of the server. @param {Design} design @param {number} spread @param {import('../types.js').Motion} motion @param {string[]} names of the parameters @param {number} samples */
+/**
+ * What is asked of the server.
+ * @param {Design} design
+ * @param {number} spread
+ * @param {import('../types.js').Motion} motion
+ * @param {string[]} names of the parameters
+ * @param {number} samples
+ */
 export function cloudRequest(design, spread, motion, names, samples) {
   const scenario = cloudScenario(design.scenario);
   const played = motion === 'both' ? scenario.reference : { [motion]: scenario.reference[motion] };
@@ -23,12 +31,19 @@ export function cloudRequest(design, spread, motion, names, samples) {
   };
 }
 
-/** The cloud in words. @param {import('../types.js').Cloud|null} cloud @param {import('../types.js').Scenario} [scenario] */
+/**
+ * The cloud in words.
+ * @param {import('../types.js').Cloud|null} cloud
+ * @param {import('../types.js').Scenario} [scenario]
+ */
 export function cloudWords(cloud, scenario) {
   if (!cloud) return '';
   const percent = (/** @type {number} */ share) => `${Math.floor(100 * share)} %`; // 99.9 % is not all
   const caveat = cloudCaveat(scenario);
-  return `${cloud.done} rigs${caveat && ` (${caveat})`}: ${percent(cloud.share_stable)} stable, ${percent(cloud.share_within_limits)} within limits`;
+  return (
+    `${cloud.done} rigs${caveat && ` (${caveat})`}: ${percent(cloud.share_stable)} stable, ` +
+    `${percent(cloud.share_within_limits)} within limits`
+  );
 }
 
 export class CloudFeed {

@@ -1,5 +1,6 @@
 /**
- * Mouse, touch, wheel and keys over the s-plane, turned into edits of the poles and views of the plane. One pointer drags a pole or, as a mouse, pans;
+ * Mouse, touch, wheel and keys over the s-plane, turned into edits of the poles and views of the plane. One pointer
+ * drags a pole or, as a mouse, pans;
  * two fingers zoom and pan; one finger beside the poles scrolls the page.
  * @typedef {import('./math.js').View} View
  * @typedef {{x: number, y: number}} Point  pixels of the view

@@ -1,4 +1,7 @@
-/** What lies behind the poles: axes, circles of constant ωₙ, rays of constant ζ, and the unstable half. Redrawn only when the view changes. */
+/**
+ * What lies behind the poles: axes, circles of constant ωₙ, rays of constant ζ, and the unstable half. Redrawn only
+ * when the view changes.
+ */
 import { fixed } from '../text/index.js';
 import { niceStep, ticks } from '../model/index.js';
 import { svg } from '../ui/index.js';

@@ -1,7 +1,8 @@
 /**
- * Where the PI loops take the placed poles: as their gains grow from nothing to what is set, integral times as they are, the four poles and the two integrators
- * at 0 move to the six poles of the whole loop. With E(s) = s² I − A₂₂ s − A₂₁ of the inner loop the characteristic polynomial is
- * s² det(E + ε B₂ W diag(kp (1 + 1/(T_i s)))), a square polynomial in ε: known at 0 and at 1, and its last term is det(B₂ W) times both controllers. Pure.
+ * Where the PI loops take the placed poles: as their gains grow from nothing to what is set, integral times as they
+ * are, the four poles and the two integrators at 0 move to the six poles of the whole loop. With E(s) = s² I − A₂₂ s −
+ * A₂₁ of the inner loop the characteristic polynomial is s² det(E + ε B₂ W diag(kp (1 + 1/(T_i s)))), a square
+ * polynomial in ε: known at 0 and at 1, and its last term is det(B₂ W) times both controllers. Pure.
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {Complex[][]} Paths  of the placed poles, in their order, each from itself to a pole of the whole loop
  */
@@ -14,7 +15,10 @@ const AGREES = 1e-3; // relative distance of the ends to the server's poles; els
 /** @param {Complex} a @param {Complex} b */
 const times = (a, b) => ({ re: a.re * b.re - a.im * b.im, im: a.re * b.im + a.im * b.re });
 
-/** Coefficients of a monic polynomial, highest power first, from roots that are conjugate to each other. @param {readonly Complex[]} roots */
+/**
+ * Coefficients of a monic polynomial, highest power first, from roots that are conjugate to each other.
+ * @param {readonly Complex[]} roots
+ */
 export function polynomial(roots) {
   let p = [{ re: 1, im: 0 }];
   for (const r of roots)
@@ -24,7 +28,12 @@ export function polynomial(roots) {
   return p.map((c) => c.re);
 }
 
-/** One sweep of Aberth's method over all roots at once. @param {number[]} p monic @param {Complex[]} z changed @returns {number} the largest relative step */
+/**
+ * One sweep of Aberth's method over all roots at once.
+ * @param {number[]} p monic
+ * @param {Complex[]} z changed
+ * @returns {number} the largest relative step
+ */
 function sweep(p, z) {
   let most = 0;
   for (let i = 0; i < z.length; i++) {
@@ -57,7 +66,13 @@ function sweep(p, z) {
   return most;
 }
 
-/** det(B₂ W): B₂ as the angles feel the motors, W which motor answers for which error, and with which sign. @param {number[][]} K @param {number[][]} A @param {number[][]} B @param {{pairing: string, decoupler: boolean}} how */
+/**
+ * det(B₂ W): B₂ as the angles feel the motors, W which motor answers for which error, and with which sign.
+ * @param {number[][]} K
+ * @param {number[][]} A
+ * @param {number[][]} B
+ * @param {{pairing: string, decoupler: boolean}} how
+ */
 function crossDeterminant(K, A, B, { pairing, decoupler }) {
   const [[b11, b12], [b21, b22]] = [B[2], B[3]];
   const det = b11 * b22 - b12 * b21;

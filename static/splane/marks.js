@@ -1,13 +1,13 @@
 /**
- * What is drawn for the poles: four handles that take focus and speak, under each its mark (pitch round, yaw square), the link of each pair, and the
- * crosses and diamonds of the open and the whole loop.
+ * What is drawn for the poles: four handles that take focus and speak, under each its mark (pitch round, yaw square),
+ * the link of each pair, and the crosses and diamonds of the open and the whole loop.
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {import('../types.js').State} State
  * @typedef {import('./math.js').View} View
  */
 import { poleText, say } from '../text/index.js';
 import { guideWords, isAsked, pairOf, placesPoles } from '../model/index.js';
-import { setAttr, setText, svg } from '../ui/index.js';
+import { setAttr, svg } from '../ui/index.js';
 import { toPixel } from './math.js';
 
 export const NAMES = ['pitch', 'yaw'];
@@ -15,7 +15,8 @@ const CROSS = 'M -5.5 -5.5 L 5.5 5.5 M -5.5 5.5 L 5.5 -5.5';
 const OPEN_MARK = 'M -4 -4 L 4 4 M -4 4 L 4 -4';
 const LOOP_MARK = 'M 0 -5.5 L 5.5 0 L 0 5.5 L -5.5 0 Z';
 const TITLE =
-  'Drag, or use the arrow keys (Shift: fine, Page keys: coarse). Drag two real poles of a pair together, then off the axis: they turn complex.\n' +
+  'Drag, or use the arrow keys (Shift: fine, Page keys: coarse). Drag two real poles of a pair together, then off ' +
+  'the axis: they turn complex.\n' +
   'Where marks overlap, Tab or 1 to 4 brings another to the top.';
 
 /** @param {number} i a handle: what is pressed, focused and heard */
@@ -92,7 +93,10 @@ export class Marks {
     ];
   }
 
-  /** Brings a pole's mark to the top. The handles keep their order, which is that of the Tab key. @param {number} index */
+  /**
+   * Brings a pole's mark to the top. The handles keep their order, which is that of the Tab key.
+   * @param {number} index
+   */
   raise(index) {
     if (this.order[3] === index) return;
     this.order = [...this.order.filter((i) => i !== index), index];
@@ -145,7 +149,12 @@ export class Marks {
 
   /** @type {readonly Complex[]|null} */ #way = null;
 
-  /** The way of a placed pole to where the PI loops take it, and that pole of the whole loop. @param {{index: number, path: Complex[]}|null} way @param {View} view @param {boolean} fresh whether the view changed */
+  /**
+   * The way of a placed pole to where the PI loops take it, and that pole of the whole loop.
+   * @param {{index: number, path: Complex[]}|null} way
+   * @param {View} view
+   * @param {boolean} fresh whether the view changed
+   */
   drawPath(way, view, fresh) {
     if (!fresh && this.#way === (way?.path ?? null)) return;
     this.#way = way?.path ?? null;

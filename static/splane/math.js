@@ -1,8 +1,10 @@
 /**
  * Geometry of the s-plane: which part of it is seen, and what its grid looks like. Pure.
- * A view is the rectangle of the plane in sight, with one scale for both axes (angles are damping ratios, so they must be true).
+ * A view is the rectangle of the plane in sight, with one scale for both axes (angles are damping ratios, so they must
+ * be true).
  * @typedef {import('../types.js').Complex} Complex
- * @typedef {{cx: number, cy: number, scale: number, width: number, height: number}} View  centre, pixels per rad/s, pixels
+ * @typedef {{cx: number, cy: number, scale: number, width: number, height: number}} View centre, pixels per rad/s,
+ *   pixels
  */
 import { niceStep } from '../model/index.js';
 
@@ -22,7 +24,14 @@ export function bounds(v) {
   return { left: v.cx - w, right: v.cx + w, bottom: v.cy - h, top: v.cy + h };
 }
 
-/** Zooms about a pixel, which keeps its place in the plane. @param {View} v @param {number} factor @param {number} x @param {number} y @returns {View} */
+/**
+ * Zooms about a pixel, which keeps its place in the plane.
+ * @param {View} v
+ * @param {number} factor
+ * @param {number} x
+ * @param {number} y
+ * @returns {View}
+ */
 export function zoom(v, factor, x, y) {
   const scale = Math.max(0.002, Math.min(5000, v.scale * factor));
   const p = toPlane(v, x, y);
@@ -33,7 +42,9 @@ const RING = 11; // px: half a pole's mark
 
 /**
  * The pole that a press takes: the topmost of the marks that it falls on; beside all marks, the nearest within reach.
- * @param {View} v @param {readonly Complex[]} poles @param {readonly number[]} order from the lowest to the topmost mark
+ * @param {View} v
+ * @param {readonly Complex[]} poles
+ * @param {readonly number[]} order from the lowest to the topmost mark
  * @param {{x: number, y: number}} at @param {number} reach pixels
  * @returns {number|null}
  */
@@ -50,7 +61,9 @@ export function pick(v, poles, order, at, reach) {
 
 /**
  * Two fingers: what lay between them stays between them, as far apart as they are now.
- * @param {View} v when they touched down @param {[{x: number, y: number}, {x: number, y: number}]} from @param {[{x: number, y: number}, {x: number, y: number}]} to
+ * @param {View} v when they touched down
+ * @param {[{x: number, y: number}, {x: number, y: number}]} from
+ * @param {[{x: number, y: number}, {x: number, y: number}]} to
  * @returns {View}
  */
 export function pinch(v, [a, b], [c, d]) {
@@ -65,8 +78,9 @@ export function pinch(v, [a, b], [c, d]) {
 }
 
 /**
- * The view that shows the poles with room to drag, the imaginary axis, and a little of the right half plane. Of the loop's poles only those
- * count that are not far beyond the placed ones, as one fast pole must not make the rest tiny; an unstable one must be seen.
+ * The view that shows the poles with room to drag, the imaginary axis, and a little of the right half plane. Of the
+ * loop's poles only those count that are not far beyond the placed ones, as one fast pole must not make the rest tiny;
+ * an unstable one must be seen.
  * @param {readonly Complex[]} placed @param {readonly Complex[]} others @param {{width: number, height: number}} size
  * @returns {View}
  */
@@ -83,7 +97,11 @@ export function fit(placed, others, { width, height }) {
   return { cx: (left + right) / 2, cy: 0, scale, width, height };
 }
 
-/** Whether the poles need another view: one is out of sight, or all are huddled in a corner. @param {View} v @param {readonly Complex[]} placed */
+/**
+ * Whether the poles need another view: one is out of sight, or all are huddled in a corner.
+ * @param {View} v
+ * @param {readonly Complex[]} placed
+ */
 export function outgrown(v, placed) {
   const b = bounds(v);
   const margin = 0.03 * (b.right - b.left);
@@ -94,7 +112,12 @@ export function outgrown(v, placed) {
 
 export const DAMPING = [0.2, 0.4, 0.6, 0.8, 0.9];
 
-/** Where the ray of damping ratio ζ (upper left) leaves the view, or nothing. @param {View} v @param {number} zeta @returns {[number, number]|undefined} */
+/**
+ * Where the ray of damping ratio ζ (upper left) leaves the view, or nothing.
+ * @param {View} v
+ * @param {number} zeta
+ * @returns {[number, number]|undefined}
+ */
 export function rayEnd(v, zeta) {
   const b = bounds(v);
   const dir = { re: -zeta, im: Math.sqrt(1 - zeta * zeta) };

@@ -1,4 +1,7 @@
-/** Pinned designs in the s-plane: small crosses with their letters under the poles that are dragged. Drawn anew only when pins or view change. */
+/**
+ * Pinned designs in the s-plane: small crosses with their letters under the poles that are dragged. Drawn anew only
+ * when pins or view change.
+ */
 import { colorOf, letterOf } from '../model/index.js';
 import { drawingUnit, pictureScale, svg } from '../ui/index.js';
 import { toPixel } from './math.js';

@@ -1,4 +1,7 @@
-/** What one pole means, written beside it: place, damping, frequency, settling time and overshoot alone; where the PI loops take it; and how its axis' step settles. */
+/**
+ * What one pole means, written beside it: place, damping, frequency, settling time and overshoot alone; where the PI
+ * loops take it; and how its axis' step settles.
+ */
 import { fixed, say, seconds, t } from '../text/index.js';
 import { AXES, character, guideWords, isAsked, isComplex, pairOf, partner } from '../model/index.js';
 import { h, setText } from '../ui/index.js';
@@ -14,7 +17,10 @@ const figures = (settling, overshoot) =>
 
 /**
  * What a pole says by itself, and what becomes of it: where the PI loops take it, and how the axis' step settles then.
- * @param {Known} known @param {number} index @param {import('../types.js').Complex} [to] where the PI loops take it @returns {string[]}
+ * @param {Known} known
+ * @param {number} index
+ * @param {import('../types.js').Complex} [to] where the PI loops take it
+ * @returns {string[]}
  */
 export function readoutLines({ design, reply, requirements }, index, to) {
   const poles = design?.poles ?? [];
@@ -47,12 +53,21 @@ export function readoutLines({ design, reply, requirements }, index, to) {
 const pairText = (p) =>
   Math.abs(p.im) > 1e-9 * Math.hypot(p.re, p.im) ? `${fixed(p.re)} \u00b1 ${fixed(Math.abs(p.im))}j` : fixed(p.re);
 
-/** @typedef {{x: number, y: number, width: number, height: number, unit: number}} At a pole in the plane, and the plane's size, CSS pixels; `unit`: those to one of the view's */
+/**
+ * @typedef {{x: number, y: number, width: number, height: number, unit: number}} At a pole in the plane, and the
+ *   plane's size, CSS pixels; `unit`: those to one of the view's
+ */
 
-/** Where the lines stand: above the pole, or below it where there is no room; all of them in the plane. @param {At} at @param {number} width of the lines @param {number} height */
+/**
+ * Where the lines stand: above the pole, or below it where there is no room; all of them in the plane.
+ * @param {At} at
+ * @param {number} width of the lines
+ * @param {number} height
+ */
 export function readoutPlace(at, width, height) {
   const [above, below] = [at.y - 26 * at.unit - height, at.y + 26 * at.unit];
-  const top = above >= 2 ? above : below + height <= at.height - 2 ? below : 2; // beside the pole where neither has room
+  // beside the pole where neither has room
+  const top = above >= 2 ? above : below + height <= at.height - 2 ? below : 2;
   return { left: Math.max(4, Math.min(at.x + 24 * at.unit, at.width - width - 4)), top };
 }
 
@@ -72,7 +87,13 @@ export class Readout {
     }).observe(this.node);
   }
 
-  /** @param {import('../types.js').State} state @param {number|null} index of the pole in question @param {import('./math.js').View} view @param {number} unit CSS pixels to one of the view's @param {import('../types.js').Complex} [to] */
+  /**
+   * @param {import('../types.js').State} state
+   * @param {number|null} index of the pole in question
+   * @param {import('./math.js').View} view
+   * @param {number} unit CSS pixels to one of the view's
+   * @param {import('../types.js').Complex} [to]
+   */
   draw(state, index, view, unit, to) {
     const { design, dragging } = state;
     this.node.hidden = index === null || !design;
@@ -90,7 +111,12 @@ export class Readout {
     this.node.style.transform = `translate(${left}px, ${top}px)`;
   }
 
-  /** What is read, which changes oftener in a drag than it can be read. @param {Known} known @param {number|null} index @param {import('../types.js').Complex} [to] where the PI loops take the pole */
+  /**
+   * What is read, which changes oftener in a drag than it can be read.
+   * @param {Known} known
+   * @param {number|null} index
+   * @param {import('../types.js').Complex} [to] where the PI loops take the pole
+   */
   write(known, index, to) {
     if (index === null || !known.design) return;
     this.#told = index;

@@ -1,4 +1,7 @@
-/** What is asked of the response: two fields below the s-plane; and, as a guide, the regions where a pole alone would not do, hatched. */
+/**
+ * What is asked of the response: two fields below the s-plane; and, as a guide, the regions where a pole alone would
+ * not do, hatched.
+ */
 import { forField, say } from '../text/index.js';
 import { forbidden, isAsked, leastDamping, missing, NONE, RANGES } from '../model/index.js';
 import { h, NumberField, setText, svg } from '../ui/index.js';
@@ -106,13 +109,15 @@ export class RequirementsBar {
       'settling',
       's',
       1,
-      'The steps shall settle to 2 % within this time. Hatched, as a guide: where a pole alone would take longer, 4/σ. Empty: not asked',
+      'The steps shall settle to 2 % within this time. Hatched, as a guide: where a pole alone would take longer, ' +
+        '4/σ. Empty: not asked',
     );
     this.overshoot = field(
       'overshoot',
       '%',
       10,
-      'The steps shall overshoot by no more. Hatched, as a guide: where a pair alone would overshoot by more, e^(−πζ/√(1 − ζ²)). Empty: not asked',
+      'The steps shall overshoot by no more. Hatched, as a guide: where a pair alone would overshoot by more, ' +
+        'e^(−πζ/√(1 − ζ²)). Empty: not asked',
     );
     this.verdict = h('span', { class: 'asked-verdict', 'data-testid': 'requirements-verdict', role: 'status' });
     this.node = h(

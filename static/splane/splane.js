@@ -1,6 +1,7 @@
 /**
- * The s-plane: four poles to drag, by mouse, finger or key, over the open loop's poles and those of the whole loop. It draws the store's design at once,
- * without waiting for the server. Its parts: splane_gestures (input), _marks, _grid, _pins, _cloud and _requirements (drawing), _readout (words), _math (pure).
+ * The s-plane: four poles to drag, by mouse, finger or key, over the open loop's poles and those of the whole loop. It
+ * draws the store's design at once, without waiting for the server. Its parts: splane_gestures (input), _marks, _grid,
+ * _pins, _cloud and _requirements (drawing), _readout (words), _math (pure).
  * @typedef {import('../types.js').State} State
  */
 import { cloudWords, SPREADS } from './cloud_feed.js';
@@ -64,7 +65,8 @@ export class SPlane {
         'data-testid': 'spread',
         'aria-label': 'Model uncertainty',
         title:
-          'Model uncertainty: the same controller on rigs whose parameters differ by so much; their poles as dots, their responses as bands',
+          'Model uncertainty: the same controller on rigs whose parameters differ by so much; their poles as dots, ' +
+          'their responses as bands',
         onchange: () => store.set({ spread: Number(this.spread.value) }),
       },
       SPREADS.map((v) => h('option', { value: v }, v ? say`uncertainty ± ${100 * v} %` : 'uncertainty: none')),

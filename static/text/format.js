@@ -13,18 +13,26 @@ export function fixed(v, decimals = 2) {
   return typographic(Number(text) === 0 ? text.replace('-', '') : text);
 }
 
-/** About `digits` significant digits without an exponent unless it is needed. @param {number|undefined} v @param {number} [digits] */
+/**
+ * About `digits` significant digits without an exponent unless it is needed.
+ * @param {number|undefined} v
+ * @param {number} [digits]
+ */
 export function significant(v, digits = 4) {
   if (v === undefined || !Number.isFinite(v)) return '–';
   const size = Math.abs(v);
   if (size !== 0 && (size >= 1e6 || size < 1e-4))
     return typographic(v.toExponential(Math.max(0, digits - 2)).replace('e+', 'e'));
   const leading = size === 0 ? 0 : Math.floor(Math.log10(size));
-  const whole = leading >= 0 ? leading + 1 : leading === -1 ? 1 : leading + 2; // so that a small figure is not rounded to a zero
+  // so that a small figure is not rounded to a zero
+  const whole = leading >= 0 ? leading + 1 : leading === -1 ? 1 : leading + 2;
   return fixed(v, Math.max(0, digits - whole));
 }
 
-/** A figure in few characters: from 100 on without decimals, from 10⁵ on as a power of ten. @param {string} text with one number in it */
+/**
+ * A figure in few characters: from 100 on without decimals, from 10⁵ on as a power of ten.
+ * @param {string} text with one number in it
+ */
 export const brief = (text) =>
   text.replace(/\d{3,}(\.\d+)?/, (v) =>
     Number(v) >= 99999.5 ? Number(v).toExponential(0).replace('e+', 'e') : String(Math.round(Number(v))),
@@ -35,16 +43,27 @@ export const forField = (v) => String(Number(v.toPrecision(7)));
 /** The same with the true minus that is used everywhere on the page. @param {number} v */
 export const inField = (v) => forField(v).replaceAll('-', MINUS);
 
-/** Accepts a comma for the point and the typographic minus, as people paste them. @param {string} text @returns {number} NaN if it is no number */
+/**
+ * Accepts a comma for the point and the typographic minus, as people paste them.
+ * @param {string} text
+ * @returns {number} NaN if it is no number
+ */
 export function parseNumber(text) {
   const plain = text.trim().replaceAll(MINUS, '-').replace(',', '.');
   return plain === '' ? NaN : Number(plain);
 }
 
-const COMPLEX =
-  /^([+-]?[\d.]+(?:e[+-]?\d+)?)?(?:([+-]|±|\+-)\*?)?(?:([\d.]+(?:e[+-]?\d+)?)?\*?[ij]|[ij]\*?([\d.]+(?:e[+-]?\d+)?)?)$/i;
+const SIZE = '([\\d.]+(?:e[+-]?\\d+)?)?';
+const COMPLEX = new RegExp(
+  `^([+-]?[\\d.]+(?:e[+-]?\\d+)?)?(?:([+-]|±|\\+-)\\*?)?(?:${SIZE}\\*?[ij]|[ij]\\*?${SIZE})$`,
+  'i',
+);
 
-/** One of a conjugate pair as people write it: -3+2j, −3 ± 2i, -3-2*j, 2j. @param {string} text @returns {import('../types.js').Complex|null} null where it is none; the imaginary part as written, ± as + */
+/**
+ * One of a conjugate pair as people write it: -3+2j, −3 ± 2i, -3-2*j, 2j.
+ * @param {string} text
+ * @returns {import('../types.js').Complex|null} null where it is none; the imaginary part as written, ± as +
+ */
 export function parseComplex(text) {
   const plain = text.replaceAll(MINUS, '-').replaceAll(',', '.').replace(/\s+/g, '');
   const parts = COMPLEX.exec(plain);
@@ -69,7 +88,11 @@ export function complex(p, decimals = 2) {
 
 const PAIR = ['pitch', 'yaw'];
 
-/** What a screen reader says of a pole. @param {readonly import('../types.js').Complex[]} poles @param {number} index */
+/**
+ * What a screen reader says of a pole.
+ * @param {readonly import('../types.js').Complex[]} poles
+ * @param {number} index
+ */
 export function poleText(poles, index) {
   const p = poles[index];
   const name = `${PAIR[index < 2 ? 0 : 1]} pole ${index + 1}`;

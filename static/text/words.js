@@ -1,9 +1,11 @@
 /**
- * The page's words in other languages, as gettext does it: the English text is the key, and what a language does not know stays English.
+ * The page's words in other languages, as gettext does it: the English text is the key, and what a language does not
+ * know stays English.
  *
- * Static strings are looked up where they reach the page, in `h`, `setText` and `setAttr` of dom.js; sentences with values in them are written with `say` and
- * `count`. Words painted on canvases go through the same two. Words of the server (findings, presets, methods) are not asked for. A language is a module in languages/ that
- * exports its catalogue, and a line in CATALOGUES; it is loaded only where it is wanted. Knows no DOM but for `translatePage`.
+ * Static strings are looked up where they reach the page, in `h`, `setText` and `setAttr` of dom.js; sentences with
+ * values in them are written with `say` and `count`. Words painted on canvases go through the same two. Words of the
+ * server (findings, presets, methods) are not asked for. A language is a module in languages/ that exports its
+ * catalogue, and a line in CATALOGUES; it is loaded only where it is wanted. Knows no DOM but for `translatePage`.
  * @typedef {Partial<Record<Intl.LDMLPluralRule, string>>} Plurals
  * @typedef {{get: (key: string) => string|Plurals|undefined}} Catalogue  a Map, for one
  */
@@ -40,13 +42,23 @@ export const t = (text) => (catalogue === null ? text : translated(text));
 /** @param {string} pattern with {0}, {1}, … @param {readonly unknown[]} values */
 const filled = (pattern, values) => pattern.replace(/\{(\d)\}/g, (_, i) => String(values[Number(i)]));
 
-/** A sentence with values: say`${n} of ${m}` has the key "{0} of {1}". @param {TemplateStringsArray} parts @param {...unknown} values */
+/**
+ * A sentence with values: say`${n} of ${m}` has the key "{0} of {1}".
+ * @param {TemplateStringsArray} parts
+ * @param {...unknown} values
+ */
 export function say(parts, ...values) {
   const key = parts.reduce((text, part, i) => `${text}{${i - 1}}${part}`);
   return filled(t(key), values);
 }
 
-/** A number of things: count(2, '{0} limit', '{0} limits'). The key is the plural; a catalogue may hold all the forms that its language has. @param {number} n @param {string} one @param {string} other */
+/**
+ * A number of things: count(2, '{0} limit', '{0} limits'). The key is the plural; a catalogue may hold all the forms
+ * that its language has.
+ * @param {number} n
+ * @param {string} one
+ * @param {string} other
+ */
 export function count(n, one, other) {
   const found = catalogue?.get(other);
   const forms = typeof found === 'object' ? found : { one: found ?? one, other: found ?? other };
@@ -54,7 +66,12 @@ export function count(n, one, other) {
   return filled(form, [n]);
 }
 
-/** What is asked for in the address comes first, then what the browser prefers; English where none is known. @param {string} search @param {readonly string[]} preferred @param {readonly string[]} [known] */
+/**
+ * What is asked for in the address comes first, then what the browser prefers; English where none is known.
+ * @param {string} search
+ * @param {readonly string[]} preferred
+ * @param {readonly string[]} [known]
+ */
 export function languageOf(search, preferred, known = Object.keys(CATALOGUES)) {
   const asked = new URLSearchParams(search).get('lang');
   for (const tag of asked ? [asked] : preferred) {
@@ -73,7 +90,11 @@ export function useWords(words, name = 'en') {
   language = words && Intl.PluralRules.supportedLocalesOf(name).length ? name : 'en';
 }
 
-/** Loads a language's words; English stays where that fails. @param {string} name @returns {Promise<boolean>} whether they are others than English */
+/**
+ * Loads a language's words; English stays where that fails.
+ * @param {string} name
+ * @returns {Promise<boolean>} whether they are others than English
+ */
 export async function loadWords(name) {
   if (!Object.hasOwn(CATALOGUES, name)) return false;
   try {

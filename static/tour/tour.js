@@ -1,4 +1,7 @@
-/** Five short hints at the lower right, for a first visit: nothing is blocked, the page goes on beneath. Gone for good when ended; the header brings them back. */
+/**
+ * Five short hints at the lower right, for a first visit: nothing is blocked, the page goes on beneath. Gone for good
+ * when ended; the header brings them back.
+ */
 import { say } from '../text/index.js';
 import { h, remember, setText } from '../ui/index.js';
 
@@ -9,22 +12,30 @@ export const STEPS = [
   {
     title: 'Drag a pole',
     targets: ['#splane'],
-    text: 'Round marks are pitch’s poles, square ones yaw’s. Drag one, or use the arrow keys. Diamonds are the poles of the whole loop; a dotted line shows where the PI loops take the pole that you touch.',
+    text:
+      'Round marks are pitch’s poles, square ones yaw’s. Drag one, or use the arrow keys. Diamonds are the ' +
+      'poles of the whole loop; a dotted line shows where the PI loops take the pole that you touch.',
   },
   {
     title: 'See the response',
     targets: ['#plots'],
-    text: 'Solid lines are the nonlinear rig’s, dashed ones the linear model’s. Point at a plot to read its values. Click to move the rig to that moment.',
+    text:
+      'Solid lines are the nonlinear rig’s, dashed ones the linear model’s. Point at a plot to read its ' +
+      'values. Click to move the rig to that moment.',
   },
   {
     title: 'Mind the limits',
     targets: ['[data-testid=plot-V_p]', '[data-testid=plot-V_y]', '#strip'],
-    text: 'Red lines are the motors’ limits. The line at the top says what is unstable, saturated or badly paired. Click a remark to go to its place.',
+    text:
+      'Red lines are the motors’ limits. The line at the top says what is unstable, saturated or badly paired. ' +
+      'Click a remark to go to its place.',
   },
   {
     title: 'Who moves what',
     targets: ['#numbers'],
-    text: 'K is the gain that places these poles. The relative gain array (RGA) says which motor should control which angle. Where crosswise is better, one button changes the pairing.',
+    text:
+      'K is the gain that places these poles. The relative gain array (RGA) says which motor should control ' +
+      'which angle. Where crosswise is better, one button changes the pairing.',
   },
   {
     title: 'Share it',

@@ -1,4 +1,7 @@
-/** Text into the clipboard. Browsers give `navigator.clipboard` to secure pages only; a laboratory's server on plain HTTP takes the older way. */
+/**
+ * Text into the clipboard. Browsers give `navigator.clipboard` to secure pages only; a laboratory's server on plain
+ * HTTP takes the older way.
+ */
 import { h } from './dom.js';
 
 /** @param {string} text @returns {Promise<boolean>} whether it is there */
@@ -19,7 +22,7 @@ function copySelected(text) {
   area.value = text;
   host.append(area);
   area.select();
-  let done = false;
+  let done;
   try {
     done = document.execCommand('copy');
   } catch {

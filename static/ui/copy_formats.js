@@ -1,10 +1,12 @@
 /**
- * Matrices, poles and formulas as text for other programs, at full precision: LaTeX, Python (NumPy, SymPy), MATLAB, plain text. Pure.
+ * Matrices, poles and formulas as text for other programs, at full precision: LaTeX, Python (NumPy, SymPy), MATLAB,
+ * plain text. Pure.
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {{name: string, note?: string, matrix: ArrayLike<number>[]}} MatrixItem
  * @typedef {{name: string, note?: string, poles: readonly Complex[]}} PolesItem
- * @typedef {{name: string, note?: string, latex?: string, sympy?: string, text?: string, definitions?: Record<string, string>}} FormulaItem  sympy: as `sympify` reads it
- * @typedef {MatrixItem|PolesItem|FormulaItem} Item  name: an identifier, as K or A_bar; note: what it is, with its units
+ * @typedef {{name: string, note?: string, latex?: string, sympy?: string, text?: string, definitions?: Record<string,
+ *   string>}} FormulaItem sympy: as `sympify` reads it
+ * @typedef {MatrixItem|PolesItem|FormulaItem} Item name: an identifier, as K or A_bar; note: what it is, with its units
  * @typedef {'LaTeX'|'Python'|'MATLAB'|'Text'} Format
  */
 
@@ -75,11 +77,15 @@ const POLES = {
   LaTeX: ({ name, poles }) =>
     `${latexName(name)} = \\{${poles.map((p) => complexText(p, latexNumber, '\\mathrm{j}')).join(',\\; ')}\\}`,
   Python: (item) =>
-    `import numpy as np\n\n${noted(item, '#')}${item.name} = np.array([${item.poles.map((p) => complexText(p, String, 'j')).join(', ')}])`,
+    `import numpy as np\n\n${noted(item, '#')}${item.name} = ` +
+    `np.array([${item.poles.map((p) => complexText(p, String, 'j')).join(', ')}])`,
   MATLAB: (item) =>
-    `${noted(item, '%')}${item.name} = [${item.poles.map((p) => complexText(p, String, 'i')).join(', ')}];`, // spaced on both sides, a sign is one operator, not two entries
+    // spaced on both sides, a sign is one operator, not two entries
+    `${noted(item, '%')}${item.name} = [${item.poles.map((p) => complexText(p, String, 'i')).join(', ')}];`,
   Text: (item) =>
-    `${item.name}${item.note ? `: ${item.note}` : ''}\n${item.poles.map((p) => complexText(p, String, 'j')).join('\n')}`,
+    [`${item.name}${item.note ? `: ${item.note}` : ''}`, ...item.poles.map((p) => complexText(p, String, 'j'))].join(
+      '\n',
+    ),
 };
 
 /** The free names of an expression, in the order of appearance. @param {string} sympy @returns {string[]} */
@@ -131,13 +137,16 @@ const FORMULA = {
     const { sympy } = item;
     if (!sympy) return undefined;
     const names = namesIn(sympy);
-    return `from sympy import ${[...functionsIn(sympy), 'symbols'].join(', ')}\n\n${names.length ? `${names.join(', ')} = symbols("${names.join(' ')}")\n` : ''}${definitions(item, '#', (s) => s)}${target(item)} = ${sympy}`;
+    const symbols = names.length ? `${names.join(', ')} = symbols("${names.join(' ')}")\n` : '';
+    const imported = `from sympy import ${[...functionsIn(sympy), 'symbols'].join(', ')}\n\n`;
+    return `${imported}${symbols}${definitions(item, '#', (s) => s)}${target(item)} = ${sympy}`;
   },
   MATLAB: (item) => {
     const { sympy } = item;
     if (!sympy) return undefined;
     const names = namesIn(sympy);
-    return `${names.length ? `syms ${names.join(' ')}\n` : ''}${definitions(item, '%', matlab)}${target(item)} = ${matlab(sympy)};`;
+    const symbols = names.length ? `syms ${names.join(' ')}\n` : '';
+    return `${symbols}${definitions(item, '%', matlab)}${target(item)} = ${matlab(sympy)};`;
   },
   Text: ({ name, sympy, text }) => text ?? (sympy && `${name} = ${sympy}`),
 };

@@ -1,4 +1,7 @@
-/** The few lines that a page without a framework needs to make elements; static strings pass the words of the page's language here. */
+/**
+ * The few lines that a page without a framework needs to make elements; static strings pass the words of the page's
+ * language here.
+ */
 import { SPOKEN, t } from '../text/index.js';
 
 const SVG = 'http://www.w3.org/2000/svg';
@@ -22,7 +25,9 @@ function dress(node, attributes, children) {
 
 /**
  * @template {keyof HTMLElementTagNameMap} T
- * @param {T} tag @param {Record<string, any>} [attributes] `onclick` and the like add listeners @param {...any} children
+ * @param {T} tag
+ * @param {Record<string, any>} [attributes] `onclick` and the like add listeners
+ * @param {...any} children
  * @returns {HTMLElementTagNameMap[T]}
  */
 export function h(tag, attributes = {}, ...children) {
@@ -38,7 +43,11 @@ export function svg(tag, attributes = {}, ...children) {
   return /** @type {any} */ (dress(document.createElementNS(SVG, tag), attributes, children));
 }
 
-/** Writes text only where it differs: most of the page stays as it is while one pole moves. @param {Node} node @param {string} text */
+/**
+ * Writes text only where it differs: most of the page stays as it is while one pole moves.
+ * @param {Node} node
+ * @param {string} text
+ */
 export function setText(node, text) {
   const said = t(text);
   if (node.textContent !== said) node.textContent = said;

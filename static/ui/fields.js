@@ -19,7 +19,8 @@ import { inField, parseComplex, parseNumber, significant } from '../text/index.j
  * @property {string} [field]  the path under which the server names it
  * @property {{min: number, max: number, log?: boolean}} [slider]
  * @property {(v: number, stamp: number) => void} onInput
- * @property {(p: import('../types.js').Complex, stamp: number) => void} [onComplex]  the field takes a complex number, too
+ * @property {(p: import('../types.js').Complex, stamp: number) => void} [onComplex] the field takes a complex number,
+ *   too
  * @property {() => void} onCommit
  */
 
@@ -75,7 +76,11 @@ export class NumberField {
     return Number.isNaN(this.value) ? '' : inField(this.value);
   }
 
-  /** What stands in the empty field, and where the arrow keys start from it. @param {string} text @param {number} start */
+  /**
+   * What stands in the empty field, and where the arrow keys start from it.
+   * @param {string} text
+   * @param {number} start
+   */
   setBlank(text, start) {
     setAttr(this.input, 'placeholder', text);
     this.#start = start;
@@ -188,7 +193,10 @@ export class NumberField {
 
 /** A choice of few, seen all at once: radio buttons in the shape of a switch. */
 export class Choice {
-  /** @param {{label: string, testid: string, options: [string, string, string?][], onChange: (value: string) => void}} o  options: value, text, explanation */
+  /**
+   * @param {{label: string, testid: string, options: [string, string, string?][], onChange: (value: string) => void}} o
+   *   options: value, text, explanation
+   */
   constructor({ label, testid, options, onChange }) {
     this.inputs = options.map(([value]) =>
       h('input', {

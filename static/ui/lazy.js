@@ -1,4 +1,7 @@
-/** Asks the server for what a card shows: only while the card is seen, shortly after the last change of the design, and never during a drag. */
+/**
+ * Asks the server for what a card shows: only while the card is seen, shortly after the last change of the design, and
+ * never during a drag.
+ */
 import { ProblemError } from '../net/index.js';
 import { h, setText } from './dom.js';
 
@@ -11,8 +14,11 @@ export class Lazy {
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
 
   /**
-   * @param {HTMLElement} root @param {HTMLElement} content what an answer fills; hidden until there is one @param {import('../model/store.js').Store} store
-   * @param {{wait: string, body: (d: import('../types.js').Design) => unknown, ask: (body: any) => Promise<any>, show: (answer: any) => void}} how
+   * @param {HTMLElement} root
+   * @param {HTMLElement} content what an answer fills; hidden until there is one
+   * @param {import('../model/store.js').Store} store
+   * @param {{wait: string, body: (d: import('../types.js').Design) => unknown, ask: (body: any) => Promise<any>, show:
+   *   (answer: any) => void}} how
    */
   constructor(root, content, store, how) {
     this.root = root;

@@ -2,7 +2,10 @@
 
 const FUNCTIONS = new Set(['sin', 'cos', 'det']); // whose room the operator between would make, were it there
 
-/** Draws a matrix's brackets as borders: without a mathematical font a browser does not stretch them. @param {Element} table */
+/**
+ * Draws a matrix's brackets as borders: without a mathematical font a browser does not stretch them.
+ * @param {Element} table
+ */
 function bracket(table) {
   const [before, after] = [table.previousElementSibling, table.nextElementSibling];
   if (before?.textContent?.trim() !== '[' || after?.textContent?.trim() !== ']') return;
@@ -11,7 +14,11 @@ function bracket(table) {
   table.classList.add('bracketed');
 }
 
-/** The server's own MathML, parsed as XML and adopted: it is never taken for HTML. @param {string|undefined} text @returns {Node} */
+/**
+ * The server's own MathML, parsed as XML and adopted: it is never taken for HTML.
+ * @param {string|undefined} text
+ * @returns {Node}
+ */
 export function formula(text) {
   if (!text) return document.createTextNode('–');
   const source = text.includes('xmlns')

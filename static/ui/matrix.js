@@ -3,7 +3,10 @@ import { copyButton } from './copy_menu.js';
 import { h, setAttr, setText, symbol } from './dom.js';
 import { significant, t } from '../text/index.js';
 
-/** @typedef {{name: string, note?: string}|(() => import('./copy_formats.js').Item[])} Copied  the name under which a matrix is copied, or all that its button copies */
+/**
+ * @typedef {{name: string, note?: string}|(() => import('./copy_formats.js').Item[])} Copied the name under which a
+ *   matrix is copied, or all that its button copies
+ */
 const dotted = (/** @type {string} */ s) => h('span', { class: 'sym' }, h('i', {}, `${s}\u0307`));
 const STATES = [
   { name: 'θ', unit: 'V/rad' },
@@ -18,7 +21,11 @@ export class Matrix {
   /** @type {number[][]|undefined} */ values;
 
   /**
-   * @param {string} testid @param {Node} name @param {Node[]} rows @param {Node[]} columns @param {(i: number, j: number) => string} title
+   * @param {string} testid
+   * @param {Node} name
+   * @param {Node[]} rows
+   * @param {Node[]} columns
+   * @param {(i: number, j: number) => string} title
    * @param {Copied} [copied]  without it there is no button
    */
   constructor(testid, name, rows, columns, title, copied) {

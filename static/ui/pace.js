@@ -1,4 +1,7 @@
-/** While a pole moves, what is read in figures is written less often than it changes, and never all at once: nobody reads sixty numbers a second. Pure. */
+/**
+ * While a pole moves, what is read in figures is written less often than it changes, and never all at once: nobody
+ * reads sixty numbers a second. Pure.
+ */
 
 export const CALM = 80; // ms between two writings of the same figures during a drag
 const LATE = 200; // ms after which figures are written even in a frame that has the plots to draw
@@ -17,9 +20,11 @@ export class Turns {
   }
 
   /**
-   * Draws all views, or while something is dragged the next of those that have something to show and were not drawn a moment ago, as long as the frame's share of time
-   * lasts. `again` is called when it is the others' turn.
-   * @template {{dragging: boolean}} S @param {S} state @param {((state: S) => unknown)[]} views each returns true where it has drawn
+   * Draws all views, or while something is dragged the next of those that have something to show and were not drawn a
+   * moment ago, as long as the frame's share of time lasts. `again` is called when it is the others' turn.
+   * @template {{dragging: boolean}} S
+   * @param {S} state
+   * @param {((state: S) => unknown)[]} views each returns true where it has drawn
    * @param {{busy: boolean, again: () => void}} frame busy: it has the plots to draw
    */
   take(state, views, { busy, again }) {

@@ -1,6 +1,7 @@
 /**
- * How large type and lines are on canvases: style.css and projector.css say it as `--picture-type` (rem) and `--picture-lines`, so that charts grow with the page,
- * be it for a reader's setting, a very large window or a lecture hall. Every chart is registered here once and then follows.
+ * How large type and lines are on canvases: style.css and projector.css say it as `--picture-type` (rem) and
+ * `--picture-lines`, so that charts grow with the page, be it for a reader's setting, a very large window or a lecture
+ * hall. Every chart is registered here once and then follows.
  */
 const TYPE = 11; // px, as charts are made
 const REM = 10; // px, at the browser's usual setting
@@ -11,7 +12,10 @@ const REM = 10; // px, at the browser's usual setting
 /** @type {Scale|null} */ let present = null;
 /** @type {Kept[]} */ const all = [];
 
-/** @param {{fontSize: string, getPropertyValue: (name: string) => string}} style of the root element @returns {Scale} */
+/**
+ * @param {{fontSize: string, getPropertyValue: (name: string) => string}} style of the root element
+ * @returns {Scale}
+ */
 export function scaleOf(style) {
   const rem = Number.parseFloat(style.fontSize);
   return {

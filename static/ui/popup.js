@@ -1,5 +1,6 @@
 /**
- * One panel that opens beside the button that asked for it: light dismissal, Escape and the focus's return are the browser's (`popover`), the arrow keys are ours.
+ * One panel that opens beside the button that asked for it: light dismissal, Escape and the focus's return are the
+ * browser's (`popover`), the arrow keys are ours.
  */
 import { h, svg } from './dom.js';
 
@@ -41,7 +42,10 @@ function walk(node, e) {
 /**
  * Where a key leads from one of several boxes in the order of reading; up and down lead to the nearest in the next row.
  * @typedef {{left: number, top: number, bottom: number}} Box
- * @param {Box[]} boxes @param {number} at @param {string} key @returns {number|undefined} an index; undefined for other keys
+ * @param {Box[]} boxes
+ * @param {number} at
+ * @param {string} key
+ * @returns {number|undefined} an index; undefined for other keys
  */
 export function stepIn(boxes, at, key) {
   const step = { ArrowRight: 1, ArrowLeft: -1, Home: -Infinity, End: Infinity }[key];
@@ -58,7 +62,9 @@ export function stepIn(boxes, at, key) {
 
 /**
  * Below the button, or above it where only there is room; right edges together, within the window.
- * @param {{top: number, bottom: number, right: number}} a the button's box @param {{width: number, height: number}} panel @param {{width: number, height: number}} view
+ * @param {{top: number, bottom: number, right: number}} a the button's box
+ * @param {{width: number, height: number}} panel
+ * @param {{width: number, height: number}} view
  * @returns {{left: number, top: number}} px
  */
 export function placeBeside(a, { width, height }, view) {
@@ -78,7 +84,12 @@ function place(anchor) {
   Object.assign(panel.style, { left: `${left}px`, top: `${top}px` });
 }
 
-/** Opens beside `anchor`, or closes what it had opened. @param {HTMLElement} anchor @param {string} label @param {() => (Node|string)[]} content */
+/**
+ * Opens beside `anchor`, or closes what it had opened.
+ * @param {HTMLElement} anchor
+ * @param {string} label
+ * @param {() => (Node|string)[]} content
+ */
 export function togglePopup(anchor, label, content) {
   panel ??= make();
   if (owner === anchor) return panel.hidePopover();
@@ -93,7 +104,10 @@ export function togglePopup(anchor, label, content) {
   /** @type {HTMLElement|null} */ (panel.querySelector('button, input'))?.focus({ preventScroll: true });
 }
 
-/** A button that opens a popup. @param {{label: string, text: string|Node, testid?: string, kind?: string, content: () => (Node|string)[]}} how */
+/**
+ * A button that opens a popup.
+ * @param {{label: string, text: string|Node, testid?: string, kind?: string, content: () => (Node|string)[]}} how
+ */
 export function popupButton({ label, text, testid, kind = 'small-tool', content }) {
   const button = h(
     'button',

@@ -1,4 +1,7 @@
-/** Projector mode: large type and thick lines for a lecture hall. `?projector` in the address asks for it, the button is remembered. */
+/**
+ * Projector mode: large type and thick lines for a lecture hall. `?projector` in the address asks for it, the button is
+ * remembered.
+ */
 import { recall, remember } from './memory.js';
 import { rescale } from './picture_scale.js';
 

@@ -15,7 +15,11 @@ export class Stats {
   /** @type {number[]} */ #renders = [];
   updates = 0;
 
-  /** @param {number} now @param {number|undefined} stamp time of the input event that asked for this @param {number} render ms spent drawing */
+  /**
+   * @param {number} now
+   * @param {number|undefined} stamp time of the input event that asked for this
+   * @param {number} render ms spent drawing
+   */
   drawn(now, stamp, render) {
     this.updates += 1;
     this.#keep(this.#times, now);

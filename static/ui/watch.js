@@ -1,5 +1,6 @@
 /**
- * Renders a view only when something that it read last time has changed: most of the page stays as it is while one pole moves. Pure.
+ * Renders a view only when something that it read last time has changed: most of the page stays as it is while one pole
+ * moves. Pure.
  * @typedef {import('../types.js').State} State
  * @typedef {{render: (state: State) => void}} View
  */

@@ -90,7 +90,7 @@ def test_arrows_push_as_the_model_does(rig):
 
 
 def test_page_and_server_agree_on_the_arrow_head():
-    written = re.search(r"const HEAD_LENGTH = ([\d.]+);", (STATIC / "scene_pose.js").read_text())
+    written = re.search(r"const HEAD_LENGTH = ([\d.]+);", (STATIC / "scene/pose.js").read_text())
     assert written is not None
     assert float(written[1]) == graphics.HEAD_LENGTH
     assert graphics.arrow_head().vertices[:, 2].max() == graphics.HEAD_LENGTH

@@ -13,7 +13,8 @@ from tests.e2e.test_page import drag, scene, seek
 # The page's modules at work, and the pose (pitch, yaw in degrees) of the nodes that three.js draws.
 PREPARE = """async () => {
   const at = (name) => new URL(`static/${name}.js`, document.baseURI).href;
-  const [pose, ghosts, store] = await Promise.all(["scene_pose", "scene_ghosts", "store"].map((n) => import(at(n))));
+  const modules = ["scene/pose", "scene/ghosts", "model/store"].map((name) => import(at(name)));
+  const [pose, ghosts, store] = await Promise.all(modules);
   const inside = () => document.querySelector("iframe").contentWindow;
   const degrees = (angle) => (angle * 180) / Math.PI;
   window.probe = {

@@ -1,6 +1,6 @@
 /**
- * Where the page's pure modules can be changed in one place, and into what, by TypeScript's own parser: those
- * that the page's tests import, by themselves or through others. Called with the checkout's root; prints JSON.
+ * Where the page's pure modules can be changed in one place, and into what, by TypeScript's own parser: those that the
+ * page's tests import, by themselves or through others. Called with the checkout's root; prints JSON.
  */
 
 import { existsSync, readdirSync, readFileSync } from 'node:fs';

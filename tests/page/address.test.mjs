@@ -161,7 +161,7 @@ test('going back takes no pin away', () => {
   assert.equal(store.state.pins.length, 1);
 });
 
-test('a link opens design, pins, locks and place; a bad part is told and stays to be read until the next change', () => {
+test('a link opens design, pins, locks and place; a bad part is told and stays until the next change', () => {
   assert.equal(
     opened('#v1&preset=quanser-aero&p=-5,-4,-3,-2&lock=poles&pin=1~x~preset=quanser-aero&at=compare'),
     'compare',

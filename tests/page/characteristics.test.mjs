@@ -136,7 +136,7 @@ test('pictures grow as the stylesheets say', () => {
   close(line, 3.06);
 });
 
-test('what is asked of the poles walls in the response: overshoot until it should have settled, 2 % from then on', () => {
+test('what is asked walls in the response: overshoot until it should have settled, 2 % from then on', () => {
   const [from, to] = [FROM * DEGREE, TO * DEGREE];
   const size = to - from;
   const walls = regionsOf(reply, 'theta', { settling: 2, overshoot: 10 });

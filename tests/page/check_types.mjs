@@ -1,5 +1,5 @@
-// `tsc` over static/ as tsconfig.json says, with one difference: what the page imports from static/vendor has the types of its npm package, so
-// that neither the copy itself is checked nor the check needs it to be there.
+// `tsc` over static/ as tsconfig.json says, with one difference: what the page imports from static/vendor has the types
+// of its npm package, so that neither the copy itself is checked nor the check needs it to be there.
 import { fileURLToPath } from 'node:url';
 import ts from 'typescript';
 

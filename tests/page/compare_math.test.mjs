@@ -84,7 +84,7 @@ test('dominance at all frequencies, as the paper says', () => {
   assert.equal(dominant, true);
   assert.match(
     text,
-    /^Between 0.01 and 1000 rad\/s Ĝ\(jω\) is diagonally dominant everywhere, by rows and by columns, as the paper says/,
+    /^Between 0.01 and 1000 rad\/s Ĝ\(jω\) is diagonally dominant everywhere, by rows and by columns, as the paper/,
   );
   assert.match(text, /reach 0.338 of the diagonal ones, at 1 rad\/s\.$/);
 });

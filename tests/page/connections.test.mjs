@@ -1,4 +1,7 @@
-/** What is asked of the server of its own accord: a hub that comes back, a recording that is simulated once its columns are known. */
+/**
+ * What is asked of the server of its own accord: a hub that comes back, a recording that is simulated once its columns
+ * are known.
+ */
 import assert from 'node:assert/strict';
 import { afterEach, mock, test } from 'node:test';
 
@@ -93,7 +96,7 @@ for (const [what, columns, simulated] of [
   ['all columns', names, true],
   ['no yaw voltage', { ...names, V_y: '' }, false],
 ]) {
-  test(`a file with ${what} guessed is ${simulated ? 'simulated at once' : 'left for its columns to be chosen'}`, async () => {
+  test(`a file with ${what} guessed is ${simulated ? 'simulated' : 'left to be chosen'}`, async () => {
     globalThis.document = { baseURI: 'http://127.0.0.1/' };
     const asked = [];
     mock.method(globalThis, 'fetch', async (/** @type {URL} */ url) => {

@@ -1,4 +1,5 @@
-// Texts for other programs: full precision, one syntax each. The Python ones are executed in tests/app/test_copied_python.py.
+// Texts for other programs: full precision, one syntax each. The Python ones are executed in
+// tests/app/test_copied_python.py.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -30,7 +31,8 @@ const FORMULA = {
 test('numbers keep every digit', () => {
   assert.equal(
     textOf(K, 'Python'),
-    'import numpy as np\n\n# V/rad\nK = np.array([\n    [0.30000000000000004, -3e-7],\n    [              1e+21,     0],\n])',
+    'import numpy as np\n\n# V/rad\nK = np.array([\n    [0.30000000000000004, -3e-7],\n    [              1e+21,   ' +
+      '  0],\n])',
   );
   assert.equal(
     textOf(K, 'MATLAB'),
@@ -38,7 +40,8 @@ test('numbers keep every digit', () => {
   );
   assert.equal(
     textOf(K, 'LaTeX'),
-    'K = \\begin{bmatrix}\n  0.30000000000000004 & -3 \\times 10^{-7} \\\\\n     1 \\times 10^{21} &                 0\n\\end{bmatrix}',
+    'K = \\begin{bmatrix}\n  0.30000000000000004 & -3 \\times 10^{-7} \\\\\n     1 \\times 10^{21} &               ' +
+      '  0\n\\end{bmatrix}',
   );
   assert.equal(textOf(K, 'Text'), 'K: V/rad\n0.30000000000000004  -3e-7\n              1e+21      0');
 });
@@ -52,11 +55,13 @@ test('poles are complex numbers of each language', () => {
 test('formulas declare their symbols and say what the short ones stand for', () => {
   assert.equal(
     textOf(FORMULA, 'Python'),
-    'from sympy import Matrix, sin, symbols\n\nalpha, K_pp, theta_0, B_p, a, p_1 = symbols("alpha K_pp theta_0 B_p a p_1")\n# alpha = J_p + l**2*m\nT = Matrix([[alpha/K_pp, -sin(theta_0)], [B_p**2*(a + p_1), 0]])',
+    'from sympy import Matrix, sin, symbols\n\nalpha, K_pp, theta_0, B_p, a, p_1 = symbols("alpha K_pp theta_0 B_p ' +
+      'a p_1")\n# alpha = J_p + l**2*m\nT = Matrix([[alpha/K_pp, -sin(theta_0)], [B_p**2*(a + p_1), 0]])',
   );
   assert.equal(
     textOf(FORMULA, 'MATLAB'),
-    'syms alpha K_pp theta_0 B_p a p_1\n% alpha = J_p + l^2*m\nT = [alpha/K_pp, -sin(theta_0); ...\n    B_p^2*(a + p_1), 0];',
+    'syms alpha K_pp theta_0 B_p a p_1\n% alpha = J_p + l^2*m\nT = [alpha/K_pp, -sin(theta_0); ...\n    B_p^2*(a + ' +
+      'p_1), 0];',
   );
   assert.equal(textOf(FORMULA, 'LaTeX'), 'T = \\frac{\\alpha}{K_{pp}}');
   assert.equal(
@@ -73,7 +78,8 @@ test("brackets of MATLAB's texts are balanced, and no Python power is left", () 
     const text = textOf(item, 'MATLAB');
     for (const [open, close] of ['()', '[]']) assert.equal(text.split(open).length, text.split(close).length);
     assert.doesNotMatch(text, /\*\*|np\.|Matrix/);
-    for (const line of text.split('\n').slice(0, -1)) assert.match(line, /^(%|syms )|\.\.\.$/, line); // a statement that goes on says so
+    // a statement that goes on says so
+    for (const line of text.split('\n').slice(0, -1)) assert.match(line, /^(%|syms )|\.\.\.$/, line);
     assert.match(text, /;$/);
   }
 });

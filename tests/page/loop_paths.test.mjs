@@ -1,4 +1,5 @@
-// Where the PI loops take the placed poles: held against LAPACK's eigenvalues of the loop with its gains as they are and at a quarter.
+// Where the PI loops take the placed poles: held against LAPACK's eigenvalues of the loop with its gains as they are
+// and at a quarter.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
@@ -10,7 +11,7 @@ const away = (p, q) => Math.hypot(p.re - q.re, p.im - q.im);
 const replyOf = ({ gains, loop_poles }) => ({ gains, loop_poles });
 
 for (const own of cases) {
-  test(`${own.name}: from each placed pole to a pole of its own, and at a quarter of the gains through that loop's poles`, () => {
+  test(`${own.name}: from each placed pole to one of its own, through those of a loop of a quarter`, () => {
     const paths = loopPaths(replyOf(own), own.design);
     assert.equal(paths.length, 4);
     const ends = paths.map((path, i) => {

@@ -2,7 +2,10 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Turns } from '../../static/ui/pace.js';
 
-/** A clock that the test moves on, and views that note what they have drawn, each time or where `changed` says so; each takes its time. */
+/**
+ * A clock that the test moves on, and views that note what they have drawn, each time or where `changed` says so; each
+ * takes its time.
+ */
 function stage(count, { changed = (/** @type {number} */ _i) => true, cost = 1 } = {}) {
   const state = {
     time: 0,

@@ -222,7 +222,9 @@ test('only what differs from the proposal is written, in plain words and short',
 
 test('what cannot be read is named, and the rest is restored', () => {
   const bad = readLink(
-    '#v1&preset=nowhere&p=-1,-2,-3+1j,-4&pi=1,2,0,0&motion=psi&spread=9&lock=poles,moon&method=magic&outer=maybe&set.X=1&duration=-1&theta0=200deg&foo=1&scenario.digital=[1&step.psi=ten',
+    '#v1&preset=nowhere&p=-1,-2,-3+1j,-4&pi=1,2,0,0&motion=psi&spread=9' +
+      '&lock=poles,moon&method=magic&outer=maybe&set.X=1&duration=-1' +
+      '&theta0=200deg&foo=1&scenario.digital=[1&step.psi=ten',
     KNOWN,
   );
   assert.deepEqual(bad.trouble.map((t) => t.part).sort(), [

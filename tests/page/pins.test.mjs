@@ -157,7 +157,7 @@ class FakeStorage {
   removeItem = (key) => void this.items.delete(key);
 }
 
-test('missing replies are asked for one by one while the connection is open, refusals are told, and pins come back after a reload', async () => {
+test('missing replies are asked for one by one while open, refusals are told, and pins outlast a reload', async () => {
   const storage = new FakeStorage();
   const asked = [];
   const ask = async (request) => {
@@ -216,7 +216,8 @@ test("a plot's numbers: units in the header, a column for each line, another tim
   const rows = csv.trimEnd().split('\r\n');
   assert.equal(
     rows[0],
-    't [s],"theta, pitch step [deg]","theta, yaw step [deg]",t [s],"theta, A a ""slow"", one, pitch step [deg]",t [s],"theta, A a ""slow"", one, yaw step [deg]","theta, both steps [deg]"',
+    't [s],"theta, pitch step [deg]","theta, yaw step [deg]",t [s],"theta, A a ""slow"", one, pitch step [deg]",t ' +
+      '[s],"theta, A a ""slow"", one, yaw step [deg]","theta, both steps [deg]"',
   );
   assert.equal(rows.length, 4);
   assert.deepEqual(rows[2].split(',').map(Number), [0.5, 5.729578, 5.729578, 1, 5.729578, 0.5, 5.729578, 5.729578]);

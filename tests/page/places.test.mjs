@@ -69,7 +69,7 @@ test('arrow keys walk through a grid as it is seen', () => {
 
 test("a pole's lines stand clear of it and within the plane, above it wherever there is room", () => {
   const [width, height] = [190, 110];
-  let sides = [0, 0, 0];
+  const sides = [0, 0, 0];
   for (const unit of [1, 1.7]) {
     for (const [plane, tall] of [
       [600, 400],

@@ -1,4 +1,5 @@
-// Requirements: one verdict, on the response; and the guide in the plane: formula, words, and regions that agree at every point.
+// Requirements: one verdict, on the response; and the guide in the plane: formula, words, and regions that agree at
+// every point.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 

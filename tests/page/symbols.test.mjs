@@ -63,7 +63,8 @@ test('a sign is its letter with its index and its accent, however the index is w
 test('symbols are found once each; exponents and the parts of a symbol are none', () => {
   assert.deepEqual(
     names(
-      '<math><mrow><msub><mi>K</mi><mrow><mi>p</mi><mi>p</mi></mrow></msub><msup><mover><mi>θ</mi><mo>˙</mo></mover><mn>2</mn></msup><mi>θ</mi></mrow></math>',
+      '<math><mrow><msub><mi>K</mi><mrow><mi>p</mi><mi>p</mi></mrow></msub>' +
+        '<msup><mover><mi>θ</mi><mo>˙</mo></mover><mn>2</mn></msup><mi>θ</mi></mrow></math>',
     ),
     ['K_pp', 'theta_dot', 'theta'],
   );
