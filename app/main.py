@@ -11,12 +11,15 @@ from starlette.types import ASGIApp
 
 from heli2dof_core.version import package_version
 
-from . import examples, live, policies, problems, robustness, scene
-from .compute import Compute
-from .kept_files import KeptFiles
-from .limits import OpenSockets, read_in_small_parts
-from .metrics import Metrics
-from .middleware import surrounded
+from . import scene
+from .contract import examples, problems
+from .edge import policies
+from .edge.limits import OpenSockets, read_in_small_parts
+from .edge.middleware import surrounded
+from .edge.visits import Visits
+from .ops.kept_files import KeptFiles
+from .ops.metrics import Metrics
+from .ops.settings import Settings
 from .routes import (
     catalogue,
     comparison,
@@ -25,11 +28,12 @@ from .routes import (
     exports,
     frequency,
     health,
+    live,
     recording,
     recordings,
+    robustness,
 )
-from .settings import Settings
-from .visits import Visits
+from .work.compute import Compute
 
 _DESCRIPTION = (
     "Pole placement for a two-degree-of-freedom laboratory helicopter. SI units: radians, volts, seconds. "

@@ -12,7 +12,7 @@ import uvicorn
 
 from app.cli.serving import listener, server_config
 from app.main import create_app
-from app.settings import Settings
+from app.ops.settings import Settings
 from tests.patience import PATIENCE, until
 
 

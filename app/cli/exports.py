@@ -7,7 +7,7 @@ from typing import IO, Any
 
 import click
 
-from ..exports import FORMATS
+from ..contract.exports import FORMATS
 from .fields import DESIGN, LOOPS, SCENARIO, body, takes
 from .output import refusals
 
@@ -23,7 +23,7 @@ def export(
     name: str, output: Path | None, force: bool, as_json: bool, base: IO[str] | None, **values: Any
 ) -> None:
     """Write a design in FORMAT to a file, and print the file's name."""
-    from ..requests import StepRequest
+    from ..contract.requests import StepRequest
 
     chosen = FORMATS[name]
     with refusals(as_json):

@@ -51,7 +51,7 @@ def show(tables: Iterable[Table], *lines: str, findings: Iterable[Finding] = ())
 
 def print_json(reply: Any) -> None:
     """Prints a reply as the REST API encodes it, on one line."""
-    from ..encoding import json_bytes
+    from ..contract.encoding import json_bytes
 
     click.echo(json_bytes(reply))
 
@@ -66,11 +66,11 @@ def refusals(as_json: bool) -> Iterator[None]:
     try:
         yield
     except (Heli2DofError, ValidationError) as error:
-        from ..problems import problem_of
+        from ..contract.problems import problem_of
 
         problem = problem_of(error)
         if as_json:
-            from ..encoding import json_bytes
+            from ..contract.encoding import json_bytes
 
             click.echo(json_bytes(problem), err=True)
         else:

@@ -22,10 +22,10 @@ from pydantic import ValidationError
 
 from heli2dof_core.version import package_version
 
-from .. import logs
+from ..edge.visits import Visits
 from ..main import create_app
-from ..settings import Settings, complaint
-from ..visits import Visits
+from ..ops import logs
+from ..ops.settings import Settings, complaint
 
 _log = logging.getLogger(__name__)
 _LARGEST_MESSAGE = 1 << 20

@@ -6,8 +6,8 @@ from fastapi import APIRouter, Response
 
 from heli2dof_core import PRESETS
 
-from .. import models, replies
-from ..encoding import json_response
+from ..contract import models, replies
+from ..contract.encoding import json_response
 
 
 def build_router() -> APIRouter:

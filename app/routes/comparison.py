@@ -6,13 +6,13 @@ from fastapi import APIRouter, Response
 
 from heli2dof_core.comparison import compare, compare_splits
 
-from .. import comparison_models as models
-from .. import comparison_replies as replies
-from ..compute import Compute
-from ..encoding import json_response
-from ..models import described
-from ..place_requests import PlaceRequest
-from ..requests import CompareRequest, DesignRequest
+from ..contract import comparison_models as models
+from ..contract import comparison_replies as replies
+from ..contract.encoding import json_response
+from ..contract.models import described
+from ..contract.placement_requests import PlaceRequest
+from ..contract.requests import CompareRequest, DesignRequest
+from ..work.compute import Compute
 
 
 def build_router(compute: Compute) -> APIRouter:

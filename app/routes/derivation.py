@@ -7,12 +7,12 @@ from fastapi import APIRouter, Response
 from heli2dof_core import Structure, place
 from heli2dof_core.couplings import Coupling, Lead
 
-from .. import replies
-from ..compute import Compute
-from ..encoding import json_bytes, json_response
-from ..models import Symbolic, described
-from ..paper_models import Paper, Walkthrough
-from ..requests import DesignRequest
+from ..contract import replies
+from ..contract.encoding import json_bytes, json_response
+from ..contract.models import Symbolic, described
+from ..contract.paper_models import Paper, Walkthrough
+from ..contract.requests import DesignRequest
+from ..work.compute import Compute
 
 
 def build_router(compute: Compute) -> APIRouter:
@@ -44,7 +44,7 @@ def build_router(compute: Compute) -> APIRouter:
     @router.get("/paper", **described(Paper, "The paper, reproduced, and its errata proved"))
     async def paper() -> Response:
         def work() -> bytes:
-            from ..paper_replies import paper_reply
+            from ..contract.paper_replies import paper_reply
 
             return json_bytes(paper_reply())
 

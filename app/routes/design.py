@@ -6,10 +6,10 @@ from fastapi import APIRouter, Response
 
 from heli2dof_core import close_loop, evaluate, place, simulate, suggest_pi
 
-from .. import models, replies
-from ..compute import Compute
-from ..encoding import json_response
-from ..requests import DesignRequest, EvaluateRequest, ResponseRequest
+from ..contract import models, replies
+from ..contract.encoding import json_response
+from ..contract.requests import DesignRequest, EvaluateRequest, ResponseRequest
+from ..work.compute import Compute
 
 
 def build_router(compute: Compute) -> APIRouter:

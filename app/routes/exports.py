@@ -8,10 +8,10 @@ from fastapi import APIRouter, Path, Query, Response
 
 from heli2dof_core.checks import require_known
 
-from ..compute import Compute
-from ..exports import FORMATS
-from ..models import described
-from ..requests import StepRequest
+from ..contract.exports import FORMATS
+from ..contract.models import described
+from ..contract.requests import StepRequest
+from ..work.compute import Compute
 
 # The characters of RFC 3986 alone: none of them ends a line, a comment or an attribute of the files.
 _LINK = r"^https?://[A-Za-z0-9\-._~:/?#\[\]@!$&'()*+,;=%]+$"

@@ -6,10 +6,10 @@ from fastapi import APIRouter, Response
 
 from heli2dof_core import close_loop, interaction, place
 
-from .. import models, replies
-from ..compute import Compute
-from ..encoding import json_response
-from ..requests import LoopsRequest, RgaRequest
+from ..contract import models, replies
+from ..contract.encoding import json_response
+from ..contract.requests import LoopsRequest, RgaRequest
+from ..work.compute import Compute
 
 
 def build_router(compute: Compute) -> APIRouter:

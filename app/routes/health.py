@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
 
-from ..compute import Compute
-from ..encoding import json_response
-from ..metrics import Metrics
-from ..problems import problem, problem_response
-from ..visits import Visits
+from ..contract.encoding import json_response
+from ..contract.problems import problem, problem_response
+from ..edge.visits import Visits
+from ..ops.metrics import Metrics
+from ..work.compute import Compute
 
 
 def build_router(compute: Compute, visits: Visits, metrics: Metrics | None) -> APIRouter:

@@ -11,11 +11,11 @@ from heli2dof_core import Spec, close_loop, place, preset, simulate
 from heli2dof_core.geometry import RigName
 from heli2dof_core.spec import Model
 
-from ..compute import Compute
-from ..models import described
-from ..requests import StepRequest
+from ..contract.models import described
+from ..contract.requests import StepRequest
 from ..scene.poses import Motion
 from ..scene.recording import Format, record
+from ..work.compute import Compute
 
 Kind = Annotated[Format, Query(alias="format")]
 MOST_WAITING = 8

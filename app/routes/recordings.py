@@ -18,12 +18,10 @@ from heli2dof_core.recordings import Table, recording_of
 from heli2dof_core.sample_recordings import deviating_rig, named_columns, sample_recording
 from heli2dof_core.spec import Digital
 
-from ..compute import Compute, asking, still_wanted
-from ..conversation import Send, converse
-from ..encoding import json_bytes, json_response
-from ..models import described
-from ..overlays import overlaid
-from ..recording_models import (
+from ..contract.encoding import json_bytes, json_response
+from ..contract.models import described
+from ..contract.overlays import overlaid
+from ..contract.recording_models import (
     IdentifyRequest,
     JoinRequest,
     OverlayReply,
@@ -36,8 +34,10 @@ from ..recording_models import (
     preview_reply,
     progress_reply,
 )
-from ..recording_store import RecordingStore
-from ..settings import Settings
+from ..ops.settings import Settings
+from ..work.compute import Compute, asking, still_wanted
+from ..work.recording_store import RecordingStore
+from .conversation import Send, converse
 
 _PATIENCE = 180
 """Half seconds that a request waits for the kernels after the start."""

@@ -14,8 +14,8 @@ from pathlib import Path
 
 from fastapi import Request, Response
 
-from .. import policies
-from ..kept_files import Content
+from ..edge import policies
+from ..ops.kept_files import Content
 from .viser_scripts import inline_scripts
 
 _MARKER = "<title>Viser</title>"

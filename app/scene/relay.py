@@ -18,7 +18,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
-from ..metrics import Metrics
+from ..ops.metrics import Metrics
 
 LARGEST_MESSAGE = 64 * 1024
 """Bytes; a viewer's own messages take a few hundred."""

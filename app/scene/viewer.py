@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict
 
 from heli2dof_core.geometry import RigName
 
-from ..metrics import Metrics
+from ..ops.metrics import Metrics
 from .hub import MOST_WINDOWS, Window, attend
 from .page import ViewerPage
 from .relay import relay, viser_subprotocol

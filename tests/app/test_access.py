@@ -9,8 +9,8 @@ import pytest
 from pydantic import SecretStr
 from starlette.testclient import TestClient, WebSocketDenialResponse
 
-from app.middleware.access import COOKIE
-from app.settings import Settings
+from app.edge.access import COOKIE
+from app.ops.settings import Settings
 from tests.app.test_security import SOCKETS, app_with, directives
 
 TOKEN = "a-token-of-a-class-2026"

@@ -18,8 +18,8 @@ from app.cli import main
 from app.cli.fields import ALL, body, flag_of
 from app.cli.group import COMMANDS, heli2dof
 from app.cli.values import Poles
-from app.recording_models import IdentifyRequest, OverlayRequest
-from app.requests import RgaRequest, StepRequest
+from app.contract.recording_models import IdentifyRequest, OverlayRequest
+from app.contract.requests import RgaRequest, StepRequest
 from tests.children import ROOT, environment, python
 from tests.patience import PATIENCE
 

@@ -6,8 +6,8 @@ import json
 
 import pytest
 
-from app import models
-from app.exports import FORMATS
+from app.contract import models
+from app.contract.exports import FORMATS
 
 BODY = {"poles": [-9, -8, {"re": -3, "im": 4}, {"re": -3, "im": -4}], "scenario": {"reference": {"psi": 0.4}}}
 LINK = "http://127.0.0.1:8000/?projector#poles=-9,-8&x='*/"

@@ -13,11 +13,11 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from app.compute import Compute
-from app.limits import Buckets, Limits, OpenSockets, address_of
-from app.queue import BusyError, FairQueue, Job
-from app.recording_store import RecordingStore
-from app.settings import Settings
+from app.edge.limits import Buckets, Limits, OpenSockets, address_of
+from app.ops.settings import Settings
+from app.work.compute import Compute
+from app.work.fair_queue import BusyError, FairQueue, Job
+from app.work.recording_store import RecordingStore
 from heli2dof_core.errors import RecordingError
 from heli2dof_core.recordings import Table
 from tests.loops import run

@@ -9,9 +9,9 @@ import struct
 import numpy as np
 import pytest
 
-from app import models
-from app.encoding import ARRAY_KEY, BINARY_SUBPROTOCOL, binary_frame
-from app.live import Newest
+from app.contract import models
+from app.contract.encoding import ARRAY_KEY, BINARY_SUBPROTOCOL, binary_frame
+from app.routes.live import Newest
 from tests.loops import run
 from tests.patience import until
 
@@ -138,4 +138,4 @@ def test_quick_requests_are_answered_without_a_thread_and_others_with_one(client
             socket.send_json({"seq": 1, **body})
             answer = socket.receive_json()
         assert answer == {**client.post("/api/v1/evaluate", json=body).json(), "seq": 1}
-        assert sum(function.__module__ == "app.live" for function, *_ in threaded) == threads, body
+        assert sum(function.__module__ == "app.routes.live" for function, *_ in threaded) == threads, body

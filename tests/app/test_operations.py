@@ -15,10 +15,10 @@ from pydantic import ValidationError
 from starlette.testclient import TestClient
 from websockets.sync.client import connect
 
-from app import logs
 from app.cli.group import heli2dof
 from app.main import create_app
-from app.settings import Settings, complaint, variable
+from app.ops import logs
+from app.ops.settings import Settings, complaint, variable
 from tests.children import ROOT, served
 from tests.patience import until
 from tests.scene_client import session_id

@@ -9,8 +9,8 @@ import pytest
 import sympy as sp
 from pydantic import TypeAdapter
 
-from app import comparison_models, models, paper_models
-from app.problems import Problem
+from app.contract import comparison_models, models, paper_models
+from app.contract.problems import Problem
 from heli2dof_core import METHODS, PRESETS, pole_error
 from tests.app.test_rest import COMPLEX, PAPER, poles, post
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.recording_models import IdentificationReply, OverlayReply, Preview
-from app.recording_store import RecordingStore
+from app.contract.recording_models import IdentificationReply, OverlayReply, Preview
+from app.work.recording_store import RecordingStore
 from heli2dof_core.errors import RecordingError
 from heli2dof_core.recordings import Table
 from tests.app.test_rest import post

@@ -10,8 +10,8 @@ import pytest
 import sympy as sp
 from pydantic import TypeAdapter
 
-from app import models
-from app.problems import Problem
+from app.contract import models
+from app.contract.problems import Problem
 from heli2dof_core import PRESETS
 
 PAPER = {"preset": "quanser-2dof-manual", "poles": [-12, -10, -9.25, -8.76]}

@@ -10,11 +10,11 @@ import pytest
 from starlette.testclient import TestClient, WebSocketDenialResponse
 from starlette.websockets import WebSocketDisconnect
 
-from app import policies
+from app.edge import policies
+from app.edge.origins import is_own
 from app.main import create_app
-from app.middleware.origins import is_own
+from app.ops.settings import Settings
 from app.scene.page import ViewerPage
-from app.settings import Settings
 from heli2dof_core.export.report_style import STYLE
 from tests.scene_client import session_id
 

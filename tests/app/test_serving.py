@@ -13,8 +13,8 @@ from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
 from app.cli.serving import listener
-from app.kept_files import KeptFiles
-from app.settings import Settings
+from app.ops.kept_files import KeptFiles
+from app.ops.settings import Settings
 from tests.loops import run
 
 SCRIPT = "export const answer = 42; // what it is for\n" * 40

@@ -26,7 +26,7 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
-from app.encoding import BINARY_SUBPROTOCOL
+from app.contract.encoding import BINARY_SUBPROTOCOL
 from tests.bench.round_trip import kernels_ready
 from tests.deploy.farm import Farm, farm
 

@@ -16,7 +16,7 @@ import numpy as np
 import orjson
 from websockets.asyncio.client import connect
 
-from app.encoding import BINARY_SUBPROTOCOL
+from app.contract.encoding import BINARY_SUBPROTOCOL
 from tests.bench.round_trip import kernels_ready
 from tests.e2e.conftest import running_app
 

@@ -6,16 +6,16 @@ import asyncio
 import logging
 from time import perf_counter
 
-from app.metrics import Metrics
-from app.middleware.requests import Requests
-from app.middleware.sockets import Sockets
-from app.visits import Visits
+from app.edge.requests import Requests
+from app.edge.sockets import Sockets
+from app.edge.visits import Visits
+from app.ops.metrics import Metrics
 
 ROUNDS = 20_000
 
 
 async def _handler(scope, receive, send) -> None:
-    """As app.live handles its messages, less the mathematics."""
+    """As app.routes.live handles its messages, less the mathematics."""
     metrics, visit = scope["metrics"], scope.get("heli2dof.visit")
     await send({"type": "websocket.accept"})
     answer = {"type": "websocket.send", "bytes": b"x" * 40_000}

@@ -19,7 +19,7 @@ from starlette.routing import Mount
 
 from app.cli.serving import listener, server_config
 from app.main import create_app
-from app.settings import Settings
+from app.ops.settings import Settings
 from tests.patience import until
 
 CONNECTIONS = 6

@@ -27,7 +27,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
-from app.encoding import BINARY_SUBPROTOCOL
+from app.contract.encoding import BINARY_SUBPROTOCOL
 from heli2dof_core import preset
 from tests.bench.round_trip import kernels_ready, live
 from tests.scene_client import CAMERA, encode

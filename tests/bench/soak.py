@@ -28,7 +28,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
-from app.encoding import BINARY_SUBPROTOCOL
+from app.contract.encoding import BINARY_SUBPROTOCOL
 from tests.bench.round_trip import kernels_ready
 from tests.bench.scenes import ROOT, VISER, Server, shown
 from tests.scene_client import CAMERA, encode

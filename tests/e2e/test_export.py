@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from app.exports import FORMATS
+from app.contract.exports import FORMATS
 from tests.browser import settled, state
 from tests.e2e.conftest import App
 

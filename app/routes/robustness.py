@@ -9,12 +9,12 @@ from fastapi import APIRouter, Response, WebSocket
 
 from heli2dof_core.robustness import Cloud, cloud, cloud_in_parts
 
-from .compute import Compute, still_wanted
+from ..contract.encoding import json_bytes
+from ..contract.models import described
+from ..contract.robustness_requests import RobustnessReply, RobustnessRequest, cloud_reply
+from ..ops.metrics import Metrics
+from ..work.compute import Compute, still_wanted
 from .conversation import Send, converse
-from .encoding import json_bytes
-from .metrics import Metrics
-from .models import described
-from .robustness_requests import RobustnessReply, RobustnessRequest, cloud_reply
 
 
 def build_router(compute: Compute, metrics: Metrics) -> APIRouter:

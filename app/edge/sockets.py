@@ -7,11 +7,11 @@ from time import perf_counter
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from ..metrics import Metrics
-from ..problems import problem
-from ..visits import KEY, Visits
+from ..contract.problems import problem
+from ..ops.metrics import Metrics
 from .refusals import refuse
 from .requests import route_of
+from .visits import KEY, Visits
 
 _log = logging.getLogger("app.access")
 

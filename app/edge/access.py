@@ -11,8 +11,8 @@ from starlette.requests import Request, cookie_parser
 from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from .. import policies
-from ..problems import problem
+from ..contract.problems import problem
+from . import policies
 from .login_form import login_form
 from .refusals import refuse
 

@@ -15,9 +15,9 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from heli2dof_core.recording_files import MOST_BYTES
 
-from .compute import Asking, asking
-from .problems import problem, problem_response
-from .settings import Settings
+from ..contract.problems import problem, problem_response
+from ..ops.settings import Settings
+from ..work.compute import Asking, asking
 
 _POLICY, _TRY_LATER = 1008, 1013
 _READ = 16 * 1024

@@ -36,7 +36,7 @@ from heli2dof_core.spec import (
 )
 from heli2dof_core.weights import bryson_weights
 
-from .request_fields import (
+from .fields import (
     Angle,
     Pole,
     PositiveWeight,

@@ -11,8 +11,8 @@ from urllib.parse import urlsplit
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from ..metrics import Metrics
-from ..problems import problem
+from ..contract.problems import problem
+from ..ops.metrics import Metrics
 from .refusals import refuse
 
 _log = logging.getLogger(__name__)

@@ -5,16 +5,16 @@ from __future__ import annotations
 from starlette.middleware.cors import CORSMiddleware
 from starlette.types import ASGIApp
 
-from ..limits import Limits, OpenSockets
-from ..metrics import Metrics
-from ..settings import Settings
-from ..visits import Visits
+from ..ops.metrics import Metrics
+from ..ops.settings import Settings
 from .access import Access
 from .headers import SafeHeaders
+from .limits import Limits, OpenSockets
 from .origins import Origins
 from .proxies import Proxies
 from .requests import Requests
 from .sockets import Sockets
+from .visits import Visits
 
 __all__ = ["surrounded"]
 

@@ -23,7 +23,7 @@ _SHORTEST_TOKEN = 16
 
 def static_folder() -> Path:
     """The page's files: inside this package in the wheel, beside it in a checkout."""
-    here = Path(__file__).parent
+    here = Path(__file__).parents[1]
     for folder in (here / "static", here.parent / "static"):
         if (folder / "index.html").is_file():
             return folder

@@ -17,7 +17,7 @@ from heli2dof_core.placement.method import MOST_STATES, Weights, require_system
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.signals import Floats
 
-from .request_fields import Pole, PositiveWeight, Strict, Weight, Whole
+from .fields import Pole, PositiveWeight, Strict, Weight, Whole
 
 Row = Annotated[list[float], Field(min_length=1, max_length=MOST_STATES)]
 Matrix = Annotated[list[Row], Field(min_length=1, max_length=MOST_STATES)]

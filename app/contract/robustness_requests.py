@@ -10,9 +10,9 @@ from pydantic import Field
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.robustness import Cloud, Distribution, Uncertainty
 
+from .fields import Whole, within
 from .models import Complex, Model
 from .replies import Reply, poles_reply
-from .request_fields import Whole, within
 from .requests import StepRequest
 
 MOST_POLES = 2000

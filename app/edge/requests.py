@@ -8,8 +8,8 @@ from time import perf_counter
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from ..logs import id_for, request_id
-from ..metrics import Metrics
+from ..ops.logs import id_for, request_id
+from ..ops.metrics import Metrics
 
 _log = logging.getLogger("app.access")
 _QUIET = frozenset(("/livez", "/healthz", "/metrics", "/static"))

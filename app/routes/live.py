@@ -14,13 +14,13 @@ from pydantic import ValidationError
 from heli2dof_core import Heli2DofError, Spec, evaluate
 from heli2dof_core.design import FULL_RANK
 
-from .compute import Compute
-from .encoding import BINARY_SUBPROTOCOL, binary_frame, json_bytes
-from .metrics import Metrics
-from .problems import TEXT_START, problem_of
-from .replies import report_reply
-from .requests import LiveRequest
-from .visits import visit_of
+from ..contract.encoding import BINARY_SUBPROTOCOL, binary_frame, json_bytes
+from ..contract.problems import TEXT_START, problem_of
+from ..contract.replies import report_reply
+from ..contract.requests import LiveRequest
+from ..edge.visits import visit_of
+from ..ops.metrics import Metrics
+from ..work.compute import Compute
 
 _log = logging.getLogger(__name__)
 QUICK = 4000

@@ -24,8 +24,8 @@ from heli2dof_core.compiled import warm_up
 from heli2dof_core.engine import engine
 from heli2dof_core.errors import CancelledError
 
-from .kernels import KernelCompiler
-from .queue import BusyError, Client, FairQueue, Job, OverdueError
+from .fair_queue import BusyError, Client, FairQueue, Job, OverdueError
+from .kernel_compiler import KernelCompiler
 
 _log = logging.getLogger(__name__)
 T = TypeVar("T")

@@ -8,7 +8,7 @@ from typing import Any
 
 from starlette.types import Receive, Scope, Send
 
-from ..problems import problem_response
+from ..contract.problems import problem_response
 
 
 async def refuse(

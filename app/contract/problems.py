@@ -15,9 +15,9 @@ from starlette.exceptions import HTTPException
 
 from heli2dof_core import Heli2DofError
 
+from ..ops.logs import request_id
+from ..work.fair_queue import BusyError, OverdueError
 from .encoding import json_bytes
-from .logs import request_id
-from .queue import BusyError, OverdueError
 
 _log = logging.getLogger(__name__)
 

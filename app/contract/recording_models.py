@@ -25,8 +25,8 @@ from heli2dof_core.recordings import (
 )
 from heli2dof_core.signals import Floats
 
+from .fields import Strict, Whole, within
 from .models import Finding, Model
-from .request_fields import Strict, Whole, within
 from .requests import DesignRequest, StepRequest
 
 PREVIEWED = 5

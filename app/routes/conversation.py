@@ -10,9 +10,9 @@ from typing import Any
 import orjson
 from fastapi import WebSocket, WebSocketDisconnect
 
-from .encoding import json_bytes
-from .problems import problem_of
-from .visits import visit_of
+from ..contract.encoding import json_bytes
+from ..contract.problems import problem_of
+from ..edge.visits import visit_of
 
 _log = logging.getLogger(__name__)
 Send = Callable[[str], Awaitable[None]]

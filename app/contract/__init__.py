@@ -1,0 +1,1 @@
+"""What callers send and get: requests, replies, problems, and how each follows from the core."""

@@ -1,0 +1,1 @@
+"""Where the core computes: threads, their queue, the compiler of the kernels, what is kept of recordings."""
