@@ -162,7 +162,9 @@ def climb(f, low, high, tail, disk):
     place = second = third = low + (1.0 - GOLDEN) * (high - low)
     top = at_second = at_third = size(f, -1.0 / place if tail else place, disk)
     step = before = 0.0
-    while max(place - low, high - place) > 2.0 * end:
+    for _ in range(100):
+        if max(place - low, high - place) <= 2.0 * end:
+            break
         # the vertex of the parabola through the three best, as a step p/q from the best
         r, q = (place - second) * (top - at_third), (place - third) * (top - at_second)
         p, q = (place - third) * q - (place - second) * r, 2.0 * (r - q)
@@ -170,7 +172,7 @@ def climb(f, low, high, tail, disk):
             p, q = -p, -q
         if abs(p) < 0.5 * q * abs(before) and q * (low - place) < p < q * (high - place):
             before, step = step, p / q
-            if min(place + step - low, high - place - step) < end:
+            if min(place + step - low, high - place - step) < 2.0 * end:
                 step = end if place < 0.5 * (low + high) else -end
         else:
             before = high - place if place < 0.5 * (low + high) else low - place
