@@ -47,7 +47,7 @@ from .jit import kernel
 
 LOW, HIGH = 0.1, 0.9
 FOUND = 1e-12
-"""A last step of Newton's method, or width of its bracket, as a share of a piece: what it leaves is its square."""
+"""Last step of Newton's method, or width of its bracket, as a share of a piece: a step leaves but its square."""
 
 
 @kernel
