@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from math import hypot, isfinite, sqrt
 from typing import TYPE_CHECKING
 
@@ -115,7 +116,7 @@ class Design(Shown):
         So it does where the product is nothing but rounding of K (`ROUNDING`), as in the loop's own verdict.
         """
         # plain numbers: on two by two, NumPy takes longer around a product than it takes itself
-        _, _, (p, q), (r, s) = self.plant.B.tolist()
+        (p, q), (r, s) = self.plant.thrust
         (w, x), (y, z) = self.steady_state_inverse.tolist()
         a, b, c, d = p * w + q * y, p * x + q * z, r * w + s * y, r * x + s * z
         (i, j, _, _), (k, m, _, _) = self.K.tolist()
@@ -221,7 +222,7 @@ def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> tuple[
     require_structure(plant.parameters, structure)
     if plant.nearly_parallel:
         return _exact_gain(plant, poles, structure)
-    arguments = (*poles.coefficients, *plant.parameters.as_dict().values(), plant.theta_0)
+    arguments = (*poles.coefficients, *plant.numbers)
     try:
         if structure.shift is None:
             K, inverse = gain(structure)(*arguments)
@@ -229,7 +230,7 @@ def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> tuple[
             K, inverse = gain(structure.family, shifted=True)(*arguments, structure.shift)
     except ArithmeticError:
         return _exact_gain(plant, poles, structure)
-    if not isfinite(sum(map(sum, K)) + sum(map(sum, inverse))):
+    if not isfinite(sum(chain(*K, *inverse))):
         return _exact_gain(plant, poles, structure)
     return np.array(K), np.array(inverse)
 

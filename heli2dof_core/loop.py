@@ -94,15 +94,16 @@ class Loop(Shown):
         """The poles that decide on stability, rad/s: those of the connected states; slowest first."""
         order = self.connected
         A = self.A if len(order) == len(self.A) else self.A[np.ix_(order, order)]
-        return np.array(sorted(eigenvalues(A), key=lambda p: (-p.real, -p.imag)))
+        return np.array(sorted(eigenvalues(A), key=_slowest_first))
 
     @cached_property
     def poles(self) -> Complexes:
         """All poles, rad/s: six with PI, four without; slowest first. A disconnected integrator's lies at 0."""
-        apart = [0j] * (len(self.A) - len(self.connected))
-        if not apart:  # as a rule
-            return self.connected_poles
-        return np.array(sorted([*apart, *self.connected_poles.tolist()], key=lambda p: (-p.real, -p.imag)))
+        own = self.connected_poles
+        if len(own) == len(self.A):  # as a rule
+            return own
+        apart = [0j] * (len(self.A) - len(own))
+        return np.array(sorted([*apart, *own.tolist()], key=_slowest_first))
 
     @cached_property
     def stable(self) -> bool:
@@ -116,7 +117,7 @@ class Loop(Shown):
 
     @property
     def _poles_are_the_designs(self) -> bool:
-        return len(self.connected) == 4 and not self.proportional.any()
+        return len(self.connected) == 4 and not any(map(any, self.proportional.tolist()))
 
     def to_control(self, *, voltages: bool = False) -> control.StateSpace:
         """The whole loop: θ_ref, ψ_ref to θ, ψ, rad to rad, in deviations from the operating point.
@@ -154,6 +155,10 @@ class Loop(Shown):
         return tuple(_remarks(self))
 
 
+def _slowest_first(pole: complex) -> tuple[float, float]:
+    return -pole.real, -pole.imag
+
+
 def close_loop(design: Design, outer: OuterLoop = OuterLoop()) -> Loop:
     """Puts the outer loop around a design (Fig. 3, or Fig. 2 with ``outer="none"``).
 
@@ -161,7 +166,7 @@ def close_loop(design: Design, outer: OuterLoop = OuterLoop()) -> Loop:
     """
     kind = OWN if design.integral is not None else PI if outer.outer == "pi" else STATIC
     order = 4 if kind == STATIC else 6
-    P, F, by_reference = np.empty((3, 2, 2))
+    P, F, by_reference = np.empty((2, 2)), np.empty((2, 2)), np.empty((2, 2))
     gains = np.array([[pi.kp, pi.kp / pi.ti] for pi in (outer.pitch, outer.yaw)])
     integral = np.zeros((2, 2)) if design.integral is None else np.array(design.integral, order="C")
     law, A, B = np.empty((2, order)), np.empty((order, order)), np.empty((order, 2))

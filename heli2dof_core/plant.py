@@ -53,6 +53,17 @@ class Plant(Shown):
         return fixed(rig_constants(self.parameters))
 
     @cached_property
+    def numbers(self) -> tuple[float, ...]:
+        """Parameters and operating point in the order in which compiled functions take them."""
+        return (*self.parameters.as_dict().values(), self.theta_0)
+
+    @cached_property
+    def thrust(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """B₂, the lower half of B, as plain numbers, rad/(s²·V)."""
+        (a, b), (c, d) = self.B[2:].tolist()
+        return (a, b), (c, d)
+
+    @cached_property
     def nearly_parallel(self) -> bool:
         """Whether closed forms lose digits, as they divide by γ and its powers."""
         p = self.parameters

@@ -15,8 +15,6 @@ import numpy as np
 from ..layout import (
     AREA,
     AUGMENTED,
-    BOTTOM,
-    BOTTOM_AT,
     BY,
     DIVERGED,
     EFFORT,
@@ -27,13 +25,9 @@ from ..layout import (
     OUT_OF_BOUNDS,
     OUT_OF_STEPS,
     PEAK_VOLTAGE,
-    RISEN,
     STEPPED,
-    TOP,
-    TOP_AT,
-    WITHIN,
 )
-from .figures import BAND, HIGH, LOW, drive, follow, largest, reach
+from .figures import decides, drive, follow, largest, reach, widen
 from .jit import kernel
 from .linear import combine, extend, halvings, multiply, series
 
@@ -200,12 +194,10 @@ def scan(a, nodes, axis, count, t, d, half, base):
             moment += MOMENTS[j] * y[first + j]
         before, after = (y[first] - start) * by, (y[first + GROUP] - start) * by
         crosses = stepped and (before - 1.0) * (after - 1.0) <= 0.0
-        if (rose and fell) or crosses or (stepped and decides(a, before, after)):
+        if (rose and fell) or crosses or (stepped and decides(a, min(before, after), max(before, after))):
             crosses = inspect(a, y, slope, first, first + GROUP, t, d, half[axis], nodes, base, False)
-        elif after > a[TOP]:
-            a[TOP], a[TOP_AT] = after, t + (first + GROUP) * d
-        elif after < a[BOTTOM]:
-            a[BOTTOM], a[BOTTOM_AT] = after, t + (first + GROUP) * d
+        else:
+            widen(a, after, t + (first + GROUP) * d)
         if crosses:
             gather(a, y, first, t, d, start, by)
         elif stepped:  # ∫ (1 − share) dt, and with t, in the group's own time
@@ -215,14 +207,6 @@ def scan(a, nodes, axis, count, t, d, half, base):
             a[MOMENT] += d * abs((t + first * d) * area + d * moment)
     if full < count:
         inspect(a, y, slope, full, count, t, d, half[axis], nodes, base, True)
-
-
-@kernel
-def decides(a, before, after):
-    """Whether a monotone stretch between these shares of the step reaches a level of the rise or the band's edge."""
-    if a[RISEN] < 2.0 and after >= (LOW if a[RISEN] == 0.0 else HIGH):
-        return True
-    return (abs(after - 1.0) <= BAND) != (a[WITHIN] != 0.0)
 
 
 @kernel
@@ -237,14 +221,12 @@ def inspect(a, y, slope, first, last, t, d, half, nodes, base, integrals):
         after = (y[k + 1] - start) * by
         crossing = stepped and (share - 1.0) * (after - 1.0) < 0.0
         turns = slope[k] * slope[k + 1] < 0.0
-        if integrals or crossing or turns or (stepped and decides(a, share, after)):
+        if integrals or crossing or turns or (stepped and decides(a, min(share, after), max(share, after))):
             p1, p2, p3, p4 = piece(y[k], y[k + 1], d * slope[k], d * slope[k + 1], middle(half, nodes, k))
             follow(a, y[k] + base, p1, p2, p3, p4, t + k * d, d, 1.0, crossing or integrals)
             crosses = crosses or crossing
-        elif after > a[TOP]:
-            a[TOP], a[TOP_AT] = after, t + (k + 1) * d
-        elif after < a[BOTTOM]:
-            a[BOTTOM], a[BOTTOM_AT] = after, t + (k + 1) * d
+        else:
+            widen(a, after, t + (k + 1) * d)
         share = after
     return crosses
 

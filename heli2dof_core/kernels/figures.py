@@ -8,7 +8,7 @@ need; extrema and crossings are located on the others. Source of the bounds: Far
 
 from __future__ import annotations
 
-from math import nan, sqrt
+from math import inf, nan, sqrt
 
 from ..layout import (
     AREA,
@@ -46,6 +46,8 @@ from ..layout import (
 from .jit import kernel
 
 LOW, HIGH = 0.1, 0.9
+FOUND = 1e-12
+"""Last step of Newton's method, or width of its bracket, as a share of a piece: a step leaves but its square."""
 
 
 @kernel
@@ -89,18 +91,16 @@ def reach(p0, p1, p2, p3, p4, level, low, high):
     x = low + (high - low) * min(max((level - first) / (last - first), 0.0), 1.0)
     for _ in range(100):
         off, slope = value(p0, p1, p2, p3, p4, x) - level, rate(p1, p2, p3, p4, x)
-        if off == 0.0:
-            return x
         if (off > 0.0) == rising:
             high = x
         else:
             low = x
-        following = x - off / slope if slope != 0.0 else low
-        if not low < following < high:
-            following = 0.5 * (low + high)
-        if abs(following - x) <= 4e-16:
-            return following
-        x = following
+        step = off / slope if slope != 0.0 else inf
+        if abs(step) <= FOUND or high - low <= FOUND:
+            return min(max(x - step, low), high)
+        x -= step
+        if not low < x < high:
+            x = 0.5 * (low + high)
     return x
 
 
@@ -108,7 +108,7 @@ def reach(p0, p1, p2, p3, p4, level, low, high):
 def turn(p1, p2, p3, p4, low, high):
     """The first x between low and high where the piece turns back; high if there is none.
 
-    Between the zeros of its second derivative the first one is monotone.
+    Between the zeros of its second derivative the first one is monotone: Newton's method there, as in `reach`.
     """
     a, b, c = 6.0 * p4, -3.0 * (p3 + 2.0 * p4), p3 + p4 - p2
     one = other = high
@@ -126,15 +126,20 @@ def turn(p1, p2, p3, p4, low, high):
         right = min(max(one if part == 0 else other if part == 1 else high, low), high)
         after = rate(p1, p2, p3, p4, right)
         if before * after < 0.0:
-            for _ in range(60):
-                middle = 0.5 * (left + right)
-                if not left < middle < right:
-                    break
-                if rate(p1, p2, p3, p4, middle) * before > 0.0:
-                    left = middle
+            x = left + (right - left) * before / (before - after)
+            for _ in range(100):
+                here, bend = rate(p1, p2, p3, p4, x), 2.0 * (c + x * (b + x * a))
+                if here * before > 0.0:
+                    left = x
                 else:
-                    right = middle
-            return right
+                    right = x
+                step = here / bend if bend != 0.0 else inf
+                if abs(step) <= FOUND or right - left <= FOUND:
+                    return min(max(x - step, left), right)
+                x -= step
+                if not left < x < right:
+                    x = 0.5 * (left + right)
+            return x
         left, before = right, after
     return high
 
@@ -149,19 +154,20 @@ def follow(a, p0, p1, p2, p3, p4, t, h, end, integrals):
     low, high = min(p0, b1, b2, b3, b4), max(p0, b1, b2, b3, b4)
     if a[STEPPED] == 0.0:
         integrals = False
-        if low >= a[BOTTOM] and high <= a[TOP]:
-            return
     elif integrals and end == 1.0 and (low >= 1.0 or high <= 1.0):
         integrals = False
         mean = (p0 + b1 + b2 + b3 + b4) / 5.0
         weighted = (p0 + 2.0 * b1 + 3.0 * b2 + 4.0 * b3 + 5.0 * b4) / 30.0
         a[AREA] += h * abs(1.0 - mean)
         a[MOMENT] += h * abs(t * (1.0 - mean) + h * (0.5 - weighted))
+    if not integrals and not (a[STEPPED] != 0.0 and decides(a, low, high)):
+        if low >= a[BOTTOM] and high <= a[TOP]:
+            return
+        if end == 1.0 and low == min(p0, b4) and high == max(p0, b4):  # its extrema are its ends
+            widen(a, b4, t + h)
+            return
     if (p0 <= b1 <= b2 <= b3 <= b4) or (p0 >= b1 >= b2 >= b3 >= b4):
         stretch(a, p0, p1, p2, p3, p4, t, h, 0.0, end, integrals)
-        return
-    known = not integrals and low >= a[BOTTOM] and high <= a[TOP] and a[RISEN] == 2.0
-    if known and a[WITHIN] != 0.0 and low >= 1.0 - BAND and high <= 1.0 + BAND:
         return
     x = 0.0
     for _ in range(4):
@@ -173,13 +179,29 @@ def follow(a, p0, p1, p2, p3, p4, t, h, end, integrals):
 
 
 @kernel
+def decides(a, low, high):
+    """Whether a course between these shares of the step may reach a level of the rise or the edge of the band."""
+    if a[RISEN] < 2.0 and high >= (LOW if a[RISEN] == 0.0 else HIGH):
+        return True
+    if a[WITHIN] != 0.0:
+        return low < 1.0 - BAND or high > 1.0 + BAND
+    return low <= 1.0 + BAND and high >= 1.0 - BAND
+
+
+@kernel
+def widen(a, share, t):
+    """The highest and the lowest share of the step, with one more that is reached at t."""
+    if share > a[TOP]:
+        a[TOP], a[TOP_AT] = share, t
+    elif share < a[BOTTOM]:
+        a[BOTTOM], a[BOTTOM_AT] = share, t
+
+
+@kernel
 def stretch(a, p0, p1, p2, p3, p4, t, h, low, high, integrals):
     """The same along a part of a piece, in shares of the step, that is monotone."""
     first, last = value(p0, p1, p2, p3, p4, low), value(p0, p1, p2, p3, p4, high)
-    if last > a[TOP]:
-        a[TOP], a[TOP_AT] = last, t + h * high
-    if last < a[BOTTOM]:
-        a[BOTTOM], a[BOTTOM_AT] = last, t + h * high
+    widen(a, last, t + h * high)
     if a[STEPPED] == 0.0:
         return
     if a[RISEN] == 0.0 and last >= LOW:
@@ -229,9 +251,11 @@ def drive(b, p0, p1, p2, p3, p4, h, end):
     """A motor, a row of f, along a piece of its voltage from x = 0 to `end`."""
     b1, b3, b4 = p0 + 0.25 * (p1 + p2), p0 + 0.75 * p1 + 0.25 * (p2 + p3), p0 + p1
     b2 = p0 + 0.5 * p1 + (p2 + 0.5 * (p3 + p4)) / 3.0
-    peak, rest = b[PEAK_VOLTAGE], b[CALM]
-    if max(abs(p0), abs(b1), abs(b2), abs(b3), abs(b4)) > peak:
-        b[PEAK_VOLTAGE] = max(peak, largest(p0, p1, p2, p3, p4, end))
+    ends, rest = max(abs(p0), abs(b4)), b[CALM]
+    bound = max(ends, abs(b1), abs(b2), abs(b3))
+    if bound > b[PEAK_VOLTAGE]:
+        peak = ends if bound == ends and end == 1.0 else largest(p0, p1, p2, p3, p4, end)
+        b[PEAK_VOLTAGE] = max(b[PEAK_VOLTAGE], peak)
     if end < 1.0:
         b[EFFORT] += h * end * squares(p0 - rest, p1, p2, p3, p4, end)
         return

@@ -154,19 +154,41 @@ def highest(f, grid, row, count):
 
 @kernel
 def climb(f, low, high, tail, disk):
-    """A maximum between two frequencies, or between two −1/ω, by golden section."""
-    end = PRECISION * (high - low)
-    left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-    at_left = size(f, -1.0 / left if tail else left, disk)
-    at_right = size(f, -1.0 / right if tail else right, disk)
-    while high - low > end:
-        if at_left > at_right:
-            high, right, at_right = right, left, at_left
-            left = high - GOLDEN * (high - low)
-            at_left = size(f, -1.0 / left if tail else left, disk)
+    """A maximum between two frequencies, or between two −1/ω: Brent's method, by parabolas or golden section.
+
+    Source: Brent, Algorithms for Minimization without Derivatives (1973), chapter 5.
+    """
+    end = PRECISION * (high - low) + ROUNDING * max(abs(low), abs(high))
+    place = second = third = low + (1.0 - GOLDEN) * (high - low)
+    top = at_second = at_third = size(f, -1.0 / place if tail else place, disk)
+    step = before = 0.0
+    for _ in range(100):
+        if max(place - low, high - place) <= 2.0 * end:
+            break
+        # the vertex of the parabola through the three best, as a step p/q from the best
+        r, q = (place - second) * (top - at_third), (place - third) * (top - at_second)
+        p, q = (place - third) * q - (place - second) * r, 2.0 * (r - q)
+        if q < 0.0:
+            p, q = -p, -q
+        if abs(p) < 0.5 * q * abs(before) and q * (low - place) < p < q * (high - place):
+            before, step = step, p / q
+            if min(place + step - low, high - place - step) < 2.0 * end:
+                step = end if place < 0.5 * (low + high) else -end
         else:
-            low, left, at_left = left, right, at_right
-            right = low + GOLDEN * (high - low)
-            at_right = size(f, -1.0 / right if tail else right, disk)
-    place = left if at_left > at_right else right
-    return max(at_left, at_right), -1.0 / place if tail else place
+            before = high - place if place < 0.5 * (low + high) else low - place
+            step = (1.0 - GOLDEN) * before
+        if abs(step) < end:
+            step = end if step > 0.0 else -end
+        other = place + step
+        here = size(f, -1.0 / other if tail else other, disk)
+        if here >= top:
+            low, high = (place, high) if step > 0.0 else (low, place)
+            third, second, place = second, place, other
+            at_third, at_second, top = at_second, top, here
+        else:
+            low, high = (low, other) if step > 0.0 else (other, high)
+            if here >= at_second or second == place:
+                third, second, at_third, at_second = second, other, at_second, here
+            elif here >= at_third or third in (place, second):
+                third, at_third = other, here
+    return top, -1.0 / place if tail else place

@@ -126,8 +126,10 @@ def positive_roots(p, sizes, chain, roots, before):
     """All x > 0 where p changes its sign, in order, into `roots`, then those where it may touch 0; both numbers.
 
     Between two neighbouring roots of its derivative a polynomial is monotonic, so a change of sign there
-    holds exactly one root: found so for all derivatives in turn, none can be missed. It may touch 0 where an
-    extremum is nothing but rounding, as `sizes` tell it. Scratch: `chain` and `before`, as long as p.
+    holds exactly one root: found so for the derivatives in turn, none can be missed. The first of them is the lowest
+    whose coefficients change their sign once at most, since by Descartes' rule it has no more positive roots than
+    that. It may touch 0 where an extremum is nothing but rounding, as `sizes` tell it; where its own coefficients
+    change their sign once, it has one simple root and touches nowhere. Scratch: `chain` and `before`, as long as p.
     """
     top = len(p) - 1
     while top > 0 and p[top] == 0.0:
@@ -135,7 +137,14 @@ def positive_roots(p, sizes, chain, roots, before):
     bottom = 0
     while bottom < top and p[bottom] == 0.0:
         bottom += 1
-    if bottom == top:
+    first, changes, sign = top, 0, p[top]
+    while first > 0:
+        if p[first - 1] * sign < 0.0:
+            if changes == 1:
+                break
+            changes, sign = 1, p[first - 1]
+        first -= 1
+    if changes == 0:
         return 0, 0
     # Cauchy's bounds; a root of a derivative that lies outside separates nothing
     largest = smallest = 0.0
@@ -146,7 +155,7 @@ def positive_roots(p, sizes, chain, roots, before):
             smallest = max(smallest, abs(p[k] / p[bottom]))
     low, high = 1.0 / (1.0 + smallest), 1.0 + largest
     found = extrema = 0
-    for order in range(top - 1, -1, -1):
+    for order in range(first, -1, -1):
         degree = top - order
         for k in range(degree + 1):
             weight = 1.0
@@ -175,21 +184,34 @@ def positive_roots(p, sizes, chain, roots, before):
 
 @kernel
 def root_between(p, degree, low, high, at_low):
-    """The root between two positive x where p changes its sign: Newton's steps, halved by ratio where they leave."""
+    """The root between two positive x where p changes its sign: Laguerre's steps, halved by ratio where they leave.
+
+    It is found where p is nothing but rounding of its terms. Source of the step, which converges from afar: Press et
+    al., Numerical Recipes, 3rd ed. (2007), 9.5.
+    """
     x = sqrt(low * high)
     for _ in range(200):
-        y, slope = p[degree], 0.0
+        y, slope, bend = p[degree], 0.0, 0.0
+        size = abs(y)
         for k in range(degree - 1, -1, -1):
+            a = p[k]
+            bend = bend * x + slope  # half the second derivative
             slope = slope * x + y
-            y = y * x + p[k]
+            y = y * x + a
+            size = size * x + abs(a)
         if (y < 0.0) == (at_low < 0.0):
             low = x
         else:
             high = x
-        following = x - y / slope if slope != 0.0 else low
-        if not low < following < high:
-            following = sqrt(low * high)
-        if abs(following - x) <= TOLERANCE * x or high - low <= TOLERANCE * high:
-            return following
-        x = following
+        following = x
+        if y != 0.0:
+            g = slope / y
+            square = (degree - 1) * ((degree - 1) * g * g - 2.0 * degree * bend / y)
+            spread = sqrt(square) if square > 0.0 else 0.0
+            below = g + spread if g > 0.0 else g - spread
+            if below != 0.0:
+                following = x - degree / below
+        if abs(y) <= ROUNDING * size or high - low <= TOLERANCE * high:
+            return min(max(following, low), high)
+        x = following if low < following < high else sqrt(low * high)
     return x

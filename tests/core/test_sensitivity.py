@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from heli2dof_core import PRESETS, OuterLoop, PIGains, Spec, Weights, close_loop, design, place, plant, preset
+from heli2dof_core.interpreted import peaks
 from heli2dof_core.sensitivity import loop_sensitivity
 from tests.core.random_loops import random_stable_loops
 from tests.core.test_nonlinear_response import random_loops
@@ -134,6 +135,27 @@ def test_no_peak_is_missed_or_cut_off(poles, outer, peak):
     assert np.linalg.norm(response(loop, np.abs(pair)), 2, axis=(1, 2)).max() <= own.peak * (1 + 1e-6)
     if 1.01 < own.peak < 1e4:
         assert not rises_above(loop, own.peak * (1 + 1e-4))
+
+
+def test_a_maximum_is_refined_in_few_steps_whatever_the_interval(monkeypatch):
+    """Golden section would take 29 steps each; where rounding decides between neighbouring floats, it ends too."""
+    sizes, size = [], peaks.size
+
+    def counted(*arguments):
+        sizes.append(arguments)
+        return size(*arguments)
+
+    monkeypatch.setattr(peaks, "size", counted)
+    f, rng, steps = loop_of(next(iter(PRESETS))).polynomials, np.random.default_rng(10), []
+    for w in 10 ** rng.uniform(-6, 6, 100):
+        for width in (0, 1e-16, 1e-15, 1e-12, 1e-6, 1.0, 1e4):
+            for low, high, tail in ((w, w + w * width, False), (-w - w * width, -w, True), (-w, 0.0, True)):
+                sizes.clear()
+                top, _ = peaks.climb(f, low, high, tail, False)
+                steps.append(len(sizes))
+                middle = low + 0.5 * (high - low)
+                assert top >= size(f, -1 / middle if tail else middle, False) - 1e-6
+    assert max(steps) < 40 and np.median(steps) < 25
 
 
 def test_where_only_infinity_reaches_one_no_frequency_is_named():
