@@ -4,13 +4,34 @@ from __future__ import annotations
 
 from math import nan
 
-from ..layout import LIMIT
+from ..layout import (
+    GAIN,
+    LIMIT,
+    WORKSPACE,
+)
+from . import examples
 from .dormand_prince import integrate
-from .jit import kernel, put
+from .jit import entry_point, put
 from .rig import asked
 
 
-@kernel
+@entry_point(
+    lambda: (
+        examples.constants()[None, :GAIN].copy(),
+        examples.zeros(6),
+        examples.times(),
+        examples.constants(),
+        examples.modes(),
+        *examples.NUMBERS,
+        examples.zeros(*WORKSPACE),
+        examples.zeros(6),
+        examples.constants(),
+        examples.modes(),
+        examples.zeros(2, 6),
+        examples.zeros(1, 2, 2),
+        examples.zeros(1),
+    )
+)
 def run_cloud(rigs, start, t, c, m, rtol, atol, most_steps, w, y, own, modes, states, angles, within):
     """Responses of rigs that differ in their first eleven constants, (n, 11).
 

@@ -6,7 +6,7 @@ gain zero and its offset the voltage, so that stops are located as ever.
 
 from __future__ import annotations
 
-from math import floor
+from math import floor, inf
 
 import numpy as np
 
@@ -37,16 +37,41 @@ from ..layout import (
     TRAVEL,
     WANTED,
     WINDUP,
+    WORKSPACE,
     F,
 )
+from . import examples
 from .dormand_prince import ANGLES, travel
 from .exact import dwell
 from .experiment import ROUNDING, SEEN
 from .figures import begin, conclude, confirm, doubtful, hold_voltage, keep
-from .jit import kernel, put
+from .jit import entry_point, kernel, put
 
 
-@kernel
+@entry_point(
+    lambda: (
+        examples.zeros(6),
+        examples.times(),
+        examples.constants(),
+        examples.modes(),
+        examples.settings(),
+        examples.poles(),
+        examples.experiment(),
+        examples.zeros(3, 2),
+        inf,
+        *examples.NUMBERS,
+        examples.trim(),
+        examples.zeros(*WORKSPACE),
+        examples.constants(),
+        examples.modes(),
+        examples.zeros(4),
+        examples.zeros(4, 6),
+        examples.followed(),
+        examples.zeros(2, 6),
+        examples.zeros(2, 2),
+        *examples.figures(),
+    )
+)
 def run_digital(
     y, t, c, m, d, poles, x, noise, disturbed_from, rtol, atol, most_steps, rest, w, plant, free, grid, course, f,
     states, voltages, axes, motors, known,

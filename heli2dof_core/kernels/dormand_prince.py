@@ -22,9 +22,11 @@ from ..layout import (
     REST,
     SIDE,
     TRAVEL,
+    WORKSPACE,
 )
+from . import examples
 from .figures import drive, follow, hold_voltage, reach
-from .jit import kernel, put
+from .jit import entry_point, kernel, put
 from .rig import meet_stop, rates, resolve, switch, watch
 
 MOST_SWITCHES = 2000
@@ -34,7 +36,17 @@ SHORTEST = 1e-9
 """Of first steps, s; a step that errs is made shorter anyway."""
 
 
-@kernel
+@entry_point(
+    lambda: (
+        examples.zeros(6),
+        examples.times(),
+        examples.constants(),
+        examples.modes(),
+        *examples.NUMBERS,
+        examples.zeros(*WORKSPACE),
+        examples.zeros(2, 6),
+    )
+)
 def integrate(y, t, c, m, rtol, atol, most_steps, w, states):
     """`travel` without figures: the outcome, the number of samples filled, of steps, of switches and of impacts."""
     return travel(y, t, c, m, rtol, atol, most_steps, w, states, w, NOTHING)[:5]

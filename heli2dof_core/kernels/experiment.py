@@ -11,17 +11,20 @@ from ..layout import (
     ENDED,
     HELD,
     IMPACTS,
+    LINEAR_WORKSPACE,
     OUT_OF_BOUNDS,
     OUTCOME,
     REACHED,
     REFERENCE,
     START,
     TRAVEL,
+    WORKSPACE,
 )
+from . import examples
 from .dormand_prince import EVERYTHING, travel
 from .exact import dwell, march, proof
 from .figures import begin, conclude, confirm, doubtful, keep
-from .jit import kernel, put
+from .jit import entry_point, kernel, put
 from .linear import respond
 from .loop import augment, compose
 from .measures import hold, trajectories
@@ -32,7 +35,25 @@ SEEN = 1e-4
 """The same of a simulation, whose own error is about its tolerance, whatever that is."""
 
 
-@kernel
+@entry_point(
+    lambda: (
+        0.0,
+        examples.zeros(2, 6),
+        examples.zeros(2, 2),
+        examples.zeros(6, 6),
+        examples.zeros(6, 2),
+        examples.poles(),
+        examples.experiment(),
+        examples.times(),
+        10,
+        examples.trim(),
+        examples.zeros(*LINEAR_WORKSPACE),
+        *examples.search(),
+        examples.zeros(AUGMENTED, 2),
+        examples.zeros(2, 2),
+        *examples.figures(),
+    )
+)
 def run_linear(
     theta_0, law, by_reference, whole, driven, poles, x, t, most_steps, rest, w, ladder, nodes, f,
     states, voltages, axes, motors, course,
@@ -89,7 +110,25 @@ def run_linear(
     conclude(own, reference, states[0, last], states[1, last], reached, ROUNDING, axes, motors, course)
 
 
-@kernel
+@entry_point(
+    lambda: (
+        examples.constants(),
+        examples.modes(),
+        examples.poles(),
+        examples.experiment(),
+        examples.times(),
+        inf,
+        *examples.NUMBERS,
+        examples.trim(),
+        examples.zeros(*WORKSPACE),
+        examples.zeros(3, 6),
+        examples.zeros(3),
+        examples.followed(),
+        examples.zeros(6, 2),
+        examples.zeros(2, 2),
+        *examples.figures(),
+    )
+)
 def run_nonlinear(
     c, m, poles, x, t, since, rtol, atol, most_steps, rest, w, raw, grid, f, states, voltages, axes, motors, course
 ):  # fmt: skip
@@ -152,7 +191,34 @@ def settle(own, ahead, y, end, outcome, c, m, turn, rtol, atol, most_steps, w, r
     confirm(own, ahead, proven)
 
 
-@kernel
+@entry_point(
+    lambda: (
+        examples.rig(),
+        examples.trim(),
+        0.0,
+        examples.zeros(2, 6),
+        examples.zeros(2, 2),
+        examples.zeros(2, 2),
+        examples.zeros(6, 6),
+        examples.zeros(6, 2),
+        examples.poles(),
+        examples.experiment()[None],
+        examples.times(),
+        *examples.NUMBERS,
+        examples.zeros(*WORKSPACE),
+        examples.zeros(*LINEAR_WORKSPACE),
+        *examples.search(),
+        examples.constants(),
+        examples.modes(),
+        examples.zeros(3, 6),
+        examples.zeros(3),
+        examples.trim(),
+        examples.zeros(1, AUGMENTED, 2),
+        examples.zeros(1, 6, 2),
+        examples.zeros(1, 2, 2, 2),
+        *examples.figures(1, 2),
+    )
+)
 def run_experiments(
     rig, trim, theta_0, law, by_reference, integral, whole, driven, poles,
     experiments, t, rtol, atol, most_steps, w, v, ladder, nodes, f, c, m, raw, grid, zeros,

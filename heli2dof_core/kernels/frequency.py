@@ -16,9 +16,12 @@ from ..layout import (
     GAIN_REDUCTION_MARGIN,
     MARGINS,
     PHASE_MARGIN,
+    POLYNOMIAL_WORKSPACE,
+    POLYNOMIALS,
     ROUNDING,
 )
-from .jit import kernel
+from . import examples
+from .jit import entry_point, kernel
 from .polynomials import add_product, at, close, determinant, drop_rounding, halves, positive_roots, value
 
 # Rows of the scratch array p, (13, 16): det M, the same with a motor opened, the sizes of their terms, their even and
@@ -32,7 +35,9 @@ ON_AXIS = 1e3 * ROUNDING
 """An opened loop has a pole at jω if p_i(jω) is below this share of its terms: a root's rounding comes to theirs."""
 
 
-@kernel
+@entry_point(
+    lambda: (examples.zeros(*POLYNOMIALS), examples.zeros(*POLYNOMIAL_WORKSPACE), examples.zeros(2, MARGINS))
+)
 def margins(f, p, table):
     """Gain, gain reduction, phase and delay margin of each motor into `table`, (2, 4); f as described, loop stable.
 

@@ -21,6 +21,23 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     return _compile(function) if _compile else function
 
 
+ENTRIES: dict[str, Callable[..., Any]] = {}
+"""The kernels that `engine` hands out, by name."""
+EXAMPLES: dict[str, Callable[[], tuple[Any, ...]]] = {}
+"""For each, arguments of the only types that it takes."""
+
+
+def entry_point(example: Callable[[], tuple[Any, ...]]) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Marks a kernel that `engine` hands out, with an example of its arguments: it is compiled for no others."""
+
+    def marked(function: Callable[..., Any]) -> Callable[..., Any]:
+        EXAMPLES[function.__name__] = example
+        ENTRIES[function.__name__] = kernel(function)
+        return ENTRIES[function.__name__]
+
+    return marked
+
+
 @kernel
 def put(source, target):
     """target[:] = source; a slice assignment would allocate, in case the two overlap."""

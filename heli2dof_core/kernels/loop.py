@@ -25,10 +25,27 @@ from ..layout import (
     WANTED,
     WINDUP,
 )
-from .jit import kernel
+from . import examples
+from .jit import entry_point, kernel
 
 
-@kernel
+@entry_point(
+    lambda: (
+        examples.zeros(2, 4),
+        examples.zeros(2, 2),
+        1.0,
+        *examples.plant(),
+        PI,
+        examples.zeros(2, 2),
+        False,
+        False,
+        *examples.zeros(3, 2, 2),
+        examples.zeros(2, 6),
+        examples.zeros(2, 2),
+        examples.zeros(6, 6),
+        examples.zeros(6, 2),
+    )
+)
 def close(
     K,
     inverse,
@@ -107,7 +124,19 @@ def mix(inverse, determinant, thrust, gains, cross, decoupler, proportional, int
             proportional[i, j], integral[i, j] = weight * gains[j, 0], weight * gains[j, 1]
 
 
-@kernel
+@entry_point(
+    lambda: (
+        examples.rig(),
+        examples.trim(),
+        0.0,
+        examples.zeros(2, 6),
+        examples.zeros(2, 2),
+        examples.zeros(2, 2),
+        examples.experiment(),
+        examples.constants(),
+        examples.modes(),
+    )
+)
 def compose(rig, trim, theta_0, law, by_reference, integral, x, c, m):
     """Constants c and modes m of the loop around the nonlinear rig; its deviations become absolute angles."""
     order = law.shape[1]

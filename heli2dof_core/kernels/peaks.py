@@ -9,8 +9,18 @@ from __future__ import annotations
 
 from math import inf, sqrt
 
-from ..layout import DISK_FREQUENCY, DISK_MARGIN, FREQUENCIES, PEAK_FREQUENCY, ROUNDING, SENSITIVITY_PEAK
-from .jit import kernel
+from ..layout import (
+    DISK_FREQUENCY,
+    DISK_MARGIN,
+    FREQUENCIES,
+    PEAK_FREQUENCY,
+    POLYNOMIALS,
+    ROUNDING,
+    SENSITIVITY,
+    SENSITIVITY_PEAK,
+)
+from . import examples
+from .jit import entry_point, kernel
 from .polynomials import B, M, N
 
 GOLDEN = (sqrt(5.0) - 1.0) / 2.0
@@ -87,7 +97,14 @@ def size(f, w, disk):
     return structured(a - 0.5, b, c, d - 0.5) if disk else largest_singular_value(a, b, c, d)
 
 
-@kernel
+@entry_point(
+    lambda: (
+        examples.zeros(*POLYNOMIALS),
+        examples.poles(),
+        examples.zeros(3, FREQUENCIES),
+        examples.zeros(SENSITIVITY),
+    )
+)
 def peaks(f, poles, grid, both):
     """Sensitivity peak and disk margin, each with its frequency, into `both`, (4,); the loop is stable.
 

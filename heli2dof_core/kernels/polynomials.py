@@ -11,8 +11,12 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ..layout import ROUNDING
-from .jit import kernel
+from ..layout import (
+    POLYNOMIALS,
+    ROUNDING,
+)
+from . import examples
+from .jit import entry_point, kernel
 
 # f, (2, 2, 20), holds for each entry the coefficients of M, N and D, B, and the sizes of the terms of M
 M, N, D, B, SIZE = 0, 4, 8, 12, 16
@@ -22,7 +26,7 @@ HALF = 4
 """Coefficients of the even, or odd, half of a polynomial of degree 6."""
 
 
-@kernel
+@entry_point(lambda: (*examples.plant(), examples.zeros(2, 6), examples.zeros(*POLYNOMIALS)))
 def describe(A, inputs, law, f):
     """The matrices of polynomials into f: A (4, 4), inputs (4, 2), law = ∂u/∂[x, z], (2, 6) or (2, 4)."""
     for j in range(2):

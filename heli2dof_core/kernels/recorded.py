@@ -23,17 +23,32 @@ from ..layout import (
     MGL,
     ML2,
     OFFSET,
+    RECORDED_WORKSPACE,
     SENSITIVITIES,
     TIME,
     TRAVEL,
     WANTED,
+    WORKSPACE,
 )
+from . import examples
 from .digital import control, enter, sense, stand, without_controller
 from .dormand_prince import integrate
-from .jit import kernel, put
+from .jit import entry_point, kernel, put
 
 
-@kernel
+@entry_point(
+    lambda: (
+        examples.zeros(1, 4),
+        examples.bounds(),
+        examples.times(),
+        examples.zeros(2, 2),
+        examples.constants(),
+        1e-2,
+        examples.zeros(*RECORDED_WORKSPACE),
+        examples.zeros(2, 2),
+        examples.zeros(2, 2, SENSITIVITIES),
+    )
+)
 def run_segments(starts, bounds, t, volts, c, longest_step, w, outputs, slopes):
     """Stretches of a recording, each from a state of its own, driven by the recorded voltages.
 
@@ -61,7 +76,17 @@ def run_segments(starts, bounds, t, volts, c, longest_step, w, outputs, slopes):
                     advance(h, volts[k, 0], volts[k, 1], c, SENSITIVITIES + 1, state, stage, slope, total)
 
 
-@kernel
+@entry_point(
+    lambda: (
+        examples.zeros(4),
+        examples.times(),
+        examples.zeros(2, 2),
+        examples.constants(),
+        1e-2,
+        examples.zeros(*RECORDED_WORKSPACE),
+        examples.zeros(2, 4),
+    )
+)
 def run_held(start, t, volts, c, longest_step, w, states):
     """States (n, 4) at all t from `start`, driven by the recorded voltages; pitch is stopped at ±c[TRAVEL].
 
@@ -137,7 +162,25 @@ def bend(x, V_p, V_y, c, rows, out):
     out[11, 2] -= theta / alpha
 
 
-@kernel
+@entry_point(
+    lambda: (
+        examples.zeros(6),
+        examples.constants(),
+        examples.modes(),
+        examples.settings(),
+        *examples.zeros(3, 1, 2),
+        *examples.NUMBERS,
+        examples.zeros(*WORKSPACE),
+        examples.constants(),
+        examples.constants(),
+        examples.modes(),
+        examples.zeros(2),
+        examples.zeros(2, 6),
+        examples.zeros(1, 2),
+        examples.zeros(1, 6),
+        examples.zeros(1, 2),
+    )
+)
 def run_recorder(
     y, c, m, d, noise, references, offsets, rtol, atol, most_steps,
     w, own, plant, free, grid, course, measured, states, voltages,

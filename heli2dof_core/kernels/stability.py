@@ -7,15 +7,22 @@ Eigenvalues would not do: rounding moves a k-fold one by the k-th root of 1e-16.
 
 from __future__ import annotations
 
-from ..layout import ROUNDING
-from .jit import kernel
+import numpy as np
+
+from ..layout import (
+    POLYNOMIAL_WORKSPACE,
+    POLYNOMIALS,
+    ROUNDING,
+)
+from . import examples
+from .jit import entry_point, kernel
 from .polynomials import describe, determinant
 
 # Rows of the scratch array, (13, 16), that are used here
 TOTAL, SIZES, UPPER, LOWER = 0, 1, 2, 3
 
 
-@kernel
+@entry_point(lambda: (examples.zeros(*POLYNOMIALS), examples.zeros(*POLYNOMIAL_WORKSPACE)))
 def stable(f, p):
     """Whether every pole of the described loop lies left of the imaginary axis, and not by rounding."""
     determinant(f, p[TOTAL], p[SIZES])
@@ -67,7 +74,16 @@ def routh(upper, lower, degree):
     return lower[0] > 0.0
 
 
-@kernel
+@entry_point(
+    lambda: (
+        np.array([examples.plant()[0]]),
+        np.array([examples.plant()[1]]),
+        examples.zeros(2, 6),
+        examples.zeros(*POLYNOMIALS),
+        examples.zeros(*POLYNOMIAL_WORKSPACE),
+        examples.zeros(1),
+    )
+)
 def count_stable(A, inputs, law, f, p, verdicts):
     """The same of many rigs under one law: A (n, 4, 4), inputs (n, 4, 2); 1 or 0 into `verdicts`, (n,)."""
     for i in range(len(A)):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 from dataclasses import replace
-from importlib import import_module
 
 import numpy as np
 import pytest
@@ -12,7 +11,7 @@ from numba import njit
 from numba.core.runtime import _nrt_python, rtsys
 
 from heli2dof_core import Spec, Uncertainty, evaluate, preset
-from heli2dof_core.engine import _HOMES, engine
+from heli2dof_core.engine import engine, interpreted
 from heli2dof_core.layout import WORKSPACE
 from heli2dof_core.metrics import step_metrics
 from heli2dof_core.robustness import cloud
@@ -47,20 +46,16 @@ def test_compiled_and_interpreted_updates_agree(monkeypatch):
     """All kernels of an update: to rounding, for a compiler may add in another order."""
     spec = Spec.from_preset(preset("quanser-aero-2"))
     compiled = evaluate(spec)
-    twins = {
-        name: getattr(import_module(f"heli2dof_core.interpreted.{home}"), name)
-        for name, home in _HOMES.items()
-    }
-    monkeypatch.setattr("heli2dof_core.engine._ready", [replace(engine(), compiled=False, **twins)])
-    interpreted = evaluate(spec)
+    monkeypatch.setattr("heli2dof_core.engine._ready", [interpreted()])
+    slow = evaluate(spec)
     for model, step in compiled.step.items():
-        twin = interpreted.step[model]
+        twin = slow.step[model]
         np.testing.assert_allclose(twin.response.angles, step.response.angles, atol=1e-12)
         np.testing.assert_allclose(twin.response.voltages, step.response.voltages, atol=1e-10)
         for axis, metrics in step.metrics.axes.items():
             alike(twin.metrics.axes[axis], metrics)
-    alike(interpreted.sensitivity, compiled.sensitivity)
-    for twin, margins in zip(interpreted.margins, compiled.margins, strict=True):
+    alike(slow.sensitivity, compiled.sensitivity)
+    for twin, margins in zip(slow.margins, compiled.margins, strict=True):
         alike(twin, margins)
 
 

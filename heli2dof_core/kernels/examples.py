@@ -1,0 +1,112 @@
+"""Arguments that make Numba compile the kernels: of the types that they take, and of the smallest shapes.
+
+A kernel that `engine` hands out names its own beside its definition (`jit.entry_point`).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..layout import (
+    ALPHA,
+    AXIS_METRICS,
+    BOUND,
+    CONSTANTS,
+    COURSE,
+    EXPERIMENT,
+    FOLLOWED,
+    GAIN,
+    J_Y,
+    LADDER,
+    LIMIT,
+    MODES,
+    MOTOR_METRICS,
+    REFERENCE,
+    SETTINGS,
+    START,
+    STOP,
+    STRETCH,
+    TIME,
+)
+from ..signals import Floats, fixed
+
+NUMBERS = (1e-3, 1e-3, 10)
+"""Relative and absolute tolerance, most steps."""
+
+
+def zeros(*shape: int) -> Floats:
+    """An array that a kernel reads or fills."""
+    return np.zeros(shape)
+
+
+def times() -> Floats:
+    """Two samples."""
+    return np.array([0.0, 1e-3])
+
+
+def constants() -> Floats:
+    """A rig with inertia and limits, and no controller."""
+    c = np.zeros(CONSTANTS)
+    c[[ALPHA, J_Y, LIMIT, LIMIT + 1]] = 1.0
+    return c
+
+
+def modes() -> Any:
+    """All switches as they are at first."""
+    return np.zeros(MODES, dtype=np.int64)
+
+
+def rig() -> Floats:
+    """Its own constants, which nobody may change."""
+    return fixed(constants()[:GAIN])
+
+
+def trim() -> Floats:
+    """Voltages at rest, which nobody may change."""
+    return fixed(np.zeros(2))
+
+
+def plant() -> tuple[Floats, Floats]:
+    """A and B, which nobody may change."""
+    return fixed(-np.eye(4)), fixed(np.eye(4)[:, 2:])
+
+
+def experiment() -> Floats:
+    """A step of both axes within limits and stops."""
+    x = np.zeros(EXPERIMENT)
+    x[REFERENCE : START + 2], x[BOUND : STOP + 1] = (1.0, 1.0, 0.0, 0.0), 1.0
+    return x
+
+
+def poles() -> Any:
+    """Of the linear loop."""
+    return np.array([-1 + 0j])
+
+
+def search() -> tuple[Floats, Floats, Floats]:
+    """Scratch of the exact response: powers of the step, nodes, and what is followed."""
+    return zeros(*LADDER), zeros(*STRETCH), followed()
+
+
+def followed() -> Floats:
+    """Scratch of the figures of merit, twice."""
+    return zeros(2 * FOLLOWED[0], FOLLOWED[1])
+
+
+def figures(*leading: int) -> tuple[Floats, Floats, Floats]:
+    """Figures of merit by axis, by motor and of the course."""
+    return zeros(*leading, 2, AXIS_METRICS), zeros(*leading, 2, MOTOR_METRICS), zeros(*leading, COURSE)
+
+
+def settings() -> Floats:
+    """Of a digital controller."""
+    d = zeros(SETTINGS)
+    d[TIME] = 1e-3
+    return d
+
+
+def bounds() -> Any:
+    """One segment of two samples."""
+    return np.array([[0, 2]])
