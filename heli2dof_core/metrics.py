@@ -27,7 +27,8 @@ class AxisMetrics:
         overshoot: largest excess beyond the reference, % of the step.
         undershoot: largest excursion from the start away from the reference, % of the step.
         peak: angle of the largest deviation from the start, rad.
-        peak_time: when, s; None where nothing overshoots, or still moves outwards at the end.
+        peak_time: when, s; None where nothing overshoots, or the window ends on the peak: the axis still moves
+            outwards then, or creeps towards a value beyond the reference.
         steady_state_error: reference minus the last value, rad.
         iae: integral of the absolute error over the window, ∫ |e| dt, rad·s.
         itae: the same weighted with time, ∫ t |e| dt, rad·s² (Graham & Lathrop, Trans. AIEE 72 (1953) 273).
