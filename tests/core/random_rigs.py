@@ -110,10 +110,11 @@ def turn(loop, scenario):
 def distances(loop, scenario):
     """By figure how far it is from SciPy's, and where; None where the simulation gives the course up.
 
-    Angles are compared in shares of the step, integrals in shares of those of an error of one step, voltages and
-    efforts in shares of their own. A time is known as well as its angle is, divided by the rate there, which is 0 at
-    a peak and may be near 0 where the band is only just reached. So times are compared by what SciPy's course does at
-    them, as a share of the step; rise times at the flatter of their two ends. `raw` ones are plain differences, s.
+    Angles are compared in shares of the step or of the largest deviation, whichever is larger, integrals in shares of
+    those of an error as large, voltages and efforts in shares of their own. A time is known as well as its angle is,
+    divided by the rate there, which is 0 at a peak and may be near 0 where the band is only just reached. So times
+    are compared by what SciPy's course does at them, as a share of the step; rise times at the flatter of their two
+    ends. `raw` ones are plain differences, s.
     """
     response = simulated(loop, scenario)
     if GIVEN_UP & {f.code for f in response.findings}:
@@ -163,17 +164,19 @@ def worst_of(cases):
 
 
 def _axis_gaps(axis, own, end, ahead, floor):
-    expected, step = axis.figures(), abs(axis.step)
+    expected = axis.figures()
+    many = max(1.0, float(np.max(np.abs(axis.v[axis.inside]))))  # a tiny step may go with a large swing
+    size = many * abs(axis.step)
     excess = {name: expected[name] / 100 for name in ("overshoot", "undershoot")}
     gaps = {
-        "peak": abs(own.peak - expected["peak"]) / step,
-        "steady_state_error": abs(own.steady_state_error - expected["steady_state_error"]) / step,
-        "iae": abs(own.iae - expected["iae"]) / (step * end),
-        "itae": abs(own.itae - expected["itae"]) / (step * end**2),
+        "peak": abs(own.peak - expected["peak"]) / size,
+        "steady_state_error": abs(own.steady_state_error - expected["steady_state_error"]) / size,
+        "iae": abs(own.iae - expected["iae"]) / (size * end),
+        "itae": abs(own.itae - expected["itae"]) / (size * end**2),
     }
     for name, share in excess.items():
         told = getattr(own, name) / 100
-        gaps[name] = max(share - floor, 0.0) if told == 0 else max(abs(told - share), floor - told)
+        gaps[name] = max(share - floor, 0.0) if told == 0 else max(abs(told - share), floor - told) / many
     gaps |= _rise_gaps(axis, own, expected) | _peak_time_gaps(axis, own, expected, floor)
     gaps["settling_time"] = settling_gap(axis, own.settling_time if own.settled else None, ahead)
     if own.settled and expected["entered"] is not None:
