@@ -35,6 +35,27 @@ class Whiteness:
         return self.probability > FALSE_ALARMS
 
 
+def correlations(bounds: NDArray[np.int64], r: Floats, lags: int) -> Floats:
+    """Of residuals 1 … `lags` samples apart within segments, (lags, outputs), as shares of their power."""
+    together, power = np.zeros((lags, r.shape[1])), np.full(r.shape[1], 1e-300)
+    for a, b in bounds.tolist():
+        power += np.sum(r[a:b] ** 2, axis=0)
+        for k in range(1, lags + 1):
+            together[k - 1] += np.sum(r[a : b - k] * r[a + k : b], axis=0)
+    return together / power
+
+
+def autoregression(rho: Floats) -> Floats:
+    """Coefficients a of r_t = Σ a_k r_{t−k} + white noise, (order,), from correlations at lags 1 … order.
+
+    Source: the equations of Yule and Walker (Ljung, System Identification, 1999, section 10.1).
+    """
+    from scipy.linalg import solve_toeplitz
+
+    row = np.concatenate([[1.0 + 1e-9], rho[:-1]])
+    return np.asarray(solve_toeplitz(row, rho), dtype=np.float64)
+
+
 def whiteness(bounds: NDArray[np.int64], r: Floats, basis: Floats) -> list[Whiteness]:
     """Ljung and Box's test of each axis' residuals, within segments.
 
@@ -53,23 +74,19 @@ def whiteness(bounds: NDArray[np.int64], r: Floats, basis: Floats) -> list[White
     shortest = int(np.min(np.diff(bounds, axis=1)))
     lags = min(LAGS, max(1, shortest // 2))
     count, freedom = 0, np.zeros(outputs)
-    power, together, pairs = np.zeros(outputs), np.zeros((lags, outputs)), np.zeros(lags)
-    taken = np.zeros((lags, outputs))
+    pairs, taken = np.zeros(lags), np.zeros((lags, outputs))
     for a, b in bounds.tolist():
-        own, H = r[a:b], basis[a:b]
+        H = basis[a:b]
         count += b - a
-        power += np.sum(own**2, axis=0)
         freedom += np.sum(H**2, axis=(0, 2))
         for k in range(1, lags + 1):
             pairs[k - 1] += b - a - k
-            together[k - 1] += np.sum(own[:-k] * own[k:], axis=0)
             taken[k - 1] += np.sum(H[:-k] * H[k:], axis=(0, 2))
-    variance = power / np.maximum(count - freedom, 1.0)
-    scale = np.maximum(power, 1e-300)
-    correlations = (together + variance * taken) / scale
+    visible = np.any(r != 0, axis=0)  # residuals that are 0 are white
+    corrected = correlations(bounds, r, lags) + visible * taken / np.maximum(count - freedom, 1.0)
     found = []
     for i in range(outputs):
-        rho = correlations[:, i]
+        rho = corrected[:, i]
         Q = float(np.sum(rho**2 * count**2 / np.maximum(pairs, 1.0)))
         below = np.abs(rho) < 2.0 / np.sqrt(np.maximum(pairs, 1.0))
         span = int(np.argmax(below)) + 1 if np.any(below) else lags

@@ -277,8 +277,17 @@ def test_correlated_noise_is_told():
     for k, e in enumerate(np.random.default_rng(1).standard_normal(noise.shape)):
         noise[k] = last = 0.97 * last + np.sqrt(1 - 0.97**2) * 1e-3 * e
     told = identify(spec.parameters, replace(recording, angles=recording.angles + noise)).findings
-    assert "correlated_residuals" in {f.code for f in told}
+    said = {f.code: f.message for f in told}
+    assert "in pitch and yaw are not white" in said["correlated_residuals"] and "model_error" not in said
     assert "correlated_residuals" not in {f.code for f in identify(spec.parameters, recording).findings}
+
+
+@pytest.mark.parametrize("seed", [29, 36])
+def test_slow_and_white_noise_together_are_no_model_error(seed):
+    """A filter of first order leaves them correlated: in two of forty runs that looked like a dead band."""
+    case = Case(MANUAL, 1e-3, 10.0, 0.004, encoders=False, rho=0.97, slow=1e-3)
+    codes = {f.code for f in run(case, seed)[1].findings}
+    assert "correlated_residuals" in codes and "model_error" not in codes
 
 
 @pytest.mark.parametrize("change", ["volts", "time", "huge"])
