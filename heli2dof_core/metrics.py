@@ -23,7 +23,7 @@ class AxisMetrics:
         settling_time: after it the axis stays within 2 % of the step around the reference, s; None unless `settled`.
         settled: the axis is within that band at the end of the window and stays there. A crossing shortly before
             the end does not count: the course is followed beyond it, for ten periods or six time constants of every
-            pole where it is linear, for one period of the slowest pole where it is not.
+            pole where it is linear, for one period of the slowest pole, at most the window's length, where it is not.
         overshoot: largest excess beyond the reference, % of the step.
         undershoot: largest excursion from the start away from the reference, % of the step.
         peak: angle of the largest deviation from the start, rad.
