@@ -32,15 +32,6 @@ def groups_of(bounds: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.array(groups, dtype=np.int64)
 
 
-def first_correlation(bounds: NDArray[np.int64], r: Floats) -> Floats:
-    """Correlation of successive residuals within the segments, per output. r (n, outputs)."""
-    together, power = np.zeros(r.shape[1]), np.full(r.shape[1], 1e-300)
-    for first, end in bounds.tolist():
-        together += np.sum(r[first : end - 1] * r[first + 1 : end], axis=0)
-        power += np.sum(r[first : end - 1] ** 2, axis=0)
-    return np.clip(together / power, -0.99, 0.99)
-
-
 def grouped_covariance(
     J: Floats, r: Floats, groups: NDArray[np.int64], basis: Floats | None = None, power: float = 0.5
 ) -> Floats:

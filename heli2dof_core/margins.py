@@ -39,7 +39,8 @@ def loop_margins(loop: Loop) -> tuple[Margins, Margins] | None:
     """Margins at the pitch and the yaw motor; None if the whole loop is not stable.
 
     Crossings are roots of polynomials of ω² (`kernels.frequency.margins`): there is no grid, so none can
-    be missed, and integrators at ω = 0, where `control.margin` reports a gain margin of 0, are none.
+    be missed, and integrators at ω = 0, where `control.margin` may report a gain margin of 0 for a state-space model
+    (not for its transfer function), are none.
     """
     if not loop.stable:
         return None

@@ -23,11 +23,12 @@ class AxisMetrics:
         settling_time: after it the axis stays within 2 % of the step around the reference, s; None unless `settled`.
         settled: the axis is within that band at the end of the window and stays there. A crossing shortly before
             the end does not count: the course is followed beyond it, for ten periods or six time constants of every
-            pole where it is linear, for one period of the slowest pole where it is not.
+            pole where it is linear, for one period of the slowest pole, at most the window's length, where it is not.
         overshoot: largest excess beyond the reference, % of the step.
         undershoot: largest excursion from the start away from the reference, % of the step.
         peak: angle of the largest deviation from the start, rad.
-        peak_time: when, s; None where nothing overshoots, or still moves outwards at the end.
+        peak_time: when, s; None where nothing overshoots, or the window ends on the peak: the axis still moves
+            outwards then, or creeps towards a value beyond the reference.
         steady_state_error: reference minus the last value, rad.
         iae: integral of the absolute error over the window, ∫ |e| dt, rad·s.
         itae: the same weighted with time, ∫ t |e| dt, rad·s² (Graham & Lathrop, Trans. AIEE 72 (1953) 273).

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .covariance import first_correlation
 from .findings import Finding
 from .recordings import Recording
 from .signals import Floats
 from .simulation.recorded import Wanted, run_segments
+from .whiteness import autoregression, correlations
 
 DEAD_BAND = 0.5
 """Half width of the dead band that is looked for, V; wider and narrower ones look alike."""
@@ -25,6 +25,7 @@ MATTERS = 0.5
 _SLOW = 0.02
 _SMALL = 1e-3
 _PARTS = 16
+_ORDER = 16
 _MOTORS = ("pitch", "yaw")
 
 
@@ -45,8 +46,8 @@ def unmodelled(
     """What the residuals follow beyond chance; or else, which dead band they would not show though it matters.
 
     A score test on whitened residuals (Rao; Ljung, System Identification, 1999, section 16.6): residuals, and the
-    response to a small addition to the voltages, pass the filter that makes the residuals white (first order, per
-    axis); freed of what parameters and starting states could make up for, they must not be correlated.
+    response to a small addition to the voltages, pass the filter that makes the residuals white (an autoregression
+    per axis); freed of what parameters and starting states could make up for, they must not be correlated.
 
     Args:
         p: the rig as it was found.
@@ -120,11 +121,16 @@ def _band(word: str) -> str:
 
 
 class _Whitened:
-    """Columns through a filter of first order that makes the residuals white, axis by axis, within segments."""
+    """Columns through a filter that makes the residuals white, axis by axis, within segments.
+
+    An autoregression of order `_ORDER` by the equations of Yule and Walker: the sum of a slow disturbance and of
+    white noise takes many coefficients, though either alone takes one or none.
+    """
 
     def __init__(self, bounds: NDArray[np.int64], r: Floats, own: Floats) -> None:
         self.bounds, self.own = bounds, own
-        self.rho = first_correlation(bounds, r)[:, None]
+        self.order = max(1, min(_ORDER, int(np.min(np.diff(bounds, axis=1))) // 3))
+        self.filter = np.array([autoregression(rho) for rho in correlations(bounds, r, self.order).T]).T
 
     def free_of_starts(self, columns: Floats) -> Floats:
         """Filtered columns (n, 2, c) without what starting states could make, (rows, c)."""
@@ -137,7 +143,12 @@ class _Whitened:
         return np.concatenate(left)
 
     def _filtered(self, part: Floats) -> Floats:
-        return (part[1:] - self.rho * part[:-1]).reshape(-1, part.shape[-1])
+        rows = len(part) - self.order
+        out = part[self.order :].copy()
+        for k in range(self.order):
+            first = self.order - 1 - k
+            out -= self.filter[k][:, None] * part[first : first + rows]
+        return out.reshape(-1, part.shape[-1])
 
 
 def _shapes(

@@ -1,6 +1,7 @@
-"""Figures of merit once more, from dense samples and SciPy's splines: what the kernels' are measured against.
+"""Figures of merit of linear responses once more, from dense samples and SciPy's splines.
 
-The definitions are those of the documentation, written down anew; nothing of heli2dof's is used.
+What the kernels' are measured against. The definitions are those of the documentation, written down anew; nothing of
+heli2dof's is used.
 """
 
 from __future__ import annotations
@@ -9,7 +10,6 @@ from itertools import pairwise
 
 import mpmath
 import numpy as np
-from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 
@@ -85,15 +85,3 @@ class LinearCourse:
         slowest = np.min(np.abs(self.values.real[np.abs(self.values) > 1e-9]))
         t = end + np.linspace(0, 25 / slowest, 20_001)
         return bool(np.any(np.abs((self(t)[row] - start) / (reference - start) - 1) > 0.02))
-
-
-def held_course(rates, start, knots, voltages, per_interval, rtol=1e-10):
-    """t and states of a rig whose voltages, (len(knots) − 1, 2), are held from knot to knot, by DOP853."""
-    times, states, x = [np.array([knots[0]])], [np.array(start)[:, None]], np.array(start)
-    for (a, b), volts in zip(pairwise(knots), voltages, strict=True):
-        grid = np.linspace(a, b, per_interval + 1)[1:]
-        found = solve_ivp(rates(volts), (a, b), x, "DOP853", t_eval=grid, rtol=rtol, atol=1e-13)
-        x = found.y[:, -1]
-        times.append(grid)
-        states.append(found.y)
-    return np.concatenate(times), np.concatenate(states, axis=1)

@@ -5,7 +5,10 @@ Slow and careful, and nothing of heli2dof's own simulation in it: what the kerne
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from math import cos, sin
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -13,8 +16,17 @@ from scipy.integrate import solve_ivp
 FREE, BEYOND, SLIDING = "free", "beyond", "sliding"
 
 
+@dataclass(frozen=True)
+class Piece:
+    """A stretch without events: SciPy's dense output, and the motors' modes on it."""
+
+    sol: Any
+    mode: tuple[str, str]
+    side: tuple[float, float]
+
+
 class Reference:
-    """One loop with limits, stops and anti-windup; modes are re-decided at every event."""
+    """One loop with limits, stops, anti-windup and disturbance; modes are re-decided at every event."""
 
     def __init__(self, loop, limits, scenario):
         plant = loop.design.plant
@@ -34,6 +46,10 @@ class Reference:
         self.ml2 = self.rig.m * self.rig.l**2
         self.motor_of = [0, 0] if self.I is None else [int(np.argmax(np.abs(self.I[:, i]))) for i in range(2)]
         self.mode, self.side, self.stop = [FREE, FREE], [1.0, 1.0], 0
+        self.disturbed, self.back = (0.0, 0.0), tracking_gains(loop, scenario)
+        self.longest = min(
+            0.02, 0.3 / np.max(np.abs(loop.poles))
+        )  # no voltage passes a limit twice in a step
 
     def asked(self, y):
         """u = trim − K (x − x₀) + P (r − y) + I z + F (r − y₀), collected as it depends on the state."""
@@ -45,8 +61,12 @@ class Reference:
         return [u[i] if self.mode[i] == FREE else self.side[i] * self.limits[i] for i in range(2)]
 
     def mechanics(self, y):
+        return self.driven(y, *self.given(y))
+
+    def driven(self, y, V_p, V_y):
+        """Accelerations under these voltages and the disturbance's."""
         r, (theta, _, theta_dot, psi_dot, *_) = self.rig, y
-        V_p, V_y = self.given(y)
+        V_p, V_y = V_p + self.disturbed[0], V_y + self.disturbed[1]
         s, c, ml2 = sin(theta), cos(theta), self.ml2
         pitch = r.K_pp * V_p + r.K_py * V_y - r.B_p * theta_dot - r.K_s * theta - r.m * r.g * r.l * c
         pitch = (pitch - ml2 * s * c * psi_dot**2) / (r.J_p + ml2)
@@ -93,6 +113,9 @@ class Reference:
         elif self.scenario.anti_windup == "clamping" and self.scenario.saturation and any(self.pushing(y)):
             share, push = self.shares(y), self.pushing(y)
             z = [e[i] * share[m] if push[i] else e[i] for i, m in enumerate(self.motor_of)]
+        elif self.back is not None:
+            cut = np.subtract(self.given(y), self.asked(y))
+            z = (e + self.back @ cut).tolist()
         else:
             z = e
         if self.stop:
@@ -106,16 +129,15 @@ class Reference:
                 found.append(lambda _t, y, i=i: self.shares(y)[i])
                 found.append(lambda _t, y, i=i: 1 - self.shares(y)[i])
             elif self.mode[i] == FREE:
-                found.append(lambda _t, y, i=i: 1 - abs(self.asked(y)[i]) / self.limits[i])
+                found.append(lambda _t, y, i=i: 1 - self.asked(y)[i] / self.limits[i])
+                found.append(lambda _t, y, i=i: 1 + self.asked(y)[i] / self.limits[i])
             else:
                 found.append(lambda _t, y, i=i: self.side[i] * self.asked(y)[i] / self.limits[i] - 1)
         if self.stop:
             found.append(lambda _t, y: self.stop * self.mechanics(np.array([y[0], y[1], 0, *y[3:]]))[0])
         elif np.isfinite(self.travel):
             found.append(lambda _t, y: self.travel - abs(y[0]))
-        for event in found:
-            event.terminal, event.direction = True, -1
-        return found
+        return [_ends(event) for event in found]
 
     def decide(self, y, jumped=()):
         """Modes at a point: what lies beyond is beyond; on the limit, what the rates say."""
@@ -147,42 +169,90 @@ class Reference:
                 self.mode[i] = SLIDING if clamping and drift[1.0] > nothing else FREE
 
     def run(self, t, rtol=1e-12):
-        states, y, now = np.empty((len(t), 6)), self.y.copy(), t[0]
+        """The states at all t, (len(t), 6)."""
+        states = np.empty((len(t), 6))
+        for piece in self.pieces(t[-1], rtol):
+            here = (t >= piece.sol.ts[0]) & (t <= piece.sol.ts[-1])
+            if np.any(here):
+                states[here] = piece.sol(t[here]).T
+        return states
+
+    def pieces(self, end, rtol=1e-12) -> Iterator[Piece]:
+        """The course until `end`, from event to event."""
+        y, sets_in = self.y.copy(), self.scenario.disturbance
+        if abs(y[0]) >= self.travel:
+            self.meet_stop(y)
+        if sets_in is None or sets_in.time >= end:
+            yield from self.undisturbed(0.0, end, y, rtol)
+            return
+        if sets_in.time > 0:
+            for piece in self.undisturbed(0.0, sets_in.time, y, rtol):
+                y = piece.sol(sets_in.time)
+                yield piece
+        self.disturbed = (sets_in.V_p, sets_in.V_y)
+        if self.stop:
+            y[0] = self.stop * self.travel
+            self.meet_stop(y)
+        yield from self.undisturbed(sets_in.time, end, y, rtol)
+
+    def meet_stop(self, y):
+        """Pitch is at a stop: its rate is gone, and it rests there while the torque presses."""
+        self.stop = int(np.sign(y[0]))
+        y[0], y[2] = self.stop * self.travel, 0.0
         self.decide(y, jumped=(0, 1))
-        states[0] = y
+        if self.stop * self.mechanics(y)[0] <= 0:
+            self.stop = 0
+            y[0] *= 1 - 1e-12
+
+    def undisturbed(self, now, end, y, rtol):
+        """From a state to the end while nothing acts on the motors from outside, or a constant does."""
+        self.decide(y, jumped=(0, 1))
         for _ in range(2000):
-            grid = t[t > now]
-            if not len(grid):
-                return states
             solution = solve_ivp(
                 self.rates,
-                (now, t[-1]),
+                (now, end),
                 y,
                 "DOP853",
-                t_eval=grid,
+                dense_output=True,
                 events=self.events(),
                 rtol=rtol,
                 atol=1e-13,
-                max_step=0.02,
+                max_step=self.longest,
             )
-            if np.size(solution.y):
-                first = int(np.searchsorted(t, solution.t[0]))
-                states[first : first + solution.y.shape[1]] = solution.y.T
+            assert solution.status >= 0, solution.message
+            yield Piece(solution.sol, tuple(self.mode), tuple(self.side))
             if solution.status != 1:
-                return states
+                return
             fired = next(i for i, times in enumerate(solution.t_events) if len(times))
             now, y = float(solution.t_events[fired][0]), solution.y_events[fired][0].copy()
+            if now >= end:
+                return
             at_stop = fired == len(solution.t_events) - 1 and (self.stop or np.isfinite(self.travel))
             if at_stop and self.stop:
                 self.stop = 0
                 y[0] *= 1 - 1e-12
             elif at_stop:
-                self.stop = int(np.sign(y[0]))
-                y[0], y[2] = self.stop * self.travel, 0.0
-                self.decide(y, jumped=(0, 1))
-                if self.stop * self.mechanics(y)[0] <= 0:
-                    self.stop = 0
-                    y[0] *= 1 - 1e-12
+                self.meet_stop(y)
             else:
                 self.decide(y)
         raise AssertionError("too many events")
+
+
+def _ends(function):
+    """An event where a function turns negative; it may begin at 0, which is then no zero to be found."""
+
+    def event(t, y):
+        return function(t, y) + 1e-13
+
+    event.terminal, event.direction = True, -1
+    return event
+
+
+def tracking_gains(loop, scenario):
+    """∂ż/∂(given − asked) of back-calculation, 2×2: with T_i as time constant unless the scenario names one."""
+    chosen = scenario.anti_windup == "back-calculation" and scenario.saturation and loop.integral is not None
+    if not chosen or not np.all(np.any(loop.integral, axis=0)):
+        return None
+    own = (loop.outer.pitch.ti, loop.outer.yaw.ti)
+    times = [t if scenario.tracking_time is None else scenario.tracking_time for t in own]
+    return np.linalg.inv(loop.integral) / np.array(times)[:, None]

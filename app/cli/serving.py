@@ -31,6 +31,8 @@ _log = logging.getLogger(__name__)
 _LARGEST_MESSAGE = 1 << 20
 _FOR_SOCKETS, _FOR_REQUESTS = 0.63, 0.84
 """Shares of the settings' `grace` by which sockets are closed, and requests are answered or given up."""
+_AT_LEAST = 0.1
+"""The share that the sockets get on a machine so busy that the end begins late."""
 _FOR_THE_LOCK = 2.0
 """Seconds more after which the process ends even where Python's lock is held."""
 
@@ -83,7 +85,8 @@ class Server(uvicorn.Server):
         await asyncio.sleep(max(began - monotonic(), 0.0))
         for server in self.servers:
             server.close()
-        await self._visits.farewell(max(began + _FOR_SOCKETS * self._grace - monotonic(), 0.0))
+        left = began + _FOR_SOCKETS * self._grace - monotonic()
+        await self._visits.farewell(max(left, _AT_LEAST * self._grace))
         left = began + _FOR_REQUESTS * self._grace - monotonic()
         self.config.timeout_graceful_shutdown = max(math.ceil(left), 1)
         await super().shutdown(sockets)

@@ -107,7 +107,9 @@ class AxisMetrics(Model):
     overshoot: float = Field(description="beyond the reference, % of the step")
     undershoot: float = Field(description="from the start away from the reference, % of the step")
     peak: float = Field(description="angle farthest from the start, rad")
-    peak_time: float | None = Field(None, description="s; left out where nothing overshoots")
+    peak_time: float | None = Field(
+        None, description="s; left out where nothing overshoots, or the window ends on the peak"
+    )
     steady_state_error: float = Field(description="at the end, rad")
     iae: float = Field(description="∫ |e| dt, rad·s")
     itae: float = Field(description="∫ t |e| dt, rad·s²")

@@ -15,8 +15,9 @@ KEY = "heli2dof.visit"
 """Where a socket's scope holds its visit."""
 _LATE = 0.25
 """Seconds for which what was sent before the end is still taken in."""
-_LAST_WORDS = 0.5
-"""Seconds for the goodbyes themselves; a peer that reads nothing may not take one."""
+_LAST_WORDS, _SHARE = 0.5, 0.25
+"""Seconds for the goodbyes themselves, and the share of all the time that they may take at most; a peer that reads
+nothing may not take one."""
 
 
 class Visit:
@@ -82,20 +83,21 @@ class Visits:
             self._empty.set()
 
     async def farewell(self, seconds: float) -> None:
-        """Lets every socket finish what it owes, then closes it with 1001; after `seconds` come what may."""
+        """Lets every socket finish what it owes, then closes it with 1001; over after `seconds` come what may."""
         self.closing = True
         if not self._open:
             self.leaving = True
             return
         began, count = asyncio.get_running_loop().time(), len(self._open)
-        await asyncio.sleep(_LATE)
+        words = min(_LAST_WORDS, _SHARE * seconds)
+        await asyncio.sleep(min(_LATE, _SHARE * seconds))
         self.leaving = True
-        await self._close([visit for visit in self._open if not visit.busy])
-        left = began + seconds - asyncio.get_running_loop().time()
+        await self._close([visit for visit in self._open if not visit.busy], words)
+        left = began + seconds - words - asyncio.get_running_loop().time()
         with contextlib.suppress(TimeoutError):
             await asyncio.wait_for(self._gone(), max(left, 0.0))
         late = len(self._open)
-        await self._close(list(self._open))
+        await self._close(list(self._open), words)
         _log.info("sockets closed: %d, of which %d without their answer", count, late)
 
     async def _gone(self) -> None:
@@ -103,10 +105,10 @@ class Visits:
             self._empty.clear()
             await self._empty.wait()
 
-    async def _close(self, visits: list[Visit]) -> None:
+    async def _close(self, visits: list[Visit], seconds: float) -> None:
         goodbyes = [asyncio.create_task(visit.leave()) for visit in visits]
         if goodbyes:
-            await asyncio.wait(goodbyes, timeout=_LAST_WORDS)
+            await asyncio.wait(goodbyes, timeout=seconds)
 
 
 def visit_of(socket: WebSocket) -> Visit:

@@ -164,7 +164,7 @@ def run_digital(
     confirm(own, ahead, proven)
     known[HELD] = done if outcome == OUT_OF_BOUNDS else samples
     known[OUTCOME], known[IMPACTS], known[REACHED] = outcome, impacts, reached
-    last, floor = states[samples - 1], min(max(ROUNDING, 10.0 * rtol), SEEN)
+    last, floor = states[samples - 1] if outcome == ENDED else y, min(max(ROUNDING, 10.0 * rtol), SEEN)
     conclude(own, reference, last[0], last[1], reached, floor, axes, motors, known)
 
 

@@ -102,6 +102,7 @@ def travel(y, t, c, m, rtol, atol, most_steps, w, states, f, figures):
             point(min((t[done] - now) / h, share), q, states[done])
             done += 1
         if beyond:
+            point(share, q, y)
             return OUT_OF_BOUNDS, done, steps, switches, impacts, reached
         if which < 0:
             for i in range(6):
@@ -110,9 +111,9 @@ def travel(y, t, c, m, rtol, atol, most_steps, w, states, f, figures):
             h *= 5.0 if error == 0.0 else min(5.0, 0.9 * error**-0.2)
         else:
             switches += 1
+            point(share, q, y)
             if switches > MOST_SWITCHES:
                 return OUT_OF_SWITCHES, done, steps, switches, impacts, reached
-            point(share, q, y)
             if which == 4 and m[REST] == 0:
                 impacts += 1
             switch(which, y, c, m, k, g)

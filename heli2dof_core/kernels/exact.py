@@ -27,7 +27,7 @@ from ..layout import (
     PEAK_VOLTAGE,
     STEPPED,
 )
-from .figures import decides, drive, follow, largest, reach, widen
+from .figures import decides, drive, follow, largest, reach, value, widen
 from .jit import kernel
 from .linear import combine, extend, halvings, multiply, series
 
@@ -97,8 +97,8 @@ def march(M, outputs, slopes, poles, t, length, theta_0, most, f, ladder, nodes,
     """Follows the course from the state in the first column of `nodes` at t for a time `length`.
 
     `outputs` and `slopes`, (2, 7): voltages and their rates by state. The state at the end is left in the first
-    column. Given up after `most` groups of intervals. Returns the outcome and the time reached. Scratch: `ladder`,
-    LADDER, and `w`, (42, 7).
+    column, of a course that leaves ±DIVERGED the angles alone. Given up after `most` groups of intervals. Returns the
+    outcome and the time reached. Scratch: `ladder`, LADDER, and `w`, (42, 7).
     """
     end = t + length
     wanted = length * fastest(poles, t) / SPACING  # intervals at this spacing: `parts` times a power of 2
@@ -285,9 +285,13 @@ def voltage_piece(output, slope, half, nodes, u, k, d):
 
 @kernel
 def leave(f, nodes, k, t, d, half, theta_0, outputs, slopes):
-    """The last interval of a course, on which an angle leaves ±DIVERGED; until when."""
+    """The last interval of a course, on which an angle leaves ±DIVERGED; until when.
+
+    Where the angles are then stands in the first column.
+    """
     for i in range(AUGMENTED + 2):
         if not abs(nodes[i, k + 1]) < inf:
+            nodes[0, 0], nodes[1, 0] = nodes[0, k], nodes[1, k]
             return t
     x = 1.0
     for i in range(2):
@@ -297,12 +301,18 @@ def leave(f, nodes, k, t, d, half, theta_0, outputs, slopes):
             p1, p2, p3, p4 = piece(y[k], y[k + 1], d * slope[k], d * slope[k + 1], middle(half[i], nodes, k))
             level = DIVERGED if y[k + 1] > 0.0 else -DIVERGED
             x = min(x, reach(y[k] + base, p1, p2, p3, p4, level, 0.0, 1.0))
+    pitch = yaw = 0.0
     for i in range(2):
         base = theta_0 if i == 0 else 0.0
         y, slope = nodes[i], nodes[2 + i]
         p1, p2, p3, p4 = piece(y[k], y[k + 1], d * slope[k], d * slope[k + 1], middle(half[i], nodes, k))
         follow(f[i], y[k] + base, p1, p2, p3, p4, t, d, x, True)
+        if i == 0:
+            pitch = value(y[k], p1, p2, p3, p4, x)
+        else:
+            yaw = value(y[k], p1, p2, p3, p4, x)
         u = nodes[AUGMENTED + i]
         p1, p2, p3, p4 = voltage_piece(outputs[i], slopes[i], half, nodes, u, k, d)
         drive(f[2 + i], u[k], p1, p2, p3, p4, d, x)
+    nodes[0, 0], nodes[1, 0] = pitch, yaw
     return t + d * x

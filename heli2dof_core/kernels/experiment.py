@@ -82,7 +82,7 @@ def run_linear(
     outcome, reached = march(
         M, outputs, slopes, poles, 0.0, end, theta_0, most_steps, own, ladder, nodes, scratch
     )
-    proven = outcome == ENDED
+    proven, pitch, yaw = outcome == ENDED, nodes[0, 0] + theta_0, nodes[1, 0]
     until = doubtful(own, end, proof(poles))
     keep(own, ahead)
     if proven and until > end:
@@ -104,10 +104,9 @@ def run_linear(
             )
             proven = found == ENDED
     confirm(own, ahead, proven)
-    last = len(t) - 1
-    course[HELD] = last + 1 if outcome == ENDED else hold(states, voltages, DIVERGED)
+    course[HELD] = len(t) if outcome == ENDED else hold(states, voltages, DIVERGED)
     course[OUTCOME], course[IMPACTS], course[REACHED] = outcome, 0, reached
-    conclude(own, reference, states[0, last], states[1, last], reached, ROUNDING, axes, motors, course)
+    conclude(own, reference, pitch, yaw, reached, ROUNDING, axes, motors, course)
 
 
 @entry_point(
@@ -156,7 +155,7 @@ def run_nonlinear(
             y, grid[:count], c, m, rtol, atol, most_steps, w, raw[:count], own, EVERYTHING
         )
         done = min(done, before)
-        c[DISTURBANCE], c[DISTURBANCE + 1] = volts[0], volts[1]
+    c[DISTURBANCE], c[DISTURBANCE + 1] = volts[0], volts[1]
     if before < samples and outcome == ENDED:
         grid[0] = since if before > 0 else t[0]
         count = samples - before + 1
@@ -170,9 +169,9 @@ def run_nonlinear(
             put(raw[k + 1], raw[k])
         done = before + more - 1
     trajectories(raw, done, c, states, voltages)
-    pitch, yaw = (y[0], y[1]) if outcome == ENDED else (states[0, samples - 1], states[1, samples - 1])
+    pitch, yaw = y[0], y[1]
     turn = min(dwell(poles), end)
-    settle(own, ahead, y, end, outcome, c, m, turn, rtol, atol, most_steps, w, raw[:2], grid[:2])
+    settle(own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, most_steps, w, raw[:2], grid[:2])
     course[HELD] = done if outcome == OUT_OF_BOUNDS else samples
     course[OUTCOME], course[IMPACTS], course[REACHED] = outcome, impacts, reached
     floor = min(max(ROUNDING, 10.0 * rtol), SEEN)
@@ -180,14 +179,22 @@ def run_nonlinear(
 
 
 @kernel
-def settle(own, ahead, y, end, outcome, c, m, turn, rtol, atol, most_steps, w, raw, grid):
-    """Looks beyond the end, until an axis has been within its settling band for a time `turn`."""
+def settle(own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, most_steps, w, raw, grid):
+    """Looks beyond the end, until an axis has been within its settling band for a time `turn`.
+
+    The disturbance within c sets in at `since` there, too.
+    """
     proven, until = outcome == ENDED, doubtful(own, end, turn)
+    volts, now = (c[DISTURBANCE], c[DISTURBANCE + 1]), end
     keep(own, ahead)
-    if proven and until > end:
-        grid[0], grid[1] = end, until
-        found, _, _, _, _, _ = travel(y, grid, c, m, rtol, atol, most_steps, w, raw, ahead, EVERYTHING)
-        proven = found == ENDED
+    for disturbed in range(2):
+        to = until if disturbed == 1 else min(max(since, end), until)
+        if proven and to > now:
+            c[DISTURBANCE], c[DISTURBANCE + 1] = disturbed * volts[0], disturbed * volts[1]
+            grid[0], grid[1] = now, to
+            found, _, _, _, _, _ = travel(y, grid, c, m, rtol, atol, most_steps, w, raw, ahead, EVERYTHING)
+            proven, now = found == ENDED, to
+    c[DISTURBANCE], c[DISTURBANCE + 1] = volts[0], volts[1]
     confirm(own, ahead, proven)
 
 

@@ -321,7 +321,8 @@ def conclude(f, reference, pitch, yaw, end, floor, axes, motors, course):
     """Figures of what was followed until `end`, where the axes are at these angles; nan is what did not happen.
 
     Into `axes`, (2, AXIS_METRICS), for each axis that is stepped, and `motors`, (2, MOTOR_METRICS); deviations and
-    shares of time into `course`. An overshoot below `floor`, a share of the step, is no more than rounding.
+    shares of time into `course`. An overshoot below `floor`, a share of the step, is no more than rounding; nor is a
+    peak that stands out by less from where the course ends, as of one that creeps towards a value of its own.
     """
     for i in range(2):
         a, b, out = f[i], f[2 + i], axes[i]
@@ -339,7 +340,8 @@ def conclude(f, reference, pitch, yaw, end, floor, axes, motors, course):
         out[UNDERSHOOT] = 100.0 * under if under > floor else 0.0
         below = -a[BOTTOM] > a[TOP]
         out[PEAK] = a[FROM] + step * (a[BOTTOM] if below else a[TOP])
-        at = a[BOTTOM_AT] if below else a[TOP_AT]
-        out[PEAK_TIME] = at if (under if below else over) > floor and at < end * (1.0 - 1e-9) else nan
+        at, last = a[BOTTOM_AT] if below else a[TOP_AT], ((pitch if i == 0 else yaw) - a[FROM]) * a[BY]
+        back = last - a[BOTTOM] if below else a[TOP] - last
+        out[PEAK_TIME] = at if (under if below else over) > floor and back > floor else nan
         out[STEADY_STATE_ERROR] = reference[i] - (pitch if i == 0 else yaw)
         out[IAE], out[ITAE] = abs(step) * a[AREA], abs(step) * a[MOMENT]

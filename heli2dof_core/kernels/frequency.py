@@ -43,7 +43,8 @@ def margins(f, p, table):
 
     L_i crosses the unit circle where Re S_ii = ½ and the real axis where Im S_ii = 0: with S_ii = p_i / p_c,
     both polynomials, these are the positive roots of two polynomials of ω², and ω = 0. None can be missed. Where the
-    opened loop has a pole at 0, `control.margin` reports a gain margin of 0; it is no crossing.
+    opened loop has poles at 0, `control.margin` may report a gain margin of 0 for a state-space model, though not
+    for its transfer function; it is no crossing.
     """
     determinant(f, p[CLOSED], p[CLOSED_SIZES])
     halves(p, CLOSED, CLOSED_EVEN, CLOSED_ODD)

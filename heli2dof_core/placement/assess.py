@@ -138,10 +138,10 @@ def _remarks(placement: Placement, wanted: Complexes, verdict: Verdict, *, aimed
         yield Finding(
             "rounded_closed_loop",
             "info",
-            "The poles told are those of A − BK computed without rounding. Rounded to floating point, A − BK can "
-            f"have others, {_apart(verdict.rounding, size)} away: so sensitive are they to the model.",
+            "The poles told are those of A − BK computed without rounding. Rounding its entries to floating point "
+            f"can move them by {_moved(verdict.rounding, size)}: so sensitive are they to errors of the model.",
         )
 
 
-def _apart(distance: float, size: float) -> str:
-    return f"up to {distance:.1g}" if distance < size else "as far as they are large and more"
+def _moved(distance: float, size: float) -> str:
+    return f"up to {distance:.1g}" if distance < size else "more than the magnitude of the largest one"

@@ -37,7 +37,9 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
     system = NonlinearLoop.of(loop, limits, scenario)
     t = scenario.times
     states, held, found = np.empty((scenario.samples, 6)), np.empty((scenario.samples, 2)), Measured.empty()
-    count = int(np.ceil(scenario.duration / digital.sample_time)) + 2
+    count = 1
+    if digital.noise:  # for twice the window: settling is looked at beyond its end
+        count = int(np.ceil(2 * scenario.duration / digital.sample_time)) + 2
     noise = digital.noise * np.random.default_rng(digital.seed).standard_normal((count, 2))
     kernels = engine()
     kernels.run_digital(

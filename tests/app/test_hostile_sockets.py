@@ -9,7 +9,6 @@ import os
 import socket
 import struct
 import threading
-from base64 import b64encode
 from collections.abc import Iterator
 from pathlib import Path
 from time import perf_counter
@@ -22,6 +21,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
 from tests.patience import PATIENCE, until
+from tests.raw_sockets import frame, shaken
 from tests.whole_server import WholeServer, serving
 
 SESSION = "hostile-" + "x" * 20
@@ -129,23 +129,7 @@ def opened(server: WholeServer, path: str) -> ClientConnection:
 
 def raw(server: WholeServer, path: str) -> socket.socket:
     """A socket after its handshake, on which anything may be sent."""
-    peer = socket.create_connection(("127.0.0.1", server.port), timeout=PATIENCE)
-    key = b64encode(bytes(16)).decode()
-    head = f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-    peer.sendall(f"{head}Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n".encode())
-    reply = b""
-    while b"\r\n\r\n" not in reply:
-        reply += peer.recv(1)  # what follows is the first frame's
-    assert b" 101 " in reply
-    return peer
-
-
-def frame(payload: bytes, opcode: int = 1) -> bytes:
-    """A client's frame, its mask all zeros."""
-    n = len(payload)
-    head = bytes([0x80 | opcode])
-    head += bytes([0x80 | n]) if n < 126 else bytes([0x80 | 127]) + struct.pack("!Q", n)
-    return head + bytes(4) + payload
+    return shaken(server.port, path)
 
 
 def closing_code(peer: socket.socket) -> int:

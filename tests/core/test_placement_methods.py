@@ -25,6 +25,7 @@ from heli2dof_core.placement.ackermann import ackermann
 from heli2dof_core.placement.bass_gura import bass_gura
 from heli2dof_core.placement.dyadic import place_dyadic
 from heli2dof_core.placement.lqr_integral import IntegralPlacement
+from heli2dof_core.placement.method import Task
 from heli2dof_core.signals import C
 from tests.systems import random_poles, random_system, rounding
 
@@ -176,6 +177,58 @@ def test_a_gain_of_slicot_that_misses_is_refused():
     with pytest.raises(MethodUnavailableError, match="misses these poles"):
         place_poles(HELICOPTER.A, HELICOPTER.B, poles, "varga")
     assert place_poles(HELICOPTER.A, HELICOPTER.B, poles).pole_error < 1e-9
+
+
+@pytest.mark.parametrize("n", [4, 5, 6, 7])
+def test_the_order_of_the_poles_is_all_the_same_to_varga(n):
+    """SB01BD takes neighbours for conjugates; interleaved ones must not be placed twice, nor be refused."""
+    rng = np.random.default_rng(n)
+    for _ in range(10):
+        A, B = rng.normal(size=(n, n)), rng.normal(size=(n, rng.integers(1, 3)))
+        upper = -np.arange(1.0, n // 2 + 1) + 1j * rng.uniform(0.5, 2, n // 2)
+        poles = np.concatenate([upper, upper.conj(), [-0.5] * (n % 2)])
+        for order in (np.arange(n), rng.permutation(n), np.argsort(poles.imag)):
+            assert place_poles(A, B, poles[order], "varga").pole_error < 1e-5
+
+
+def test_varga_needs_no_neighbours_on_a_chain():
+    chain, last = np.diag(np.ones(3), 1), np.eye(4)[:, 3:]
+    wanted = [-1 + 1j, -2 + 1j, -1 - 1j, -2 - 1j]
+    placed = place_poles(chain, last, wanted, "varga")
+    np.testing.assert_allclose(placed.placement.K, [np.poly(wanted).real[:0:-1]], rtol=1e-9)
+
+
+TURNED = np.linalg.qr(np.random.default_rng(0).standard_normal((4, 4)))[0]
+OSCILLATOR = np.array([[0, 1.0, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1], [0, 0, 0, 0]])
+
+
+@pytest.mark.parametrize(
+    ("A", "B", "reached"),
+    [
+        (np.diag([1.0, 2, 3, 4]), [[1.0], [1], [1], [0]], 3),
+        (np.diag([1.0, 2, 3, 4]), [[1.0, 0], [1, 2], [0, 1], [0, 0]], 3),
+        (OSCILLATOR, [[0.0], [0], [0], [1]], 2),
+        (np.diag([1.0, 1, 3, 4]), [[1.0], [1], [1], [1]], 3),
+    ],
+    ids=["one mode", "two inputs", "two modes", "an eigenvalue twice"],
+)
+@pytest.mark.parametrize("turned", [np.eye(4), TURNED], ids=["plain", "turned"])
+def test_varga_says_of_an_uncontrollable_pair_that_it_is_one(A, B, reached, turned):
+    poles = np.array([-1 + 1j, -1 - 1j, -3 + 1j, -3 - 1j])
+    task = Task(turned @ A @ turned.T, turned @ np.array(B), poles)
+    with pytest.raises(MethodUnavailableError, match=f"reach(es)? only {reached} of the 4 states") as caught:
+        METHODS["varga"].place(task)
+    assert caught.value.field == "B" and "two at a time" not in str(caught.value)
+
+
+@pytest.mark.parametrize("B", [[[1.0], [1], [1], [1e-17]], [[1.0, 0], [1, 0], [1, 0], [0, 1e-17]]])
+def test_varga_tells_what_slicot_takes_for_uncontrollable(B):
+    """In units of its own this state is reached as well as any; SLICOT's tolerance is an absolute one."""
+    A = np.diag([1.0, 2, 3, 4])
+    with pytest.raises(MethodUnavailableError, match="SLICOT leaves 4 where the plant has it") as caught:
+        place_poles(A, B, [-1, -2, -3, -4], "varga")
+    assert caught.value.field == "B"
+    assert place_poles(A, B, [-1, -2, -3, -4]).pole_error < 1e-6
 
 
 def test_varga_law_on_random_systems():

@@ -116,7 +116,9 @@ def test_a_right_gain_is_not_told_to_be_wrong():
     found = verdicts.true_poles(np.array(NEAR_A), np.array(NEAR_B), placed.placement.K)
     assert placed.pole_error == pytest.approx(verdicts.farthest([-1, -2], found), rel=1e-9)
     assert placed.pole_error < 1e-6 and placed.pole_error_bound < 1e-14
-    assert {f.code for f in placed.findings} == {"nearly_uncontrollable", "rounded_closed_loop"}
+    said = {f.code: f.message for f in placed.findings}
+    assert said.keys() == {"nearly_uncontrollable", "rounded_closed_loop"}
+    assert "can move them by more than the magnitude of the largest one: so" in said["rounded_closed_loop"]
 
 
 @pytest.mark.parametrize("times", [2, 3, 4, 5])
