@@ -31,7 +31,7 @@ from .errors import (
     UncontrollableError,
     UnpairedPolesError,
 )
-from .evaluate import Report, Spec, Step, evaluate, place, simulate
+from .evaluate import Report, Step, evaluate, place, simulate
 from .findings import Finding
 from .formulas import formulas
 from .interaction import Interaction, interaction, rga_over_frequency
@@ -47,17 +47,18 @@ from .poles import PoleSet, match_poles, pole_error
 from .presets import PRESETS, Preset, preset
 from .relative_gains import best_pairing, diagonal_dominance, niederlinski_index, relative_gain_array
 from .robustness import Cloud, Uncertainty, cloud
+from .scenario import Digital, Disturbance, Limits, OuterLoop, PIGains, Scenario
 from .simulation.response import Response
-from .spec import Digital, Disturbance, Limits, OuterLoop, PIGains, Scenario
+from .spec import Spec
 from .tuning import Suggestion, suggest_pi
 
 if TYPE_CHECKING:
     from . import paper as paper
     from . import symbolic as symbolic
-    from .identification import Identification, identify
-    from .overlay import Overlay, driven_by_references, driven_by_voltages, driven_in_segments
-    from .recording_files.opened import read_recording
-    from .recordings import Columns, Recording
+    from .recordings.files.opened import read_recording
+    from .recordings.identification import Identification, identify
+    from .recordings.overlay import Overlay, driven_by_references, driven_by_voltages, driven_in_segments
+    from .recordings.recording import Columns, Recording
 
 __all__ = [
     "METHODS",
@@ -131,12 +132,12 @@ __all__ = [
 
 
 _LATE = {
-    **dict.fromkeys(("Identification", "identify"), ".identification"),
+    **dict.fromkeys(("Identification", "identify"), ".recordings.identification"),
     **dict.fromkeys(
-        ("Overlay", "driven_by_references", "driven_by_voltages", "driven_in_segments"), ".overlay"
+        ("Overlay", "driven_by_references", "driven_by_voltages", "driven_in_segments"), ".recordings.overlay"
     ),
-    **dict.fromkeys(("Columns", "Recording"), ".recordings"),
-    "read_recording": ".recording_files.opened",
+    **dict.fromkeys(("Columns", "Recording"), ".recordings.recording"),
+    "read_recording": ".recordings.files.opened",
 }
 """Modules of what is not imported before it is asked for."""
 

@@ -10,14 +10,14 @@ from math import degrees, radians
 import numpy as np
 
 from .findings import Finding
-from .layout import BAND
+from .kernels.layout import BAND
 from .loop import Loop
 from .margins import Margins
 from .metrics import AxisMetrics, StepMetrics
 from .remarks import FAR_OUT
+from .scenario import Digital, Limits, Scenario
 from .signals import AXES, INPUTS, OUTPUTS
 from .simulation.response import Response
-from .spec import Digital, Limits, Scenario
 from .tables import number
 
 UNLIKE, UNLIKE_AT_LIMITS = 1.25, 1.05

@@ -10,12 +10,13 @@ import numpy as np
 from .couplings import Structure
 from .design import FULL_RANK, Design
 from .errors import Heli2DofError, MethodUnavailableError, StructureUnavailableError
-from .evaluate import Report, Spec, evaluate, place
+from .evaluate import Report, evaluate, place
 from .interaction import Interaction, interaction
 from .metrics import settling_words
 from .placement.groups import splits
 from .placement.registry import METHODS
 from .poles import PoleSet
+from .spec import Spec
 from .tables import NOTHING, Shown, Table, number
 
 STRUCTURES = (

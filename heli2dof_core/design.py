@@ -16,7 +16,7 @@ from .engine import engine
 from .errors import StructureUnavailableError
 from .findings import Finding
 from .interop import state_space
-from .layout import POLYNOMIAL_WORKSPACE, POLYNOMIALS, ROUNDING
+from .kernels.layout import POLYNOMIAL_WORKSPACE, POLYNOMIALS, ROUNDING
 from .placement.exact import exact_coefficients, exact_matrix, float_matrix
 from .placement.lqr_integral import IntegralPlacement
 from .placement.method import Task, Weights

@@ -81,7 +81,7 @@ def _load(package: str) -> Engine:
 
 def _cache_of(kernels: Engine) -> KernelCache:
     home = Path(__file__).parent
-    sources = [*sorted((home / "kernels").glob("*.py")), home / "layout.py"]
+    sources = sorted((home / "kernels").glob("*.py"))
     return KernelCache(Path(kernels.integrate.stats.cache_path), sources)
 
 

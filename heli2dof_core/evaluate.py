@@ -2,159 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, TypeVar
 
 from .behaviour import Experiment, behaviour_remarks
-from .couplings import Coupling, Lead, Structure
 from .design import FULL_RANK, Design, design
-from .errors import InvalidInputError
 from .findings import Finding, merged
 from .interaction import Interaction, interaction
 from .loop import Loop, close_loop
 from .margins import Margins, loop_margins, margin_table
 from .metrics import StepMetrics, step_metrics
-from .parameters import Parameters
-from .placement.method import Weights
 from .plant import plant
-from .poles import PoleSet
-from .presets import DEFAULT, Preset
-from .presets import preset as preset_named
+from .scenario import Model, Scenario
 from .sensitivity import Sensitivity, loop_sensitivity
 from .simulation.courses import Courses, run_experiments
 from .simulation.digital import simulate_digital
 from .simulation.linear import simulate_linear
 from .simulation.nonlinear import simulate_nonlinear
 from .simulation.response import Response
-from .spec import Limits, Model, Outer, OuterLoop, Pairing, PIGains, Scenario
-from .tables import Shown, Table, number, poles
+from .spec import Spec
+from .tables import Shown, Table, number
 from .weights import bryson_weights
-
-T = TypeVar("T")
-
-
-@dataclass(frozen=True, repr=False)
-class Spec(Shown):
-    """All that a user chooses.
-
-    Attributes:
-        parameters, limits, theta_0: the rig and its operating point (rad).
-        poles, structure: what full-rank placement shall do.
-        method, weights: another placement method, and the weights of a quadratic one.
-        outer: the loop around it.
-        scenario: the experiment.
-    """
-
-    parameters: Parameters
-    limits: Limits
-    theta_0: float
-    poles: PoleSet
-    structure: Structure
-    outer: OuterLoop
-    scenario: Scenario
-    method: str = FULL_RANK
-    weights: Weights | None = None
-
-    @classmethod
-    def from_preset(cls, preset: Preset | str = DEFAULT, **changes: Any) -> Spec:
-        """The preset's own design and scenario, with `changes` as `changed` takes them.
-
-        >>> Spec.from_preset("quanser-2dof-manual", poles=[-4, -5, -3 + 4j, -3 - 4j]).poles
-        PoleSet([-4, -5, -3+4j, -3-4j])
-
-        Raises:
-            InvalidInputError: there is no preset of that name; or as `changed`.
-        """
-        own = preset_named(preset) if isinstance(preset, str) else preset
-        rig = (own.parameters, own.limits, own.theta_0)
-        return cls(*rig, own.poles, own.structure, own.outer, own.scenario).changed(**changes)
-
-    def changed(
-        self,
-        *,
-        poles: PoleSet | Iterable[complex] | None = None,
-        method: str | None = None,
-        coupling: Coupling | None = None,
-        lead: Lead | None = None,
-        parameters: Mapping[str, float] | None = None,
-        theta_0: float | None = None,
-        outer: Outer | None = None,
-        pitch: PIGains | tuple[float, float] | None = None,
-        yaw: PIGains | tuple[float, float] | None = None,
-        pairing: Pairing | None = None,
-        decoupler: bool | None = None,
-        reference: tuple[float | None, float | None] | None = None,
-        duration: float | None = None,
-    ) -> Spec:
-        """The same with some things changed; what is left out stays.
-
-        >>> spec = Spec.from_preset()
-        >>> spec.changed(pitch=(10, 0.5), reference=(0.2, None)).outer.pitch
-        PIGains(kp=10, ti=0.5)
-
-        Args:
-            poles: pitch's pair, then yaw's, rad/s.
-            method: name in `METHODS`.
-            coupling: of the closed loop; a shift of its own is dropped with it.
-            lead: the axis that leads where it is triangular; likewise.
-            parameters: by name, SI units, as in `Parameters`.
-            theta_0: operating point, rad.
-            outer: ``pi`` or ``none``.
-            pitch: PI gains, or (kp in V/rad, ti in s).
-            yaw: the same of the yaw error.
-            pairing: as in `OuterLoop`.
-            decoupler: as in `OuterLoop`.
-            reference: of θ and ψ, rad, absolute; None leaves that axis at rest.
-            duration: s.
-
-        Raises:
-            Heli2DofError: a value is out of its range; its field says which.
-        """
-
-        def given(**values: Any) -> dict[str, Any]:
-            return {name: value for name, value in values.items() if value is not None}
-
-        def gains(pi: PIGains | tuple[float, float] | None, axis: str) -> PIGains | None:
-            return pi if pi is None or isinstance(pi, PIGains) else PIGains(*_two(pi, axis, "(kp, ti)"))
-
-        structure = given(coupling=coupling, lead=lead)
-        loops = given(
-            outer=outer,
-            pitch=gains(pitch, "pitch"),
-            yaw=gains(yaw, "yaw"),
-            pairing=pairing,
-            decoupler=decoupler,
-        )
-        scenario = given(duration=duration)
-        if reference is not None:
-            scenario |= zip(("theta", "psi"), _two(reference, "reference", "(theta, psi)"), strict=True)
-        return replace(
-            self,
-            **given(
-                poles=poles if poles is None or isinstance(poles, PoleSet) else PoleSet(poles),
-                method=method,
-                structure=replace(self.structure, **structure, shift=None) if structure else None,
-                parameters=None if parameters is None else self.parameters.replaced(parameters),
-                theta_0=theta_0,
-                outer=replace(self.outer, **loops) if loops else None,
-                scenario=replace(self.scenario, **scenario) if scenario else None,
-            ),
-        )
-
-    def summary(self) -> str:
-        """Method, poles and outer loop."""
-        return f"{self.method}, {self.structure.coupling}; poles {poles(self.poles.values)} rad/s; {self.outer.outer}"
-
-
-def _two(values: Sequence[T], field: str, what: str) -> Sequence[T]:
-    """Both values, or InvalidInputError."""
-    if len(values) != 2:
-        raise InvalidInputError(
-            f"{field} is {tuple(values)!r}", field=field, hint=f"Give two values, {what}."
-        )
-    return values
 
 
 @dataclass(frozen=True, repr=False)

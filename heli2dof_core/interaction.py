@@ -10,8 +10,8 @@ from .design import Design
 from .eigenvalues import resolvent
 from .findings import Finding, Severity
 from .relative_gains import diagonal_dominance
+from .scenario import Pairing
 from .signals import INPUTS, OUTPUTS, C, Complexes, Floats
-from .spec import Pairing
 from .tables import Shown, Table, latex_matrix, number
 
 

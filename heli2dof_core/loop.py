@@ -15,9 +15,9 @@ from .eigenvalues import eigenvalues
 from .engine import engine
 from .findings import Finding
 from .interop import state_space
-from .layout import OWN, PI, POLYNOMIAL_WORKSPACE, POLYNOMIALS, ROUNDING, STATIC
+from .kernels.layout import OWN, PI, POLYNOMIAL_WORKSPACE, POLYNOMIALS, ROUNDING, STATIC
+from .scenario import OuterLoop
 from .signals import AXES, INPUTS, INTEGRALS, OUTPUTS, STATES, Complexes, Floats
-from .spec import OuterLoop
 from .tables import Shown, Table, number, poles
 
 if TYPE_CHECKING:

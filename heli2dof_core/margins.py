@@ -9,7 +9,7 @@ import numpy as np
 
 from .eigenvalues import resolvent
 from .engine import engine
-from .layout import MARGINS, POLYNOMIAL_WORKSPACE
+from .kernels.layout import MARGINS, POLYNOMIAL_WORKSPACE
 from .loop import Loop
 from .signals import AXES, Complexes, Floats
 from .tables import Table, number

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import isnan
 
-from .layout import DEVIATION
+from .kernels.layout import DEVIATION
 from .signals import INPUTS, OUTPUTS
 from .simulation.response import Response
 from .tables import Shown, Table, number

@@ -11,7 +11,7 @@ from .components import Components
 from .couplings import Structure
 from .parameters import PARAMETER_INFO, Parameters
 from .poles import PoleSet
-from .spec import Limits, OuterLoop, PIGains, Scenario
+from .scenario import Limits, OuterLoop, PIGains, Scenario
 from .tables import Shown, Table, number
 
 

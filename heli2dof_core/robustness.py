@@ -14,13 +14,14 @@ from .checks import require_one_of, require_within
 from .compiled import linear_matrices
 from .engine import engine
 from .errors import InvalidInputError
-from .evaluate import Spec, place
-from .layout import POLYNOMIAL_WORKSPACE, POLYNOMIALS, WORKSPACE
+from .evaluate import place
+from .kernels.layout import POLYNOMIAL_WORKSPACE, POLYNOMIALS, WORKSPACE
 from .loop import Loop, close_loop
 from .parameters import PARAMETER_INFO, Parameters
 from .plant import rig_constants
 from .signals import Complexes, Floats
 from .simulation.nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
+from .spec import Spec
 from .tables import Shown, Table, number
 
 Distribution = Literal["uniform", "normal"]

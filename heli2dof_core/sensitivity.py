@@ -8,7 +8,7 @@ from math import atan, isinf
 import numpy as np
 
 from .engine import engine
-from .layout import FREQUENCIES, SENSITIVITY
+from .kernels.layout import FREQUENCIES, SENSITIVITY
 from .loop import Loop
 
 

@@ -10,8 +10,8 @@ import numpy as np
 from .design import Design
 from .errors import InvalidInputError
 from .loop import Loop, close_loop
+from .scenario import OuterLoop, PIGains
 from .signals import AXES, Complexes
-from .spec import OuterLoop, PIGains
 from .tables import Shown, Table, number
 
 DAMPING = 0.7

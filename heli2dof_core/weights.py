@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import radians
 
 from .placement.method import Weights
-from .spec import Limits
+from .scenario import Limits
 
 ANGLE = radians(10)
 """Error that weighs as much as a motor at its limit, rad."""

@@ -81,7 +81,7 @@ def test_no_test_waits_for_time():
             "import heli2dof_core",
             (
                 *("sympy", "control", "viser", "fastapi", "scipy.integrate", "scipy.signal"),
-                *("h5py", "openpyxl", "scipy.io", "heli2dof_core.recordings"),
+                *("h5py", "openpyxl", "scipy.io", "heli2dof_core.recordings.recording"),
             ),
         ),
         (

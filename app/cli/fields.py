@@ -63,7 +63,7 @@ def _parameters() -> Iterable[str]:
 
 
 def _limits() -> Iterable[str]:
-    from heli2dof_core.spec import LIMIT_INFO
+    from heli2dof_core.scenario import LIMIT_INFO
 
     return LIMIT_INFO
 
@@ -93,9 +93,9 @@ DESIGN = (
 )
 LOOPS = (
     Option(
-        "--outer", "outer", Name(_words("spec", "Outer")), "pi: two PI loops; none: the inner loop alone."
+        "--outer", "outer", Name(_words("scenario", "Outer")), "pi: two PI loops; none: the inner loop alone."
     ),
-    Option("--pairing", "pairing", Name(_words("spec", "Pairing")), "Of errors and motors."),
+    Option("--pairing", "pairing", Name(_words("scenario", "Pairing")), "Of errors and motors."),
     Option("--decoupler/--no-decoupler", "decoupler", None, "Static decoupler behind the PI loops."),
     Option("--kp-pitch", "loops.pitch.kp", click.FLOAT, "Gain of the pitch error's PI, V/rad."),
     Option("--ti-pitch", "loops.pitch.ti", click.FLOAT, "Its integral time, s."),
@@ -110,7 +110,7 @@ SCENARIO = (
     Option(
         "--anti-windup",
         "scenario.anti_windup",
-        Name(_words("spec", "AntiWindup")),
+        Name(_words("scenario", "AntiWindup")),
         "What the integrators do at a limit.",
     ),
     Option("--saturation/--no-saturation", "scenario.saturation", None, "Limit the voltages."),
@@ -122,7 +122,7 @@ SCENARIO = (
         "Add the trim, so that the rig starts at rest.",
     ),
 )
-MODEL = Option("--model", "scenario.model", Name(_words("spec", "Model")), "nonlinear, or linear.")
+MODEL = Option("--model", "scenario.model", Name(_words("scenario", "Model")), "nonlinear, or linear.")
 FREQUENCIES = Option("--frequencies", "frequencies", Numbers(), "Where |RGA(jω)| is wanted, rad/s: 0,1,10.")
 
 _ANGLES = ("theta", "psi", "theta_ref", "psi_ref")

@@ -12,7 +12,7 @@ from .output import console, print_json, refusals, show
 
 if TYPE_CHECKING:
     from heli2dof_core import Columns, Identification, Overlay, Recording
-    from heli2dof_core.recordings import Table
+    from heli2dof_core.recordings.recording import Table
 
 _TEXT = (SEPARATOR, DECIMAL)
 _FILES = click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
@@ -26,7 +26,7 @@ def read(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **values:
 
     Several files of one run, a signal each, become one recording.
     """
-    from heli2dof_core.recordings import recording_of
+    from heli2dof_core.recordings.recording import recording_of
     from heli2dof_core.tables import Table as Shown
     from heli2dof_core.tables import number
 
@@ -60,7 +60,7 @@ def read(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **values:
 def overlay(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **values: Any) -> None:
     """Simulate what FILES recorded and print how near the model comes, axis by axis."""
     from heli2dof_core import warm_up
-    from heli2dof_core.recordings import recording_of
+    from heli2dof_core.recordings.recording import recording_of
     from heli2dof_core.tables import Table as Shown
     from heli2dof_core.tables import number
 
@@ -90,7 +90,7 @@ def identify(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **val
     """Find the rig's damping, stiffness and thrust constants from FILES, with 95 % intervals."""
     from heli2dof_core import identify as identify_rig
     from heli2dof_core import warm_up
-    from heli2dof_core.recordings import recording_of
+    from heli2dof_core.recordings.recording import recording_of
 
     from ..contract.recording_models import IdentifyRequest, identification_reply
 
@@ -113,8 +113,8 @@ def _opened(
     files: tuple[Path, ...], base: IO[str] | None, values: dict[str, Any]
 ) -> tuple[Table, Columns, dict[str, Any]]:
     """The files' table, the columns as guessed and then as asked for, and the request that they belong to."""
-    from heli2dof_core.recording_files import Dialect, read_files
-    from heli2dof_core.recording_guess import guess_columns
+    from heli2dof_core.recordings.files import Dialect, read_files
+    from heli2dof_core.recordings.guess import guess_columns
 
     from ..contract.recording_models import Mapping
 

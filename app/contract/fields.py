@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
 from heli2dof_core.presets import PRESETS
-from heli2dof_core.spec import LONGEST
+from heli2dof_core.scenario import LONGEST
 
 
 class Strict(BaseModel):

@@ -5,8 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from heli2dof_core import close_loop, place
-from heli2dof_core.overlay import Overlay, driven_by_references, driven_by_voltages, driven_in_segments
-from heli2dof_core.recordings import Recording
+from heli2dof_core.recordings.overlay import (
+    Overlay,
+    driven_by_references,
+    driven_by_voltages,
+    driven_in_segments,
+)
+from heli2dof_core.recordings.recording import Recording
 
 from .recording_models import OverlayRequest
 

@@ -7,13 +7,11 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from heli2dof_core.identification import IDENTIFIABLE, Identification, Progress
-from heli2dof_core.overlay import Overlay
-from heli2dof_core.recording_files import MOST_FILES
-from heli2dof_core.recording_guess import guess_columns
-from heli2dof_core.recording_time import likely_unit
-from heli2dof_core.recording_units import SECONDS
-from heli2dof_core.recordings import (
+from heli2dof_core.recordings.files import MOST_FILES
+from heli2dof_core.recordings.guess import guess_columns
+from heli2dof_core.recordings.identification import IDENTIFIABLE, Identification, Progress
+from heli2dof_core.recordings.overlay import Overlay
+from heli2dof_core.recordings.recording import (
     MOST_DECIMATED,
     ROLES,
     AngleUnit,
@@ -23,6 +21,8 @@ from heli2dof_core.recordings import (
     TimeUnit,
     VoltageUnit,
 )
+from heli2dof_core.recordings.time_axis import likely_unit
+from heli2dof_core.recordings.units import SECONDS
 from heli2dof_core.signals import Floats
 
 from .fields import Strict, Whole, within

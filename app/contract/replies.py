@@ -33,9 +33,9 @@ from heli2dof_core.interaction import dominance_over_frequency
 from heli2dof_core.margins import Margins, loop_margins, open_loop_response
 from heli2dof_core.metrics import StepMetrics
 from heli2dof_core.parameters import PARAMETER_INFO
+from heli2dof_core.scenario import LIMIT_INFO, Limits
 from heli2dof_core.sensitivity import Sensitivity
 from heli2dof_core.signals import AXES, INPUTS, INTEGRALS, OUTPUTS, STATES, Floats
-from heli2dof_core.spec import LIMIT_INFO, Limits
 from heli2dof_core.tuning import Suggestion
 from heli2dof_core.walkthrough import walk_through
 

@@ -20,8 +20,7 @@ from heli2dof_core.placement.method import Weights
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.plant import STEEPEST
 from heli2dof_core.presets import DEFAULT
-from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
-from heli2dof_core.spec import (
+from heli2dof_core.scenario import (
     LONGEST,
     MOST_SAMPLES,
     AntiWindup,
@@ -34,6 +33,7 @@ from heli2dof_core.spec import (
     Rates,
     Scenario,
 )
+from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
 from heli2dof_core.weights import bryson_weights
 
 from .fields import (

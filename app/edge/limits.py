@@ -13,7 +13,7 @@ from typing import Any
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from heli2dof_core.recording_files import MOST_BYTES
+from heli2dof_core.recordings.files import MOST_BYTES
 
 from ..contract.problems import problem, problem_response
 from ..ops.settings import Settings

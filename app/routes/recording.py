@@ -9,7 +9,7 @@ from fastapi import APIRouter, HTTPException, Query, Response
 
 from heli2dof_core import Spec, close_loop, place, preset, simulate
 from heli2dof_core.geometry import RigName
-from heli2dof_core.spec import Model
+from heli2dof_core.scenario import Model
 
 from ..contract.models import described
 from ..contract.requests import StepRequest

@@ -11,12 +11,12 @@ from fastapi import APIRouter, HTTPException, Query, Request, Response, WebSocke
 
 from heli2dof_core import Spec, close_loop, place, preset
 from heli2dof_core.engine import engine
-from heli2dof_core.identification import Progress, identify
-from heli2dof_core.recording_files import Dialect, joined_tables, read_table, write_csv
-from heli2dof_core.recording_files.text import Decimal, Separator
-from heli2dof_core.recordings import Table, recording_of
-from heli2dof_core.sample_recordings import deviating_rig, named_columns, sample_recording
-from heli2dof_core.spec import Digital
+from heli2dof_core.recordings.files import Dialect, joined_tables, read_table, write_csv
+from heli2dof_core.recordings.files.text import Decimal, Separator
+from heli2dof_core.recordings.identification import Progress, identify
+from heli2dof_core.recordings.recording import Table, recording_of
+from heli2dof_core.recordings.samples import deviating_rig, named_columns, sample_recording
+from heli2dof_core.scenario import Digital
 
 from ..contract.encoding import json_bytes, json_response
 from ..contract.models import described

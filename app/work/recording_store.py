@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from time import monotonic
 
 from heli2dof_core.errors import RecordingError
-from heli2dof_core.recordings import Table
+from heli2dof_core.recordings.recording import Table
 
 KEPT_SECONDS = 1800.0
 

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from functools import partial
 from math import isfinite
 
-from ..evaluate import Spec, place
-from ..layout import BACK_CALCULATION, CLAMPING, MOTOR_OF, TRACKING, TRAVEL, WINDUP
+from ..evaluate import place
+from ..kernels.layout import BACK_CALCULATION, CLAMPING, MOTOR_OF, TRACKING, TRAVEL, WINDUP
 from ..loop import Loop, close_loop
+from ..scenario import Digital
 from ..signals import Floats
 from ..simulation.digital import FILTER_DAMPING, FILTER_FREQUENCY, rate_filter
 from ..simulation.nonlinear import NonlinearLoop
-from ..spec import Digital
+from ..spec import Spec
 from .format import Format
 from .origin import origin
 

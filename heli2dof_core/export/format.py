@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from ..evaluate import Spec
+from ..spec import Spec
 
 
 class Render(Protocol):

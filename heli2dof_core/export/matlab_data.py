@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ..evaluate import Spec, Step, evaluate
+from ..evaluate import Step, evaluate
 from ..signals import INPUTS, INTEGRALS, STATES, C
+from ..spec import Spec
 from ..version import package_version
 from .format import Format
 from .origin import origin

@@ -7,11 +7,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict, fields
 from typing import Any
 
-from ..evaluate import Spec
 from ..placement.registry import METHODS
 from ..presets import PRESETS, Preset
+from ..scenario import Digital, Scenario
 from ..signals import AXES, INPUTS, OUTPUTS, STATES, Signal
-from ..spec import Digital, Scenario
+from ..spec import Spec
 from ..version import package_version
 from ..weights import bryson_weights
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from ..evaluate import Spec, place
+from ..evaluate import place
 from ..loop import close_loop
 from ..parameters import PARAMETER_INFO
 from ..signals import Floats
+from ..spec import Spec
 from .format import Format
 from .origin import origin
 

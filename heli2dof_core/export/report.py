@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..couplings import Structure
-from ..evaluate import Report, Spec, evaluate
+from ..evaluate import Report, evaluate
 from ..parameters import PARAMETER_INFO
 from ..placement.registry import METHODS
+from ..scenario import Model
 from ..signals import AXES, INPUTS, OUTPUTS, Floats
 from ..simulation.response import Response
-from ..spec import Model
+from ..spec import Spec
 from .format import Format
 from .markup import figure, formula, indexed, matrix, paragraph, pole, section, table
 from .origin import origin, preset_of

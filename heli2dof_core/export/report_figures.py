@@ -11,8 +11,8 @@ import numpy as np
 from ..evaluate import Report, Step
 from ..margins import Margins
 from ..metrics import NOT_SETTLED, AxisMetrics
+from ..scenario import Model
 from ..signals import AXES, OUTPUTS, Floats
-from ..spec import Model
 from .markup import paragraph, table
 
 DASH = "–"

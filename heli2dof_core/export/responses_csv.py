@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..evaluate import Spec, Step, evaluate
+from ..evaluate import Step, evaluate
 from ..signals import INPUTS, INTEGRALS, OUTPUTS, STATES, Floats
+from ..spec import Spec
 from .format import Format
 from .origin import origin
 

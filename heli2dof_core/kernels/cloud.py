@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from math import nan
 
-from ..layout import (
+from . import examples
+from .dormand_prince import integrate
+from .jit import entry_point, put
+from .layout import (
     GAIN,
     LIMIT,
     WORKSPACE,
 )
-from . import examples
-from .dormand_prince import integrate
-from .jit import entry_point, put
 from .rig import asked
 
 

@@ -10,7 +10,13 @@ from math import floor, inf
 
 import numpy as np
 
-from ..layout import (
+from . import examples
+from .dormand_prince import ANGLES, travel
+from .exact import dwell
+from .experiment import ROUNDING, SEEN
+from .figures import begin, conclude, confirm, doubtful, hold_voltage, keep
+from .jit import entry_point, kernel, put
+from .layout import (
     BACK_CALCULATION,
     BEFORE,
     BETA,
@@ -40,12 +46,6 @@ from ..layout import (
     WORKSPACE,
     F,
 )
-from . import examples
-from .dormand_prince import ANGLES, travel
-from .exact import dwell
-from .experiment import ROUNDING, SEEN
-from .figures import begin, conclude, confirm, doubtful, hold_voltage, keep
-from .jit import entry_point, kernel, put
 
 
 @entry_point(

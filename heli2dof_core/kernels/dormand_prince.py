@@ -9,7 +9,10 @@ from __future__ import annotations
 
 from math import inf, sqrt
 
-from ..layout import (
+from . import examples
+from .figures import drive, follow, hold_voltage, reach
+from .jit import entry_point, kernel, put
+from .layout import (
     DIVERGED,
     ENDED,
     GAIN,
@@ -24,9 +27,6 @@ from ..layout import (
     TRAVEL,
     WORKSPACE,
 )
-from . import examples
-from .figures import drive, follow, hold_voltage, reach
-from .jit import entry_point, kernel, put
 from .rig import meet_stop, rates, resolve, switch, watch
 
 MOST_SWITCHES = 2000

@@ -12,7 +12,9 @@ from math import ceil, inf, pi
 
 import numpy as np
 
-from ..layout import (
+from .figures import decides, drive, follow, largest, reach, value, widen
+from .jit import kernel
+from .layout import (
     AREA,
     AUGMENTED,
     BY,
@@ -27,8 +29,6 @@ from ..layout import (
     PEAK_VOLTAGE,
     STEPPED,
 )
-from .figures import decides, drive, follow, largest, reach, value, widen
-from .jit import kernel
 from .linear import combine, extend, halvings, multiply, series
 
 SPACING = 0.2

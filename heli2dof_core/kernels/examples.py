@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..layout import (
+from ..signals import Floats, fixed
+from .layout import (
     ALPHA,
     AXIS_METRICS,
     BOUND,
@@ -30,7 +31,6 @@ from ..layout import (
     STRETCH,
     TIME,
 )
-from ..signals import Floats, fixed
 
 NUMBERS = (1e-3, 1e-3, 10)
 """Relative and absolute tolerance, most steps."""

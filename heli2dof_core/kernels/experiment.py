@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from math import inf
 
-from ..layout import (
+from . import examples
+from .dormand_prince import EVERYTHING, travel
+from .exact import dwell, march, proof
+from .figures import begin, conclude, confirm, doubtful, keep
+from .jit import entry_point, kernel, put
+from .layout import (
     AUGMENTED,
     DISTURBANCE,
     DIVERGED,
@@ -20,11 +25,6 @@ from ..layout import (
     TRAVEL,
     WORKSPACE,
 )
-from . import examples
-from .dormand_prince import EVERYTHING, travel
-from .exact import dwell, march, proof
-from .figures import begin, conclude, confirm, doubtful, keep
-from .jit import entry_point, kernel, put
 from .linear import respond
 from .loop import augment, compose
 from .measures import hold, trajectories

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from math import inf, nan, sqrt
 
-from ..layout import (
+from .jit import kernel
+from .layout import (
     AREA,
     AT_HIGH,
     AT_LIMIT,
@@ -43,7 +44,6 @@ from ..layout import (
     UNDERSHOOT,
     WITHIN,
 )
-from .jit import kernel
 
 LOW, HIGH = 0.1, 0.9
 FOUND = 1e-12

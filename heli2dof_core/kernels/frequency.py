@@ -10,7 +10,9 @@ from __future__ import annotations
 from cmath import phase
 from math import nan, pi, sqrt
 
-from ..layout import (
+from . import examples
+from .jit import entry_point, kernel
+from .layout import (
     DELAY_MARGIN,
     GAIN_MARGIN,
     GAIN_REDUCTION_MARGIN,
@@ -20,8 +22,6 @@ from ..layout import (
     POLYNOMIALS,
     ROUNDING,
 )
-from . import examples
-from .jit import entry_point, kernel
 from .polynomials import add_product, at, close, determinant, drop_rounding, halves, positive_roots, value
 
 # Rows of the scratch array p, (13, 16): det M, the same with a motor opened, the sizes of their terms, their even and

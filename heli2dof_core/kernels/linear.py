@@ -6,8 +6,8 @@ gives the next k samples by one product with the k-th power of the step's matrix
 
 from __future__ import annotations
 
-from ..layout import AUGMENTED
 from .jit import kernel
+from .layout import AUGMENTED
 
 TERMS = 16
 """Of the exponential's series; with a norm of at most 1/2 the first one left out is below 1e-19."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from ..layout import (
+from . import examples
+from .jit import entry_point, kernel
+from .layout import (
     ANTI_WINDUP,
     AUGMENTED,
     BACK,
@@ -25,8 +27,6 @@ from ..layout import (
     WANTED,
     WINDUP,
 )
-from . import examples
-from .jit import entry_point, kernel
 
 
 @entry_point(

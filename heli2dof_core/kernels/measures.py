@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import inf
 
-from ..layout import GAIN, LIMIT, OFFSET
 from .jit import kernel
+from .layout import GAIN, LIMIT, OFFSET
 
 
 @kernel

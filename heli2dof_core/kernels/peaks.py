@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from math import inf, sqrt
 
-from ..layout import (
+from . import examples
+from .jit import entry_point, kernel
+from .layout import (
     DISK_FREQUENCY,
     DISK_MARGIN,
     FREQUENCIES,
@@ -19,8 +21,6 @@ from ..layout import (
     SENSITIVITY,
     SENSITIVITY_PEAK,
 )
-from . import examples
-from .jit import entry_point, kernel
 from .polynomials import B, M, N
 
 GOLDEN = (sqrt(5.0) - 1.0) / 2.0

@@ -11,12 +11,12 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ..layout import (
+from . import examples
+from .jit import entry_point, kernel
+from .layout import (
     POLYNOMIALS,
     ROUNDING,
 )
-from . import examples
-from .jit import entry_point, kernel
 
 # f, (2, 2, 20), holds for each entry the coefficients of M, N and D, B, and the sizes of the terms of M
 M, N, D, B, SIZE = 0, 4, 8, 12, 16

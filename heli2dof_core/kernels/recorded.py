@@ -9,7 +9,11 @@ from __future__ import annotations
 
 from math import ceil, cos, sin
 
-from ..layout import (
+from . import examples
+from .digital import control, enter, sense, stand, without_controller
+from .dormand_prince import integrate
+from .jit import entry_point, kernel, put
+from .layout import (
     ALPHA,
     B_P,
     B_Y,
@@ -30,10 +34,6 @@ from ..layout import (
     WANTED,
     WORKSPACE,
 )
-from . import examples
-from .digital import control, enter, sense, stand, without_controller
-from .dormand_prince import integrate
-from .jit import entry_point, kernel, put
 
 
 @entry_point(

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from math import cos, sin
 
-from ..layout import (
+from .jit import kernel
+from .layout import (
     ALPHA,
     B_P,
     B_Y,
@@ -38,7 +39,6 @@ from ..layout import (
     WANTED,
     WINDUP,
 )
-from .jit import kernel
 
 
 @kernel

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..layout import (
+from . import examples
+from .jit import entry_point, kernel
+from .layout import (
     POLYNOMIAL_WORKSPACE,
     POLYNOMIALS,
     ROUNDING,
 )
-from . import examples
-from .jit import entry_point, kernel
 from .polynomials import describe, determinant
 
 # Rows of the scratch array, (13, 16), that are used here

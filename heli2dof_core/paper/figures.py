@@ -10,10 +10,10 @@ from ..loop import close_loop
 from ..plant import plant
 from ..poles import PoleSet
 from ..presets import Preset, preset
+from ..scenario import OuterLoop, PIGains, Scenario
 from ..signals import OUTPUTS, Floats
 from ..simulation.linear import simulate_linear
 from ..simulation.nonlinear import simulate_nonlinear
-from ..spec import OuterLoop, PIGains, Scenario
 from .printed import PI, UNIT_STEP, printed_gain, printed_poles
 
 

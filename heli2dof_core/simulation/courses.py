@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..engine import engine
-from ..layout import (
+from ..kernels.layout import (
     AUGMENTED,
     AXIS_METRICS,
     CONSTANTS,
@@ -21,8 +21,8 @@ from ..layout import (
     WORKSPACE,
 )
 from ..loop import Loop
+from ..scenario import Limits, Model, Scenario
 from ..signals import Floats
-from ..spec import Limits, Model, Scenario
 from .experiment import NOTHING, experiment
 from .linear import AT_REST, FOLLOWED_TWICE, linear_response
 from .nonlinear import ABSOLUTE_TOLERANCE, limited_response

@@ -9,10 +9,10 @@ import numpy as np
 
 from ..engine import engine
 from ..findings import Finding
-from ..layout import FED, WORKSPACE
+from ..kernels.layout import FED, WORKSPACE
 from ..loop import Loop
+from ..scenario import Digital, Limits, Scenario
 from ..signals import Floats
-from ..spec import Digital, Limits, Scenario
 from .linear import FOLLOWED_TWICE
 from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop, limited_response
 from .response import Measured, Response

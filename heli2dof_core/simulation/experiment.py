@@ -6,10 +6,10 @@ from math import inf
 
 import numpy as np
 
-from ..layout import BACK_CALCULATION, CLAMPING, NO_ANTI_WINDUP
+from ..kernels.layout import BACK_CALCULATION, CLAMPING, NO_ANTI_WINDUP
 from ..loop import Loop
+from ..scenario import AntiWindup, Limits, Scenario
 from ..signals import Floats
-from ..spec import AntiWindup, Limits, Scenario
 
 _WINDUP: dict[AntiWindup, int] = {
     "none": NO_ANTI_WINDUP,

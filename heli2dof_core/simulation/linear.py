@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..engine import engine
-from ..layout import AUGMENTED, FOLLOWED, LADDER, LINEAR_WORKSPACE, START, STRETCH
+from ..kernels.layout import AUGMENTED, FOLLOWED, LADDER, LINEAR_WORKSPACE, START, STRETCH
 from ..loop import Loop
+from ..scenario import Scenario
 from ..signals import Floats, fixed
-from ..spec import Scenario
 from .experiment import experiment
 from .response import Measured, Response, course_findings
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..engine import engine
 from ..findings import Finding
-from ..layout import (
+from ..kernels.layout import (
     BOUND,
     CONSTANTS,
     GAIN,
@@ -27,8 +27,8 @@ from ..layout import (
     WORKSPACE,
 )
 from ..loop import Loop
+from ..scenario import Limits, Scenario
 from ..signals import INPUTS, Floats
-from ..spec import Limits, Scenario
 from .experiment import NOTHING, experiment
 from .linear import FOLLOWED_TWICE
 from .response import Measured, Response, course_findings

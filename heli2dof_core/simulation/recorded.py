@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from ..engine import engine
 from ..errors import RecordingError
-from ..layout import GAIN, RECORDED_WORKSPACE, SENSITIVITIES, TRAVEL, WORKSPACE
+from ..kernels.layout import GAIN, RECORDED_WORKSPACE, SENSITIVITIES, TRAVEL, WORKSPACE
 from ..loop import Loop
 from ..parameters import Parameters
 from ..plant import rig_constants
+from ..scenario import Digital, Limits, Scenario
 from ..signals import Floats
-from ..spec import Digital, Limits, Scenario
 from .digital import settings_of, standing_voltages
 from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
 

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from ..findings import Finding
-from ..layout import (
+from ..kernels.layout import (
     AXIS_METRICS,
     COURSE,
     HELD,

@@ -12,7 +12,7 @@ from app.contract.requests import StepRequest
 from heli2dof_core import PRESETS, Limits, OuterLoop, PIGains, Scenario, Spec, Structure
 from heli2dof_core.export.origin import request_of
 from heli2dof_core.placement.method import Weights
-from heli2dof_core.spec import Digital, Disturbance
+from heli2dof_core.scenario import Digital, Disturbance
 from tests.strategies import operating_points, pole_sets, rigs, structures
 
 

@@ -19,7 +19,7 @@ from app.work.compute import Compute
 from app.work.fair_queue import BusyError, FairQueue, Job
 from app.work.recording_store import RecordingStore
 from heli2dof_core.errors import RecordingError
-from heli2dof_core.recordings import Table
+from heli2dof_core.recordings.recording import Table
 from tests.loops import run
 from tests.patience import PATIENCE, until
 from tests.whole_server import serving

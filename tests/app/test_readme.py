@@ -12,9 +12,9 @@ import pytest
 from scipy.io import savemat
 
 from heli2dof_core import Spec, close_loop, place, preset
-from heli2dof_core.recording_files import write_csv
-from heli2dof_core.sample_recordings import deviating_rig, sample_recording
-from heli2dof_core.spec import Digital
+from heli2dof_core.recordings.files import write_csv
+from heli2dof_core.recordings.samples import deviating_rig, sample_recording
+from heli2dof_core.scenario import Digital
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -8,7 +8,7 @@ import pytest
 from app.contract.recording_models import IdentificationReply, OverlayReply, Preview
 from app.work.recording_store import RecordingStore
 from heli2dof_core.errors import RecordingError
-from heli2dof_core.recordings import Table
+from heli2dof_core.recordings.recording import Table
 from tests.app.test_rest import post
 
 SHORT = {"length": 6.0, "seed": 2, "scenario": {"digital": {"sample_time": 0.005}}}

@@ -15,12 +15,12 @@ import numpy as np
 
 from heli2dof_core import Spec, close_loop, place, preset
 from heli2dof_core.engine import warm_up
-from heli2dof_core.identification import Identification, identify
 from heli2dof_core.parameters import Parameters
-from heli2dof_core.recordings import Recording
-from heli2dof_core.sample_recordings import deviating_rig, sample_recording
+from heli2dof_core.recordings.identification import Identification, identify
+from heli2dof_core.recordings.recording import Recording
+from heli2dof_core.recordings.samples import deviating_rig, sample_recording
+from heli2dof_core.scenario import Digital
 from heli2dof_core.signals import Floats
-from heli2dof_core.spec import Digital
 
 RUNS = 100
 

@@ -21,11 +21,11 @@ from threadpoolctl import ThreadpoolController, threadpool_limits
 
 from heli2dof_core import Scenario, Spec, Uncertainty, close_loop, cloud, evaluate, place, preset
 from heli2dof_core.engine import engine, warm_up
-from heli2dof_core.layout import WORKSPACE
+from heli2dof_core.kernels.layout import WORKSPACE
+from heli2dof_core.scenario import Digital
 from heli2dof_core.simulation.digital import simulate_digital
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.simulation.nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop, simulate_nonlinear
-from heli2dof_core.spec import Digital
 from tests.bench import floor, peers, round_trip
 from tests.bench.placement import measured
 

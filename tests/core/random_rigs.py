@@ -12,9 +12,9 @@ import numpy as np
 
 from heli2dof_core import OuterLoop, PIGains, PoleSet, Scenario, close_loop, design, plant, preset
 from heli2dof_core.metrics import step_metrics
+from heli2dof_core.scenario import Digital, Disturbance
 from heli2dof_core.simulation.digital import simulate_digital
 from heli2dof_core.simulation.nonlinear import simulate_nonlinear
-from heli2dof_core.spec import Digital, Disturbance
 from tests.rig_figures import Axis, Course, settling_gap
 from tests.strategies import STRUCTURES
 

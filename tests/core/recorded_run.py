@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from heli2dof_core.recording_guess import guess_columns
-from heli2dof_core.recordings import recording_of
+from heli2dof_core.recordings.guess import guess_columns
+from heli2dof_core.recordings.recording import recording_of
 
 N, STEP = 60, 0.01
 T = STEP * np.arange(N)

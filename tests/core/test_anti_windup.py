@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from heli2dof_core import InvalidInputError, OuterLoop, PIGains, Scenario, close_loop, design, plant, preset
 from heli2dof_core.kernels import rig as kernel
+from heli2dof_core.scenario import Digital
 from heli2dof_core.simulation.digital import simulate_digital
 from heli2dof_core.simulation.nonlinear import NonlinearLoop, simulate_nonlinear
-from heli2dof_core.spec import Digital
 from tests.strategies import pole_sets, rigs
 
 LIMITS = preset().limits

@@ -10,11 +10,11 @@ from scipy.integrate import solve_ivp
 from scipy.signal import cont2discrete, dlsim
 
 from heli2dof_core import InvalidInputError, Limits, Scenario, close_loop, design, plant, preset
+from heli2dof_core.scenario import Digital, Disturbance
 from heli2dof_core.simulation.digital import simulate_digital
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.simulation.nonlinear import simulate_nonlinear
 from heli2dof_core.simulation.recorded import run_recorder
-from heli2dof_core.spec import Digital, Disturbance
 from tests.core.test_nonlinear_response import independent_rates
 
 LIMITS = preset().limits

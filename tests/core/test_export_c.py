@@ -15,8 +15,8 @@ from scipy.integrate import solve_ivp
 
 from heli2dof_core import Limits, OuterLoop, PIGains, Scenario, Spec, close_loop, place, preset
 from heli2dof_core.export import FORMATS
+from heli2dof_core.scenario import Digital
 from heli2dof_core.simulation.digital import simulate_digital
-from heli2dof_core.spec import Digital
 from tests.core.test_nonlinear_response import independent_rates
 
 STRICT = [

@@ -10,9 +10,9 @@ import pytest
 
 from heli2dof_core import OuterLoop, PoleSet, Scenario, Spec, close_loop, design, evaluate, plant, preset
 from heli2dof_core.metrics import step_metrics
+from heli2dof_core.scenario import Digital, Disturbance
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.simulation.nonlinear import simulate_nonlinear
-from heli2dof_core.spec import Digital, Disturbance
 from tests.core.test_nonlinear_response import random_loops
 from tests.figures import LinearCourse, figures, largest
 from tests.strategies import STRUCTURES

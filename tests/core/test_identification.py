@@ -10,16 +10,26 @@ import pytest
 from scipy import stats
 
 from heli2dof_core import OuterLoop, PoleSet, Spec, close_loop, place, preset
-from heli2dof_core.covariance import grouped_covariance, groups_of, plain_covariance, student_quantile
 from heli2dof_core.errors import CancelledError, InvalidInputError, RecordingError
-from heli2dof_core.identification import IDENTIFIABLE, identify
-from heli2dof_core.overlay import driven_by_references, driven_by_voltages, driven_in_segments, nrmse_fit
-from heli2dof_core.recordings import Recording
-from heli2dof_core.sample_recordings import deviating_rig, reference_steps, sample_recording
-from heli2dof_core.segments import bridged, cut, fit_of, segment_length
+from heli2dof_core.recordings.covariance import (
+    grouped_covariance,
+    groups_of,
+    plain_covariance,
+    student_quantile,
+)
+from heli2dof_core.recordings.identification import IDENTIFIABLE, identify
+from heli2dof_core.recordings.overlay import (
+    driven_by_references,
+    driven_by_voltages,
+    driven_in_segments,
+    nrmse_fit,
+)
+from heli2dof_core.recordings.recording import Recording
+from heli2dof_core.recordings.samples import deviating_rig, reference_steps, sample_recording
+from heli2dof_core.recordings.segments import bridged, cut, fit_of, segment_length
+from heli2dof_core.scenario import Digital, Limits, Scenario
 from heli2dof_core.simulation.digital import simulate_digital
 from heli2dof_core.simulation.recorded import run_held, run_recorder, run_segments
-from heli2dof_core.spec import Digital, Limits, Scenario
 from tests.bench.identification import MANUAL, Case, run
 
 EXACT = Digital(encoders=(0, 0), rates="true")

@@ -12,13 +12,13 @@ from numba.core.runtime import _nrt_python, rtsys
 
 from heli2dof_core import Spec, Uncertainty, evaluate, preset
 from heli2dof_core.engine import engine, interpreted
-from heli2dof_core.layout import WORKSPACE
+from heli2dof_core.kernels.layout import WORKSPACE
 from heli2dof_core.metrics import step_metrics
 from heli2dof_core.robustness import cloud
+from heli2dof_core.scenario import Digital
 from heli2dof_core.simulation.courses import run_experiments
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.simulation.nonlinear import NonlinearLoop, simulate_nonlinear
-from heli2dof_core.spec import Digital
 from tests.bench import floor
 from tests.core.test_nonlinear_response import LIMITS, random_loops
 

@@ -15,7 +15,7 @@ import heli2dof_core as heli
 from tests.children import python
 
 WITH_EXAMPLES = (
-    *("heli2dof_core", "heli2dof_core.design", "heli2dof_core.evaluate", "heli2dof_core.formulas"),
+    *("heli2dof_core", "heli2dof_core.design", "heli2dof_core.spec", "heli2dof_core.formulas"),
     *("heli2dof_core.plant", "heli2dof_core.symbolic.formulas", "heli2dof_core.tables"),
 )
 

@@ -8,7 +8,7 @@ import pytest
 
 from heli2dof_core import InvalidInputError, OuterLoop, PIGains, PoleSet, design, plant, suggest_pi
 from heli2dof_core.paper.printed import PI
-from heli2dof_core.spec import Limits
+from heli2dof_core.scenario import Limits
 
 
 def test_the_outer_loop_of_who_names_none_is_the_papers():

@@ -15,7 +15,7 @@ from heli2dof_core import Limits, OuterLoop, PIGains, PoleSet, Scenario, close_l
 from heli2dof_core.compiled import accelerations
 from heli2dof_core.engine import engine
 from heli2dof_core.kernels import rig as kernel
-from heli2dof_core.layout import WORKSPACE
+from heli2dof_core.kernels.layout import WORKSPACE
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.simulation.nonlinear import NonlinearLoop, simulate_nonlinear
 from tests.reference import Reference

@@ -13,8 +13,8 @@ import pandas as pd
 import pytest
 
 from heli2dof_core.errors import RecordingError
-from heli2dof_core.recording_files import Dialect, joined_tables, read_table
-from heli2dof_core.recording_files.opened import read_recording
+from heli2dof_core.recordings.files import Dialect, joined_tables, read_table
+from heli2dof_core.recordings.files.opened import read_recording
 from tests.core.recorded_run import DEGREES, FRAME, RUN, T, is_the_run, rows_of
 
 

@@ -17,7 +17,7 @@ import pytest
 from scipy.io import savemat
 
 from heli2dof_core.errors import CancelledError, RecordingError
-from heli2dof_core.recording_files import MOST_BYTES, read_table
+from heli2dof_core.recordings.files import MOST_BYTES, read_table
 
 HEAD = b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM"
 OCTAVE = b"# Created by Octave\n# name: t\n# type: "

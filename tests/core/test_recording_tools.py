@@ -17,8 +17,8 @@ import pytest
 from scipy.io import savemat
 
 from heli2dof_core.errors import RecordingError
-from heli2dof_core.recording_files import read_table
-from heli2dof_core.recording_guess import guess_columns
+from heli2dof_core.recordings.files import read_table
+from heli2dof_core.recordings.guess import guess_columns
 from tests.core.recorded_run import DEGREES, FRAME, RUN, T, is_the_run, rows_of
 
 

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from scipy.io import savemat
 
 from heli2dof_core.errors import Heli2DofError, InvalidInputError, RecordingError
-from heli2dof_core.recording_files import read_table, write_csv
-from heli2dof_core.recording_guess import guess_columns
-from heli2dof_core.recordings import Columns, Recording, Table, decimated, recording_of
+from heli2dof_core.recordings.files import read_table, write_csv
+from heli2dof_core.recordings.guess import guess_columns
+from heli2dof_core.recordings.recording import Columns, Recording, Table, decimated, recording_of
 
 T = 0.002 * np.arange(50)
 DATA = {

@@ -8,8 +8,8 @@ import pytest
 
 from heli2dof_core import OuterLoop, PoleSet, Scenario, close_loop, design, plant, preset
 from heli2dof_core.metrics import step_metrics
+from heli2dof_core.scenario import Digital, Disturbance
 from heli2dof_core.simulation.nonlinear import simulate_nonlinear
-from heli2dof_core.spec import Digital, Disturbance
 from tests.core.random_rigs import KINDS, LIMITS, random_rigs, simulated, worst_of
 
 CLOSE = 1e-6

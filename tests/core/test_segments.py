@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from heli2dof_core.recordings import Recording
-from heli2dof_core.segments import rough_starts
+from heli2dof_core.recordings.recording import Recording
+from heli2dof_core.recordings.segments import rough_starts
 
 
 def test_rough_starts_are_the_parabolas_own_and_know_nothing_of_the_next_segment():

@@ -7,8 +7,8 @@ import pytest
 from scipy import stats
 from scipy.signal import lfilter
 
-from heli2dof_core import whiteness as module
-from heli2dof_core.whiteness import LAGS, autoregression, whiteness
+from heli2dof_core.recordings import whiteness as module
+from heli2dof_core.recordings.whiteness import LAGS, autoregression, whiteness
 
 
 def segments(count, length):

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from heli2dof_core.recording_files import MOST_BYTES
+from heli2dof_core.recordings.files import MOST_BYTES
 from tests.deploy.farm import DEPLOY, program
 
 COMPOSE = yaml.safe_load((DEPLOY.parent / "compose.yaml").read_text())

@@ -7,16 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import RecordingError
-from .findings import Finding
-from .loop import Loop
-from .parameters import Parameters
-from .recording_time import stretches
-from .recordings import Recording
+from ..errors import RecordingError
+from ..findings import Finding
+from ..loop import Loop
+from ..parameters import Parameters
+from ..scenario import MOST_SAMPLE_TIMES, Digital, Limits
+from ..signals import Floats
+from ..simulation.recorded import Wanted, exact, nobody_leaves, run_held, run_recorder
+from .recording import Recording
 from .segments import SHORTEST, bridged, cut, divergence_told, fit_of, rough_starts, segment_length
-from .signals import Floats
-from .simulation.recorded import Wanted, exact, nobody_leaves, run_held, run_recorder
-from .spec import MOST_SAMPLE_TIMES, Digital, Limits
+from .time_axis import stretches
 
 USUAL_SAMPLE_TIME = 0.002
 """Of the controller where none is given, s; a recording that is finer decides."""

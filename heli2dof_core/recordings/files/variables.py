@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from ..findings import Finding
-from ..recording_guess import role_of
-from ..recordings import FEWEST_SAMPLES, Table
-from ..signals import Floats
+from ...findings import Finding
+from ...signals import Floats
+from ..guess import role_of
+from ..recording import FEWEST_SAMPLES, Table
 from .grid import left_out_finding, unique_names
 from .limits import DEEPEST, MOST_COLUMNS, check_size, refused
 

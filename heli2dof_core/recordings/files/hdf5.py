@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import Heli2DofError
-from ..recordings import Table
+from ...errors import Heli2DofError
+from ..recording import Table
 from .limits import DEEPEST, MOST_VARIABLES, Wanted, check_unpacked, refused
 from .variables import Unreadable, table_of_variables
 

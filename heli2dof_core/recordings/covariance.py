@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .signals import Floats
+from ..signals import Floats
 
 FEWEST_GROUPS = 20
 """Groups of samples that are wanted; longer segments are divided for that."""

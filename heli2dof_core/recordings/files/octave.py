@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import Heli2DofError
-from ..recordings import Table
+from ...errors import Heli2DofError
+from ..recording import Table
 from .hdf5 import range_of
 from .limits import DEEPEST, MOST_VARIABLES, Wanted, check_unpacked, refused
 from .text import decoded

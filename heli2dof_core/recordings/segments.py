@@ -17,12 +17,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import RecordingError
-from .parameters import Parameters
-from .recording_time import missing_rows, stretches
-from .recordings import Recording
-from .signals import Floats
-from .simulation.recorded import Wanted, longest_step, nobody_leaves, run_segments
+from ..errors import RecordingError
+from ..parameters import Parameters
+from ..signals import Floats
+from ..simulation.recorded import Wanted, longest_step, nobody_leaves, run_segments
+from .recording import Recording
+from .time_axis import missing_rows, stretches
 
 GROWTH = 1.0
 """Exponent by which an error may grow within a segment."""

@@ -10,17 +10,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .checks import require_within
+from ..checks import require_within
+from ..errors import InvalidInputError, RecordingError
+from ..findings import Finding
+from ..parameters import PARAMETER_INFO, Parameters
+from ..signals import Floats
+from ..simulation.recorded import Wanted, longest_step, nobody_leaves
 from .covariance import grouped_covariance, groups_of, plain_covariance, student_quantile
-from .errors import InvalidInputError, RecordingError
-from .findings import Finding
 from .identified import Estimate, Identification, Progress
 from .model_errors import unmodelled
-from .parameters import PARAMETER_INFO, Parameters
-from .recordings import Recording
+from .recording import Recording
 from .segments import Fitted, bridged, cut, divergence_told, fit_starts, rough_starts, segment_length
-from .signals import Floats
-from .simulation.recorded import Wanted, longest_step, nobody_leaves
 from .whiteness import Whiteness, whiteness
 
 IDENTIFIABLE = ("K_pp", "K_py", "K_yp", "K_yy", "B_p", "B_y", "K_s")

@@ -6,8 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ..recording_guess import guess_columns
-from ..recordings import Columns, Recording, recording_of
+from ..guess import guess_columns
+from ..recording import Columns, Recording, recording_of
 from . import Dialect, read_files
 
 

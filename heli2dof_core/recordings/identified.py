@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .findings import Finding
-from .parameters import PARAMETER_INFO, Parameters
-from .signals import Floats
+from ..findings import Finding
+from ..parameters import PARAMETER_INFO, Parameters
+from ..signals import Floats
 
 
 @dataclass(frozen=True)

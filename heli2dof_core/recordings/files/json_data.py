@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from ..recordings import Table
+from ..recording import Table
 from .limits import MOST_ROWS, Wanted, check_size, refused
 from .text import decoded
 from .variables import table_of_variables

@@ -9,9 +9,9 @@ from math import isnan
 
 import numpy as np
 
-from ..findings import Finding
-from ..recording_units import known_unit
-from ..recordings import Table
+from ...findings import Finding
+from ..recording import Table
+from ..units import known_unit
 from .cells import Cell, is_empty, numbers, share_of_numbers
 from .limits import Wanted, check_size, refused
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from .recording_time import likely_unit
-from .recording_units import split_unit
-from .recordings import ANGLES, Columns, Table
+from .recording import ANGLES, Columns, Table
+from .time_axis import likely_unit
+from .units import split_unit
 
 _MEASURED = r"(angle|meas|measured|enc|encoder|pos|position|deg|rad)?"
 _WANTED = r"(ref|reference|d|des|desired|cmd|command|setpoint|sp|target)"

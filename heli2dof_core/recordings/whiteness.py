@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .signals import Floats
+from ..signals import Floats
 
 LAGS = 25
 """Lags that are looked at, as MATLAB's `resid` does."""

@@ -9,9 +9,9 @@ from collections import Counter
 from dataclasses import replace
 from typing import Any
 
-from ..errors import Heli2DofError, RecordingError
-from ..findings import Finding
-from ..recordings import Table
+from ...errors import Heli2DofError, RecordingError
+from ...findings import Finding
+from ..recording import Table
 from .cells import is_empty, number
 from .grid import Grid, table_of_grid
 from .limits import MOST_COLUMNS, MOST_ROWS, Wanted, check_size, check_unpacked, refused

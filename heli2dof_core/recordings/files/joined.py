@@ -8,11 +8,11 @@ from pathlib import PurePath
 
 import numpy as np
 
-from ..findings import merged
-from ..recording_guess import guess_columns, role_of
-from ..recording_time import likely_unit
-from ..recording_units import SECONDS
-from ..recordings import Table
+from ...findings import merged
+from ..guess import guess_columns, role_of
+from ..recording import Table
+from ..time_axis import likely_unit
+from ..units import SECONDS
 from .limits import refused
 from .variables import Series, table_of_series
 

@@ -6,14 +6,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from .checks import require_within
-from .errors import InvalidInputError
+from ..checks import require_within
+from ..errors import InvalidInputError
+from ..loop import Loop
+from ..parameters import Parameters
+from ..scenario import MOST_SAMPLE_TIMES, Digital, Limits
+from ..signals import Floats
+from ..simulation.recorded import Recorded, run_recorder
 from .identification import default_free
-from .loop import Loop
-from .parameters import Parameters
-from .signals import Floats
-from .simulation.recorded import Recorded, run_recorder
-from .spec import MOST_SAMPLE_TIMES, Digital, Limits
 
 MOST_DEVIATION = 0.5
 

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..recordings import Table
-from ..signals import Floats
+from ...signals import Floats
+from ..recording import Table
 from .hdf5 import MARK as _HDF5
 from .hdf5 import read_hdf5
 from .joined import MOST_FILES, joined_tables

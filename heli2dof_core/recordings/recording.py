@@ -9,11 +9,12 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from .checks import require_one_of, require_within
-from .errors import RecordingError
-from .findings import Finding
-from .recording_time import judged_time, stretches, timing_remarks
-from .recording_units import (
+from ..checks import require_one_of, require_within
+from ..errors import RecordingError
+from ..findings import Finding
+from ..signals import Floats
+from .time_axis import judged_time, stretches, timing_remarks
+from .units import (
     RADIANS,
     SECONDS,
     VOLTS,
@@ -24,7 +25,6 @@ from .recording_units import (
     known_unit,
     split_unit,
 )
-from .signals import Floats
 
 ROLES = ("time", "theta", "psi", "V_p", "V_y", "theta_ref", "psi_ref")
 """What a column can be; the references may be missing, and time where the sample time is given."""

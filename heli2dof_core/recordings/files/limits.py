@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..errors import RecordingError
+from ...errors import RecordingError
 
 MOST_BYTES = 32 * 2**20
 MOST_UNPACKED = 128 * 2**20

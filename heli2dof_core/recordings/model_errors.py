@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .findings import Finding
-from .recordings import Recording
-from .signals import Floats
-from .simulation.recorded import Wanted, run_segments
+from ..findings import Finding
+from ..signals import Floats
+from ..simulation.recorded import Wanted, run_segments
+from .recording import Recording
 from .whiteness import autoregression, correlations
 
 DEAD_BAND = 0.5

@@ -8,10 +8,10 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import RecordingError
-from .findings import Finding
-from .recording_units import SECONDS
-from .signals import Floats
+from ..errors import RecordingError
+from ..findings import Finding
+from ..signals import Floats
+from .units import SECONDS
 
 LONGEST = 3600.0
 """Longest recording, s."""

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Literal, get_args
 
-from ..errors import RecordingError
-from ..recordings import Table
+from ...errors import RecordingError
+from ..recording import Table
 from .cells import is_empty, number, share_of_numbers
 from .grid import MOSTLY, Grid, table_of_grid
 from .limits import MOST_ROWS, Wanted, check_size, refused

@@ -8,7 +8,7 @@ from datetime import UTC, datetime, time, timedelta
 from math import isnan
 from typing import Any
 
-from ..recording_units import SECONDS, known_unit
+from ..units import SECONDS, known_unit
 
 Cell = Any
 """Text, or what a spreadsheet holds: a number, a date, a time, nothing."""

@@ -1,0 +1,1 @@
+"""Recordings of a real rig: read, laid over the simulation, and identified."""
