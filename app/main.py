@@ -29,7 +29,7 @@ from .routes import (
     frequency,
     health,
     live,
-    recording,
+    motion,
     recordings,
     robustness,
 )
@@ -100,7 +100,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(frequency.build_router(compute))
     app.include_router(derivation.build_router(compute))
     app.include_router(comparison.build_router(compute))
-    app.include_router(recording.build_router(compute))
+    app.include_router(motion.build_router(compute))
     app.include_router(recordings.build_router(compute, settings))
     app.include_router(exports.build_router(compute))
     app.include_router(live.build_router(compute, metrics))
