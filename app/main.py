@@ -17,7 +17,7 @@ from .edge import policies
 from .edge.connections import Connections
 from .edge.limits import SocketCounts, read_in_small_parts
 from .edge.middleware import with_middleware
-from .ops.kept_files import KeptFiles
+from .ops.cached_files import CachedFiles
 from .ops.metrics import Metrics
 from .ops.settings import Settings
 from .routes import (
@@ -96,7 +96,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     )
     app.state.compute, app.state.metrics, app.state.connections = compute, metrics, connections
     app.state.socket_counts, app.state.sessions = counts, sessions
-    files = KeptFiles(directory=settings.static)
+    files = CachedFiles(directory=settings.static)
     # First: these are asked for most, and each route that is tried costs time.
     app.mount("/static", files, name="static")
     app.include_router(health.build_router(compute, connections, metrics if settings.metrics else None))
@@ -119,7 +119,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     return app
 
 
-def _add_pages(app: FastAPI, settings: Settings, files: KeptFiles) -> None:
+def _add_pages(app: FastAPI, settings: Settings, files: CachedFiles) -> None:
     """The page, that of the API, and the icon; each with its policy."""
 
     def page_of(name: str, request: Request, policy: str) -> Response:

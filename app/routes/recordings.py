@@ -50,7 +50,7 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
     router = APIRouter(prefix="/api/v1/recordings", tags=["recordings"])
     store = RecordingStore(settings.recordings, settings.recordings_bytes)
 
-    @router.post("", **_takes_a_file())
+    @router.post("", **_upload_options())
     async def send(
         request: Request,
         name: str = "",
@@ -70,7 +70,7 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
             preview_reply(store.put(table, current_caller.get().client[0], name), name, table)
         )
 
-    @router.post("/sample", **_makes_a_file())
+    @router.post("/sample", **_csv_options())
     async def sample(request: SampleRequest) -> Response:
         await _wait_for_kernels()
         content = await compute.run_slow(_sample, request)
@@ -180,7 +180,7 @@ def _text(value: Reply) -> str:
     return json_bytes(value).decode()
 
 
-def _takes_a_file() -> dict[str, Any]:
+def _upload_options() -> dict[str, Any]:
     options = described(Preview, "The file as it was read: columns, first rows, what they probably are")
     content = {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}
     extra = {
@@ -189,7 +189,7 @@ def _takes_a_file() -> dict[str, Any]:
     return {**options, "openapi_extra": extra}
 
 
-def _makes_a_file() -> dict[str, Any]:
+def _csv_options() -> dict[str, Any]:
     options = described(None, "A recording of the design's digital rig, CSV")
     del options["responses"][200]["model"]
     options["responses"][200]["content"] = {"text/csv": {"schema": {"type": "string"}}}

@@ -15,7 +15,7 @@ from pathlib import Path
 from fastapi import Request, Response
 
 from ..edge import policies
-from ..ops.kept_files import Content
+from ..ops.cached_files import Content
 from .viser_scripts import inline_scripts
 
 _MARKER = "<title>Viser</title>"
