@@ -14,10 +14,10 @@ from heli2dof_core.version import package_version
 from . import scene
 from .contract import examples, problems
 from .edge import policies
-from .edge.limits import OpenSockets, read_in_small_parts
-from .edge.middleware import surrounded
-from .edge.visits import Visits
-from .ops.kept_files import KeptFiles
+from .edge.connections import Connections
+from .edge.limits import SocketCounts, read_in_small_parts
+from .edge.middleware import with_middleware
+from .ops.cached_files import CachedFiles
 from .ops.metrics import Metrics
 from .ops.settings import Settings
 from .routes import (
@@ -29,7 +29,7 @@ from .routes import (
     frequency,
     health,
     live,
-    recording,
+    motion,
     recordings,
     robustness,
 )
@@ -45,20 +45,25 @@ class App(FastAPI):
     """FastAPI with what surrounds it: outside of starlette's own stack, so that its 500s pass there, too."""
 
     def __init__(
-        self, settings: Settings, metrics: Metrics, visits: Visits, sockets: OpenSockets, **options: Any
+        self,
+        settings: Settings,
+        metrics: Metrics,
+        connections: Connections,
+        counts: SocketCounts,
+        **options: Any,
     ) -> None:
         super().__init__(**options)
-        self._surroundings = (settings, metrics, visits, sockets)
+        self._middleware_options = (settings, metrics, connections, counts)
 
     def build_middleware_stack(self) -> ASGIApp:
-        """Starlette's stack, surrounded."""
-        return surrounded(super().build_middleware_stack(), *self._surroundings)
+        """Starlette's stack, with our middleware around it."""
+        return with_middleware(super().build_middleware_stack(), *self._middleware_options)
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:
     """Builds the application; all state hangs on it, nothing is global."""
     settings = settings or Settings()
-    metrics, visits, sockets = Metrics(), Visits(), OpenSockets()
+    metrics, connections, counts = Metrics(), Connections(), SocketCounts()
     compute = Compute(
         slow_threads=settings.slow_threads,
         most_waiting=settings.slow_waiting,
@@ -80,8 +85,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app = App(
         settings,
         metrics,
-        visits,
-        sockets,
+        connections,
+        counts,
         title="heli2dof",
         version=package_version(),
         description=_DESCRIPTION,
@@ -89,18 +94,18 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         docs_url=None,
         redoc_url=None,
     )
-    app.state.compute, app.state.metrics, app.state.visits = compute, metrics, visits
-    app.state.limits, app.state.sessions = sockets, sessions
-    files = KeptFiles(directory=settings.static)
+    app.state.compute, app.state.metrics, app.state.connections = compute, metrics, connections
+    app.state.socket_counts, app.state.sessions = counts, sessions
+    files = CachedFiles(directory=settings.static)
     # First: these are asked for most, and each route that is tried costs time.
     app.mount("/static", files, name="static")
-    app.include_router(health.build_router(compute, visits, metrics if settings.metrics else None))
+    app.include_router(health.build_router(compute, connections, metrics if settings.metrics else None))
     app.include_router(catalogue.build_router())
     app.include_router(design.build_router(compute))
     app.include_router(frequency.build_router(compute))
     app.include_router(derivation.build_router(compute))
     app.include_router(comparison.build_router(compute))
-    app.include_router(recording.build_router(compute))
+    app.include_router(motion.build_router(compute))
     app.include_router(recordings.build_router(compute, settings))
     app.include_router(exports.build_router(compute))
     app.include_router(live.build_router(compute, metrics))
@@ -114,7 +119,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     return app
 
 
-def _add_pages(app: FastAPI, settings: Settings, files: KeptFiles) -> None:
+def _add_pages(app: FastAPI, settings: Settings, files: CachedFiles) -> None:
     """The page, that of the API, and the icon; each with its policy."""
 
     def page_of(name: str, request: Request, policy: str) -> Response:

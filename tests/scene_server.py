@@ -39,12 +39,12 @@ class SceneServer:
 def serving(
     capacity: int = 8,
     idle_seconds: float = 45.0,
-    spare_seconds: float = 5.0,
+    evict_after_seconds: float = 5.0,
     host_page: str = "",
     prefix: str = "",
 ) -> Iterator[SceneServer]:
     """Run the app in a thread for as long as the context lasts."""
-    sessions = SceneSessions(capacity, idle_seconds, spare_seconds)
+    sessions = SceneSessions(capacity, idle_seconds, evict_after_seconds)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:

@@ -43,7 +43,7 @@ def serving(**settings: Any) -> Iterator[WholeServer]:
     thread.start()
     until(lambda: server.started or not thread.is_alive(), "the server starts")
     try:
-        until(lambda: app.state.compute.settled, "all is derived and compiled")
+        until(lambda: app.state.compute.compiled, "all is derived and compiled")
         yield WholeServer(port, app)
     finally:
         server.should_exit = True

@@ -22,7 +22,7 @@ from pydantic import ValidationError
 
 from heli2dof_core.version import package_version
 
-from ..edge.visits import Visits
+from ..edge.connections import Connections
 from ..main import create_app
 from ..ops import logs
 from ..ops.settings import Settings, complaint
@@ -46,9 +46,9 @@ class Server(uvicorn.Server):
     once.
     """
 
-    def __init__(self, config: uvicorn.Config, visits: Visits, settings: Settings) -> None:
+    def __init__(self, config: uvicorn.Config, connections: Connections, settings: Settings) -> None:
         super().__init__(config)
-        self._visits = visits
+        self._connections = connections
         self._drain, self._grace = settings.drain, settings.grace
         self._prefix = settings.root_path
         self._until = math.inf
@@ -80,13 +80,13 @@ class Server(uvicorn.Server):
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Says goodbye to sockets before uvicorn, which would cut them off, sees to the rest."""
         began = min(self._until, monotonic() + self._drain)  # infinite where no signal came, as in tests
-        self._visits.closing = True
-        _log.info("ending: %d sockets are open", len(self._visits))
+        self._connections.shutting_down = True
+        _log.info("ending: %d sockets are open", len(self._connections))
         await asyncio.sleep(max(began - monotonic(), 0.0))
         for server in self.servers:
             server.close()
         left = began + _FOR_SOCKETS * self._grace - monotonic()
-        await self._visits.farewell(max(left, _AT_LEAST * self._grace))
+        await self._connections.close_all(max(left, _AT_LEAST * self._grace))
         left = began + _FOR_REQUESTS * self._grace - monotonic()
         self.config.timeout_graceful_shutdown = max(math.ceil(left), 1)
         await super().shutdown(sockets)
@@ -111,7 +111,7 @@ def listen(settings: Settings) -> int:
         print(f"heli2dof: cannot listen on {settings.host} port {port}: {why}. {other}", file=sys.stderr)
         return 1
     app = create_app(settings)
-    Server(server_config(app, settings), app.state.visits, settings).run([bound])
+    Server(server_config(app, settings), app.state.connections, settings).run([bound])
     # Python's own end waits for no daemon; who then still computes in LAPACK crashes, as it is unloaded under them.
     app.state.compute.close()  # once more where the start has failed
     app.state.compute.join()

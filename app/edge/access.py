@@ -17,9 +17,11 @@ from .login_form import login_form
 from .refusals import refuse
 
 COOKIE = "heli2dof-access"
-_OPEN = frozenset(("/livez", "/healthz", "/favicon.ico", "/static/favicon.svg", "/static/css/login.css"))
-_LONGEST_FORM = 4096
-_LIFE = 180 * 24 * 3600
+_PUBLIC_PATHS = frozenset(
+    ("/livez", "/healthz", "/favicon.ico", "/static/favicon.svg", "/static/css/login.css")
+)
+_MOST_FORM_BYTES = 4096
+_COOKIE_SECONDS = 180 * 24 * 3600
 """Seconds that a browser keeps the cookie: a term."""
 
 
@@ -39,16 +41,19 @@ class Access:
     def __init__(self, app: ASGIApp, token: str, ancestors: tuple[str, ...]) -> None:
         self._next = app
         self._token = token.encode()
-        self._pass = hmac.new(self._token, b"heli2dof cookie", hashlib.sha256).hexdigest().encode()
+        self._cookie_value = hmac.new(self._token, b"heli2dof cookie", hashlib.sha256).hexdigest().encode()
         self._ancestors = ancestors
         self._framed = any(not ancestor.startswith("'") for ancestor in ancestors)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Passes on what may come in."""
-        if scope["type"] not in ("http", "websocket") or self._may_enter(scope):
+        if scope["type"] not in ("http", "websocket") or self._is_authorized(scope):
             await self._next(scope, receive, send)
             return
-        if scope["type"] == "http" and (reply := await self._page(Request(scope, receive))) is not None:
+        if (
+            scope["type"] == "http"
+            and (reply := await self._login_reply(Request(scope, receive))) is not None
+        ):
             await reply(scope, receive, send)
             return
         body = problem(
@@ -59,9 +64,9 @@ class Access:
         )
         await refuse(scope, receive, send, body, {"WWW-Authenticate": 'Bearer realm="heli2dof"'})
 
-    def _may_enter(self, scope: Scope) -> bool:
+    def _is_authorized(self, scope: Scope) -> bool:
         path = scope["path"].removeprefix(scope.get("root_path", ""))
-        if path in _OPEN:
+        if path in _PUBLIC_PATHS:
             return True
         headers = Headers(scope=scope)
         kind, _, given = headers.get("authorization", "").partition(" ")
@@ -69,13 +74,13 @@ class Access:
             # A link with the token in it still ends at an address without.
             return True
         cookie = cookie_parser(headers.get("cookie", "")).get(COOKIE, "")
-        known = hmac.compare_digest(cookie.encode("utf-8", "replace"), self._pass)
+        known = hmac.compare_digest(cookie.encode("utf-8", "replace"), self._cookie_value)
         return known and not (scope["type"] == "http" and _token_of(scope["query_string"]))
 
     def _is_token(self, given: str) -> bool:
         return hmac.compare_digest(given.encode("utf-8", "replace"), self._token)
 
-    async def _page(self, request: Request) -> Response | None:
+    async def _login_reply(self, request: Request) -> Response | None:
         """What a person gets: the way in, or the form; None where a tool asks."""
         given = _token_of(request.scope["query_string"])
         form = request.headers.get("content-type", "").startswith("application/x-www-form-urlencoded")
@@ -83,13 +88,13 @@ class Access:
             body = b""
             async for part in request.stream():
                 body += part
-                if len(body) > _LONGEST_FORM:
+                if len(body) > _MOST_FORM_BYTES:
                     return None
             given = dict(parse_qsl(body.decode("utf-8", "replace"))).get("token", "").strip() or " "
         elif request.method not in ("GET", "HEAD") or "text/html" not in request.headers.get("accept", ""):
             return None
         if given and self._is_token(given):
-            return self._welcome(request)
+            return self._log_in(request)
         text = login_form(
             wrong=bool(given), root=request.scope.get("root_path", ""), path=request.scope["path"]
         )
@@ -100,7 +105,7 @@ class Access:
         }
         return Response(text, 401, headers, media_type="text/html")
 
-    def _welcome(self, request: Request) -> Response:
+    def _log_in(self, request: Request) -> Response:
         """Back to the same address, without the token; relative, since a proxy's prefix may be unknown."""
         query = urlencode([pair for pair in _pairs(request.scope["query_string"]) if pair[0] != "token"])
         last = request.scope["path"].rpartition("/")[2]
@@ -109,8 +114,8 @@ class Access:
         elsewhere = secure and self._framed
         reply.set_cookie(
             COOKIE,
-            self._pass.decode(),
-            max_age=_LIFE,
+            self._cookie_value.decode(),
+            max_age=_COOKIE_SECONDS,
             path=request.scope.get("root_path", "") or "/",
             secure=secure,
             httponly=True,

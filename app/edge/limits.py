@@ -17,15 +17,15 @@ from heli2dof_core.recordings.files import MOST_BYTES
 
 from ..contract.problems import problem, problem_response
 from ..ops.settings import Settings
-from ..work.compute import Asking, asking
+from ..work.compute import Caller, current_caller
 
 _POLICY, _TRY_LATER = 1008, 1013
-_READ = 16 * 1024
-_LARGE = "/api/v1/recordings"
+_READ_BYTES = 16 * 1024
+_UPLOAD_PATH = "/api/v1/recordings"
 """The one call that takes a file."""
-_LIMITED = ("/api/", "/scene/")
+_RATE_LIMITED_PATHS = ("/api/", "/scene/")
 """Where requests are counted: the page's own files cost nothing, and a class loads thousands of them at once."""
-_REMEMBERED = 10_000
+_MOST_ADDRESSES = 10_000
 
 
 def address_of(scope: Scope) -> str:
@@ -45,7 +45,7 @@ def read_in_small_parts() -> None:
     """
     transport = getattr(asyncio.selector_events, "_SelectorSocketTransport", None)
     if transport is not None and hasattr(transport, "max_size"):
-        transport.max_size = _READ
+        transport.max_size = _READ_BYTES
 
 
 class Buckets:
@@ -62,24 +62,24 @@ class Buckets:
         left = min(self._burst, left + (now - last) * self._rate)
         wait = 0.0 if left >= 1 else (1 - left) / self._rate
         self._left[address] = (left if wait else left - 1, now)
-        if len(self._left) > _REMEMBERED:
+        if len(self._left) > _MOST_ADDRESSES:
             self._left.popitem(last=False)
         return wait
 
 
-class OpenSockets:
+class SocketCounts:
     """How many WebSockets are open, by address."""
 
     def __init__(self) -> None:
         self.by_address: Counter[str] = Counter()
 
     @property
-    def sockets(self) -> int:
+    def total(self) -> int:
         """All of them."""
         return self.by_address.total()
 
     @contextlib.contextmanager
-    def one_more(self, address: str) -> Iterator[None]:
+    def counted(self, address: str) -> Iterator[None]:
         """Counts one while the context lasts."""
         self.by_address[address] += 1
         try:
@@ -94,9 +94,9 @@ class Limits:
     """Refuses what goes beyond the settings, each with its clear answer; tells the core's threads who asks."""
 
     def __init__(
-        self, app: ASGIApp, settings: Settings, sockets: OpenSockets, clock: Callable[[], float] = monotonic
+        self, app: ASGIApp, settings: Settings, counts: SocketCounts, clock: Callable[[], float] = monotonic
     ) -> None:
-        self._app, self._settings, self._open = app, settings, sockets
+        self._app, self._settings, self._counts = app, settings, counts
         self._buckets = Buckets(settings.request_rate, settings.request_burst, clock)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -111,7 +111,7 @@ class Limits:
     async def _http(self, scope: Scope, receive: Receive, send: Send) -> None:
         address = address_of(scope)
         path = scope["path"].removeprefix(scope.get("root_path", ""))
-        wait = self._buckets.take(address) if path.startswith(_LIMITED) else 0.0
+        wait = self._buckets.take(address) if path.startswith(_RATE_LIMITED_PATHS) else 0.0
         if wait:
             answer = problem_response(
                 problem(
@@ -123,41 +123,41 @@ class Limits:
                 {"Retry-After": str(int(wait) + 1)},
             )
             return await answer(scope, receive, send)
-        most = MOST_BYTES if path == _LARGE else self._settings.body_bytes
+        most = MOST_BYTES if path == _UPLOAD_PATH else self._settings.body_bytes
         body = _Body(receive, most, self._settings.body_seconds)
-        if body.announced(scope) > most:
+        if body.content_length(scope) > most:
             return await body.refusal(413)(scope, receive, send)
-        token = asking.set(Asking((address, _connection(scope)), body.gone))
+        token = current_caller.set(Caller((address, _connection(scope)), body.disconnected))
         try:
             await self._app(scope, body.receive, send)
         except _RefusedError as refused:
             await body.refusal(refused.status)(scope, receive, send)
         finally:
-            asking.reset(token)
+            current_caller.reset(token)
         return None
 
     async def _websocket(self, scope: Scope, receive: Receive, send: Send) -> None:
         address, settings = address_of(scope), self._settings
-        if self._open.sockets >= settings.sockets:
-            return await _turn_away(receive, send, f"the server has {settings.sockets} sockets open")
-        if self._open.by_address[address] >= settings.sockets_per_address:
-            return await _turn_away(
+        if self._counts.total >= settings.sockets:
+            return await _refuse_socket(receive, send, f"the server has {settings.sockets} sockets open")
+        if self._counts.by_address[address] >= settings.sockets_per_address:
+            return await _refuse_socket(
                 receive, send, f"this address has {settings.sockets_per_address} sockets open"
             )
-        token = asking.set(Asking((address, _connection(scope))))
+        token = current_caller.set(Caller((address, _connection(scope))))
         try:
-            with self._open.one_more(address):
-                await self._app(scope, self._counted(receive, send), send)
+            with self._counts.counted(address):
+                await self._app(scope, self._rate_limited(receive, send), send)
         finally:
-            asking.reset(token)
+            current_caller.reset(token)
         return None
 
-    def _counted(self, receive: Receive, send: Send) -> Receive:
+    def _rate_limited(self, receive: Receive, send: Send) -> Receive:
         """`receive`, until the client sends more messages than any hand or page would; then the socket is closed."""
         bucket = Buckets(self._settings.message_rate, 2 * self._settings.message_rate)
         over = False
 
-        async def counted() -> Message:
+        async def receive_limited() -> Message:
             nonlocal over
             message = await receive()
             if message["type"] != "websocket.receive" or not (over or bucket.take("")):
@@ -169,7 +169,7 @@ class Limits:
                     await send({"type": "websocket.close", "code": _POLICY, "reason": reason})
             return {"type": "websocket.disconnect", "code": _POLICY}
 
-        return counted
+        return receive_limited
 
 
 class _RefusedError(BaseException):
@@ -189,7 +189,7 @@ class _Body:
         self._deadline = monotonic() + seconds
 
     @staticmethod
-    def announced(scope: Scope) -> int:
+    def content_length(scope: Scope) -> int:
         """Content-Length, 0 where there is none."""
         value = dict(scope["headers"]).get(b"content-length", b"")
         return int(value) if value.isdigit() else 0
@@ -212,7 +212,7 @@ class _Body:
             raise _RefusedError(413)
         return message
 
-    async def gone(self) -> None:
+    async def disconnected(self) -> None:
         """Returns once the client has left; the body must have been read."""
         while (await self._receive())["type"] != "http.disconnect":
             pass
@@ -230,7 +230,7 @@ def _connection(scope: Scope) -> str:
     return str((scope.get("client") or ("", 0))[1])
 
 
-async def _turn_away(receive: Receive, send: Send, reason: str) -> None:
+async def _refuse_socket(receive: Receive, send: Send, reason: str) -> None:
     """Accepts and closes at once: a browser learns code and reason only of a socket that was accepted."""
     await receive()
     await send({"type": "websocket.accept"})

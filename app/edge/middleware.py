@@ -8,25 +8,25 @@ from starlette.types import ASGIApp
 from ..ops.metrics import Metrics
 from ..ops.settings import Settings
 from .access import Access
+from .connections import Connections
 from .headers import SafeHeaders
-from .limits import Limits, OpenSockets
+from .limits import Limits, SocketCounts
 from .origins import Origins
 from .proxies import Proxies
 from .requests import Requests
 from .sockets import Sockets
-from .visits import Visits
 
-__all__ = ["surrounded"]
+__all__ = ["with_middleware"]
 
 
-def surrounded(
-    app: ASGIApp, settings: Settings, metrics: Metrics, visits: Visits, sockets: OpenSockets
+def with_middleware(
+    app: ASGIApp, settings: Settings, metrics: Metrics, connections: Connections, counts: SocketCounts
 ) -> ASGIApp:
     """The routes with all that surrounds them; what is written last comes first."""
-    app = Sockets(app, metrics, visits)
+    app = Sockets(app, metrics, connections)
     if settings.access_token is not None:
         app = Access(app, settings.access_token.get_secret_value(), settings.frame_ancestors)
-    app = Limits(app, settings, sockets)
+    app = Limits(app, settings, counts)
     app = Origins(app, settings.cors_origins, settings.allowed_hosts, metrics)
     if settings.cors_origins:
         app = CORSMiddleware(

@@ -44,10 +44,10 @@ class Origins:
             return
         headers = Headers(scope=scope)
         host = headers.get("host", "")
-        if self._hosts and not self._known(host):
+        if self._hosts and not self._allows_host(host):
             await refuse(scope, receive, send, problem(421, "This server has another name.", "unknown_host"))
             return
-        if scope["type"] == "websocket" and not self._welcome(
+        if scope["type"] == "websocket" and not self._allows_origin(
             headers.getlist("origin"), host, scope["scheme"]
         ):
             self._metrics.refused.labels("origin").inc()
@@ -58,14 +58,14 @@ class Origins:
             return
         await self._next(scope, receive, send)
 
-    def _welcome(self, origins: list[str], host: str, scheme: str) -> bool:
+    def _allows_origin(self, origins: list[str], host: str, scheme: str) -> bool:
         if not origins:
             return True
         if "*" in self._listed or all(origin.lower() in self._listed for origin in origins):
             return True
         return len(origins) == 1 and is_own(origins[0], host, scheme)
 
-    def _known(self, host: str) -> bool:
+    def _allows_host(self, host: str) -> bool:
         name = _host_and_port(host, 0)
         if name is None:
             return False

@@ -6,12 +6,12 @@ from fastapi import APIRouter, Request, Response
 
 from ..contract.encoding import json_response
 from ..contract.problems import problem, problem_response
-from ..edge.visits import Visits
+from ..edge.connections import Connections
 from ..ops.metrics import Metrics
 from ..work.compute import Compute
 
 
-def build_router(compute: Compute, visits: Visits, metrics: Metrics | None) -> APIRouter:
+def build_router(compute: Compute, connections: Connections, metrics: Metrics | None) -> APIRouter:
     """The routes livez, healthz and, where there are any, metrics."""
     router = APIRouter(tags=["health"])
 
@@ -21,7 +21,7 @@ def build_router(compute: Compute, visits: Visits, metrics: Metrics | None) -> A
 
     @router.get("/healthz", summary="200 once ready to serve, 503 before and when it goes away")
     async def healthz() -> Response:
-        if visits.closing:
+        if connections.shutting_down:
             gone = problem(503, "The server is shutting down.", "going_away", hint="Ask another one.")
             return problem_response(gone, {"Retry-After": "5"})
         if compute.ready:
@@ -34,7 +34,7 @@ def build_router(compute: Compute, visits: Visits, metrics: Metrics | None) -> A
     if metrics is not None:
 
         @router.get("/metrics", include_in_schema=False)
-        def told(
+        def metrics_text(
             request: Request,
         ) -> Response:  # in a thread: the process's own figures are read from the disk
             content, kind = metrics.text(request.headers.get("accept", ""))

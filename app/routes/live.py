@@ -18,21 +18,21 @@ from ..contract.encoding import BINARY_SUBPROTOCOL, binary_frame, json_bytes
 from ..contract.problems import TEXT_START, problem_of
 from ..contract.replies import report_reply
 from ..contract.requests import LiveRequest
-from ..edge.visits import visit_of
+from ..edge.connections import connection_of
 from ..ops.metrics import Metrics
 from ..work.compute import Compute
 
 _log = logging.getLogger(__name__)
-QUICK = 4000
+QUICK_STEPS = 4000
 """Steps of a response that still count as quick: two milliseconds' work."""
-MEDIUM = 40_000
+MEDIUM_STEPS = 40_000
 """Steps of a response that may keep others' designs waiting: a twentieth of a second's work."""
-SHORT = 16_384
+INLINE_LENGTH = 16_384
 """Length of a message that is read in the event loop."""
 MOST_SAMPLES = 1001
 
 
-class Newest:
+class Mailbox:
     """A mailbox for one item: a newer item replaces one that was not yet taken."""
 
     def __init__(self) -> None:
@@ -68,15 +68,15 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
     async def live(socket: WebSocket) -> None:
         binary = BINARY_SUBPROTOCOL in socket.scope["subprotocols"]
         await socket.accept(subprotocol=BINARY_SUBPROTOCOL if binary else None)
-        newest, visit = Newest(), visit_of(socket)
-        answers = asyncio.create_task(_answer(socket, newest, compute, metrics, binary=binary))
+        mailbox, connection = Mailbox(), connection_of(socket)
+        answers = asyncio.create_task(_answer(socket, mailbox, compute, metrics, binary=binary))
         try:
             while True:
                 message = await socket.receive()
                 if message["type"] == "websocket.disconnect":
                     break
-                visit.busy = True
-                newest.put(message.get("text") or message.get("bytes") or "")
+                connection.busy = True
+                mailbox.put(message.get("text") or message.get("bytes") or "")
         except WebSocketDisconnect:
             pass
         finally:
@@ -87,16 +87,16 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
 
 
 async def _answer(
-    socket: WebSocket, newest: Newest, compute: Compute, metrics: Metrics, *, binary: bool
+    socket: WebSocket, mailbox: Mailbox, compute: Compute, metrics: Metrics, *, binary: bool
 ) -> None:
-    visit = visit_of(socket)
+    connection = connection_of(socket)
     while True:
-        text = await newest.take()
-        since = newest.since
+        text = await mailbox.take()
+        since = mailbox.since
         try:
-            answer = _at_once(text, binary) if compute.settled else None
+            answer = _evaluate_inline(text, binary) if compute.compiled else None
             if answer is None:
-                answer = await compute.run(_evaluate, text, binary, MEDIUM)
+                answer = await compute.run(_evaluate, text, binary, MEDIUM_STEPS)
             if answer is None:
                 answer = await compute.run_slow(_evaluate, text, binary)
         except Exception as error:
@@ -111,8 +111,8 @@ async def _answer(
         metrics.update.observe(perf_counter() - since)
         refused = isinstance(answer, str) and answer.startswith(TEXT_START)
         (metrics.refusals if refused else metrics.evaluations).inc()
-        if newest.empty:
-            await visit.rest()
+        if mailbox.empty:
+            await connection.set_idle()
         await asyncio.sleep(0)  # others' turn, even where nothing above had to wait
 
 
@@ -120,13 +120,13 @@ def _text(value: Any) -> str:
     return json_bytes(value).decode()
 
 
-def _at_once(text: str | bytes, binary: bool) -> str | bytes | None:
+def _evaluate_inline(text: str | bytes, binary: bool) -> str | bytes | None:
     """The answer in the event loop, where it takes a millisecond or two; None if it might take longer.
 
     A thread would cost as much again: two changes of threads, and with many clients the wait for Python's
     lock, which a computing thread keeps for 5 ms (twenty clients at 20 Hz: 15 ms instead of 54, median).
     """
-    return _evaluate(text, binary, QUICK, small=True) if len(text) <= SHORT else None
+    return _evaluate(text, binary, QUICK_STEPS, small=True) if len(text) <= INLINE_LENGTH else None
 
 
 def _seq_of(text: str | bytes) -> dict[str, int]:

@@ -35,13 +35,13 @@ from ..contract.recording_models import (
     progress_reply,
 )
 from ..ops.settings import Settings
-from ..work.compute import Compute, asking, still_wanted
+from ..work.compute import Compute, check_cancelled, current_caller
 from ..work.recording_store import RecordingStore
-from .conversation import Send, converse
+from .progress_socket import Send, serve_with_progress
 
-_PATIENCE = 180
+_KERNEL_POLLS = 180
 """Half seconds that a request waits for the kernels after the start."""
-_SIZE = (0.2, 0.4)
+_DEFAULT_STEPS = (0.2, 0.4)
 """Reference steps of a sample where the preset's scenario names none, rad."""
 
 
@@ -50,7 +50,7 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
     router = APIRouter(prefix="/api/v1/recordings", tags=["recordings"])
     store = RecordingStore(settings.recordings, settings.recordings_bytes)
 
-    @router.post("", **_takes_a_file())
+    @router.post("", **_upload_options())
     async def send(
         request: Request,
         name: str = "",
@@ -58,19 +58,21 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
         decimal: Annotated[Decimal | None, Query(description="of text; judged by default")] = None,
     ) -> Response:
         data, own = await request.body(), name[:200]
-        table = await compute.run_slow(read_table, data, own, Dialect(separator, decimal), still_wanted)
-        return json_response(preview_reply(store.put(table, asking.get().client[0], own), own, table))
+        table = await compute.run_slow(read_table, data, own, Dialect(separator, decimal), check_cancelled)
+        return json_response(preview_reply(store.put(table, current_caller.get().client[0], own), own, table))
 
     @router.post("/join", **described(Preview, "Files of one run, one signal each, as one recording"))
     async def join(request: JoinRequest) -> Response:
         tables = [store.named(key) for key in request.recordings]
         table = await compute.run_slow(joined_tables, tables)
         name = ", ".join(own for own, _ in tables)[:200]
-        return json_response(preview_reply(store.put(table, asking.get().client[0], name), name, table))
+        return json_response(
+            preview_reply(store.put(table, current_caller.get().client[0], name), name, table)
+        )
 
-    @router.post("/sample", **_makes_a_file())
+    @router.post("/sample", **_csv_options())
     async def sample(request: SampleRequest) -> Response:
-        await _compiled()
+        await _wait_for_kernels()
         content = await compute.run_slow(_sample, request)
         name = {"Content-Disposition": 'attachment; filename="heli2dof-recording.csv"'}
         return Response(content, media_type="text/csv; charset=utf-8", headers=name)
@@ -79,7 +81,7 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
         "/{key}/overlay", **described(OverlayReply, "The recording over the simulation, with its fit")
     )
     async def overlay(key: str, request: OverlayRequest) -> Response:
-        await _compiled()
+        await _wait_for_kernels()
         table = store.get(key)
         return json_response(await compute.run_slow(lambda: _overlay(request, table)))
 
@@ -90,17 +92,17 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
         async def answer(data: Any, send: Send) -> None:
             request = IdentifyRequest.model_validate(data)
             spec = request.to_spec()
-            await _compiled()
+            await _wait_for_kernels()
             await _identify(send, spec, request, compute, store)
 
-        await converse(socket, answer)
+        await serve_with_progress(socket, answer)
 
     return router
 
 
-async def _compiled() -> None:
+async def _wait_for_kernels() -> None:
     """Waits for the compiled kernels, without which all this would take minutes."""
-    for _ in range(_PATIENCE):
+    for _ in range(_KERNEL_POLLS):
         if engine().compiled:
             return
         await asyncio.sleep(0.5)
@@ -114,7 +116,7 @@ def _sample(request: SampleRequest) -> bytes:
     given = spec.scenario.digital or Digital(encoders=base.encoders)
     digital = replace(given, noise=request.noise, seed=request.seed)
     rig = deviating_rig(spec.parameters, request.deviation, request.seed)
-    wanted = (base.scenario.theta or _SIZE[0], base.scenario.psi or _SIZE[1])
+    wanted = (base.scenario.theta or _DEFAULT_STEPS[0], base.scenario.psi or _DEFAULT_STEPS[1])
     size = (abs(wanted[0] - spec.theta_0) if base.scenario.theta is None else abs(wanted[0]), abs(wanted[1]))
     loop = close_loop(place(spec), spec.outer)
     run = sample_recording(loop, spec.limits, digital, rig=rig, duration=request.length, size=size)
@@ -129,7 +131,7 @@ def _sample(request: SampleRequest) -> bytes:
 
 def _overlay(request: OverlayRequest, table: Table) -> Reply:
     recording = recording_of(table, request.columns.to_columns())
-    return overlay_reply(request.driver, recording, overlaid(request, recording, still_wanted))
+    return overlay_reply(request.driver, recording, overlaid(request, recording, check_cancelled))
 
 
 async def _identify(
@@ -138,12 +140,12 @@ async def _identify(
     """Runs in the pool for what takes seconds; progress comes from there, of which only the newest waits."""
     table, loop = store.get(request.recording), asyncio.get_running_loop()
     newest: list[Progress] = []
-    told = asyncio.Event()
+    updated = asyncio.Event()
 
     def report(progress: Progress) -> None:
-        still_wanted()
+        check_cancelled()
         newest[:] = [progress]
-        loop.call_soon_threadsafe(told.set)
+        loop.call_soon_threadsafe(updated.set)
 
     def work() -> Reply:
         recording = recording_of(table, request.columns.to_columns())
@@ -154,16 +156,16 @@ async def _identify(
             segment=request.segment,
             travel=spec.limits.theta,
             report=report,
-            wanted=still_wanted,
+            wanted=check_cancelled,
         )
         return identification_reply(found)
 
     running = asyncio.ensure_future(compute.run_slow(work))
-    running.add_done_callback(lambda _: told.set())
+    running.add_done_callback(lambda _: updated.set())
     try:
         while not running.done():
-            await told.wait()
-            told.clear()
+            await updated.wait()
+            updated.clear()
             if newest and not running.done():
                 await send(_text(progress_reply(newest.pop())))
         await send(_text(await running))
@@ -178,7 +180,7 @@ def _text(value: Reply) -> str:
     return json_bytes(value).decode()
 
 
-def _takes_a_file() -> dict[str, Any]:
+def _upload_options() -> dict[str, Any]:
     options = described(Preview, "The file as it was read: columns, first rows, what they probably are")
     content = {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}
     extra = {
@@ -187,7 +189,7 @@ def _takes_a_file() -> dict[str, Any]:
     return {**options, "openapi_extra": extra}
 
 
-def _makes_a_file() -> dict[str, Any]:
+def _csv_options() -> dict[str, Any]:
     options = described(None, "A recording of the design's digital rig, CSV")
     del options["responses"][200]["model"]
     options["responses"][200]["content"] = {"text/csv": {"schema": {"type": "string"}}}

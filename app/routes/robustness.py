@@ -13,8 +13,8 @@ from ..contract.encoding import json_bytes
 from ..contract.models import described
 from ..contract.robustness_requests import RobustnessReply, RobustnessRequest, cloud_reply
 from ..ops.metrics import Metrics
-from ..work.compute import Compute, still_wanted
-from .conversation import Send, converse
+from ..work.compute import Compute, check_cancelled
+from .progress_socket import Send, serve_with_progress
 
 
 def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
@@ -28,7 +28,9 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
         metrics.clouds.inc()
 
         def work() -> bytes:
-            return json_bytes(cloud_reply(cloud(request.to_spec(), request.to_uncertainty(), still_wanted)))
+            return json_bytes(
+                cloud_reply(cloud(request.to_spec(), request.to_uncertainty(), check_cancelled))
+            )
 
         return Response(await compute.run_slow(work), media_type="application/json")
 
@@ -40,11 +42,11 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
             request = RobustnessRequest.model_validate(data)
             metrics.clouds.inc()
             spec, uncertainty = request.to_spec(), request.to_uncertainty()
-            parts = cloud_in_parts(spec, uncertainty, still_wanted)
+            parts = cloud_in_parts(spec, uncertainty, check_cancelled)
             while (part := await compute.run_slow(_following, parts)) is not None:
                 await send(part)
 
-        await converse(socket, answer)
+        await serve_with_progress(socket, answer)
 
     return router
 

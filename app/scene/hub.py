@@ -20,7 +20,7 @@ LARGEST_SHOWN = 96 * 1024
 """Bytes of a design with its motion; the page's take 12,000."""
 LARGEST_TEXT = 1024
 MOST_WINDOWS = 16
-PACE = 0.05
+SEND_INTERVAL = 0.05
 """Seconds after which a window may send its next motion."""
 
 _POLICY, _TOO_BIG = 1008, 1009
@@ -109,7 +109,7 @@ def read_shown(frame: bytes) -> Shown:
     return _shown_decoder.decode(frame[4 : 4 + size])
 
 
-def say(kind: str, **content: Any) -> str:
+def encode_message(kind: str, **content: Any) -> str:
     """Return a message to a window as text."""
     return msgspec.json.encode({"type": kind, **content}).decode()
 
@@ -119,28 +119,28 @@ class Window:
 
     def __init__(self, *, page: bool) -> None:
         self.page = page
-        self._waiting: dict[str, str | bytes] = {}
+        self._pending: dict[str, str | bytes] = {}
         self._edits: dict[str, Any] = {}
         self._wake = asyncio.Event()
 
-    def tell(self, topic: str, message: str | bytes) -> None:
+    def queue(self, topic: str, message: str | bytes) -> None:
         """Leave a message, in place of one on the same topic that was not sent yet."""
-        self._waiting[topic] = message
+        self._pending[topic] = message
         self._wake.set()
 
     def edit(self, edits: dict[str, Any], count: int) -> None:
         """Leave what the panel asks for; of what waits, the newest value of each name stays."""
         self._edits |= edits
-        self.tell("panel", say("panel", edits=self._edits, count=count))
+        self.queue("panel", encode_message("panel", edits=self._edits, count=count))
 
-    async def send_to(self, socket: WebSocket) -> None:
+    async def send_pending(self, socket: WebSocket) -> None:
         """Send what waits, for as long as the socket takes it."""
         while True:
             await self._wake.wait()
             self._wake.clear()
-            while self._waiting:
-                topic = next(iter(self._waiting))
-                message = self._waiting.pop(topic)
+            while self._pending:
+                topic = next(iter(self._pending))
+                message = self._pending.pop(topic)
                 if topic == "panel":
                     self._edits = {}
                 await (socket.send_text(message) if isinstance(message, str) else socket.send_bytes(message))
@@ -150,11 +150,11 @@ class Room:
     """The windows of one session and the newest of what they share; belongs to one event loop.
 
     Args:
-        told: called with the design's header, and with how time runs, whenever they change.
+        on_change: called with the design's header, and with how time runs, whenever they change.
     """
 
-    def __init__(self, told: Callable[[Shown | Transport], None] = lambda _: None) -> None:
-        self.told = told
+    def __init__(self, on_change: Callable[[Shown | Transport], None] = lambda _: None) -> None:
+        self.on_change = on_change
         self.windows: list[Window] = []
         self.shown: Shown | None = None
         self.transport: Transport | None = None
@@ -173,36 +173,36 @@ class Room:
 
     @property
     def leader(self) -> Window | None:
-        """The window that the panel's wishes go to: the first page, or else the first of all."""
+        """The window that the panel's edits go to: the first page, or else the first of all."""
         return next((w for w in self.windows if w.page), self.windows[0] if self.windows else None)
 
     def join(self, window: Window) -> None:
         """Add a window and tell it what is known."""
         self.windows.append(window)
         for topic, message in self._messages.items():
-            window.tell(topic, message)
-        self._count()
+            window.queue(topic, message)
+        self._announce_windows()
 
     def leave(self, window: Window) -> None:
         """Forget a window."""
         self.windows.remove(window)
-        self._count()
+        self._announce_windows()
 
-    def show(self, frame: bytes, by: Window) -> None:
+    def show(self, frame: bytes, sender: Window) -> None:
         """Take a design with its motion and pass it on.
 
         Raises:
             msgspec.MsgspecError: if it is none.
         """
         self.shown = read_shown(frame)
-        self._pass("shown", frame, by)
-        self.told(self.shown)
+        self._broadcast("shown", frame, sender)
+        self.on_change(self.shown)
 
-    def run(self, transport: Transport, by: Window) -> None:
+    def set_transport(self, transport: Transport, sender: Window) -> None:
         """Take how time runs and pass it on."""
         self.transport = transport
-        self._pass("transport", msgspec.json.encode(transport).decode(), by)
-        self.told(transport)
+        self._broadcast("transport", msgspec.json.encode(transport).decode(), sender)
+        self.on_change(transport)
 
     def edit(self, edits: dict[str, Any]) -> None:
         """Hand on what someone has set at the panel."""
@@ -210,25 +210,25 @@ class Room:
         if self.leader is not None:
             self.leader.edit(edits, self._edits)
 
-    def _pass(self, topic: str, message: str | bytes, by: Window) -> None:
+    def _broadcast(self, topic: str, message: str | bytes, sender: Window) -> None:
         self._messages[topic] = message
         for window in self.windows:
-            if window is not by:
-                window.tell(topic, message)
+            if window is not sender:
+                window.queue(topic, message)
 
-    def _count(self) -> None:
+    def _announce_windows(self) -> None:
         for window in self.windows:
             others = len(self.windows) - 1
-            window.tell(
+            window.queue(
                 "windows",
-                say("windows", others=others, leads=window is self.leader, count=self._edits),
+                encode_message("windows", others=others, leads=window is self.leader, count=self._edits),
             )
 
 
-async def attend(socket: WebSocket, room: Room, window: Window) -> None:
+async def serve_window(socket: WebSocket, room: Room, window: Window) -> None:
     """Carry messages between an accepted socket and the room until the socket closes."""
     room.join(window)
-    sending = asyncio.create_task(window.send_to(socket))
+    sending = asyncio.create_task(window.send_pending(socket))
     receiving = asyncio.create_task(_receive(socket, room, window))
     try:
         await asyncio.wait({sending, receiving}, return_when=asyncio.FIRST_COMPLETED)
@@ -252,13 +252,13 @@ async def _receive(socket: WebSocket, room: Room, window: Window) -> None:
             if frame:
                 room.show(frame, window)
                 # The next one is asked for a little later: a sender keeps the newest until then.
-                loop.call_later(PACE, window.tell, "taken", say("taken"))
+                loop.call_later(SEND_INTERVAL, window.queue, "taken", encode_message("taken"))
                 continue
             match _text_decoder.decode(text or ""):
                 case Transport() as transport:
-                    room.run(transport, window)
+                    room.set_transport(transport, window)
                 case _Clock(sent=sent):
-                    window.tell("clock", say("clock", sent=sent, now=monotonic()))
+                    window.queue("clock", encode_message("clock", sent=sent, now=monotonic()))
         except msgspec.MsgspecError as error:
             return await _close(socket, _POLICY, f"not understood: {error}")
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from fastapi import Request, Response
 
 from ..edge import policies
-from ..ops.kept_files import Content
+from ..ops.cached_files import Content
 from .viser_scripts import inline_scripts
 
 _MARKER = "<title>Viser</title>"
@@ -80,8 +80,8 @@ class ViewerPage:
         return self.content.response(request.headers, headers)
 
 
-def taken_away(page: str, title: str) -> str:
-    """Return viser's page with a recording in it, on our ground and under a title (plain text)."""
+def standalone_page(page: str, title: str) -> str:
+    """Return viser's page with a motion in it, on our ground and under a title (plain text)."""
     words = html.escape(title)
     head = f"<title>{words}</title>\n<style>{_GROUND}{_NOTES}</style>"
     note = f'<div class="window-notes">{words}</div>'

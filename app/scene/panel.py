@@ -38,19 +38,19 @@ class Panel:
 
     Args:
         server: of the session.
-        wished: called in the server's own thread with names and values that someone has set.
+        on_edit: called in the server's own thread with names and values that someone has set.
     """
 
-    def __init__(self, server: ViserServer, wished: Callable[[dict[str, Any]], None]) -> None:
+    def __init__(self, server: ViserServer, on_edit: Callable[[dict[str, Any]], None]) -> None:
         self._server = server
-        self._wished = wished
+        self._on_edit = on_edit
         self._inputs: dict[str, Input] = {}
         self._by_id: dict[str, Input] = {}
         with server.atomic():
             self._K = self._build()
 
-    def admit(self, element: str, updates: dict[str, Any]) -> dict[str, Any] | None:
-        """Return what a visitor may set: the value alone, of a known element, within its range."""
+    def allowed_update(self, element: str, updates: dict[str, Any]) -> dict[str, Any] | None:
+        """Return what a client may set: the value alone, of a known element, within its range."""
         known = self._by_id.get(element)
         if known is None or set(updates) != {"value"}:
             return None
@@ -67,14 +67,14 @@ class Panel:
                 value = min(max(float(value), known.min), known.max) if right else value
         return {"value": value} if right else None
 
-    def show(self, shown: Shown, *, wishes: bool) -> None:
-        """Show a design and its K; with `wishes`, only K, as the sliders are ahead of the design."""
+    def show(self, shown: Shown, *, edits_pending: bool) -> None:
+        """Show a design and its K; with `edits_pending`, only K, as the sliders are ahead of the design."""
         with self._server.atomic():
             self._K.content = gain_table(shown.K)
-            if not wishes:
+            if not edits_pending:
                 self._show_design(shown.design)
 
-    def run(self, transport: Transport) -> None:
+    def set_transport(self, transport: Transport) -> None:
         """Show how time runs."""
         self._set("loop", transport.loop)
         name = min(SPEEDS, key=lambda name: abs(math.log(SPEEDS[name] / transport.speed)))
@@ -141,20 +141,20 @@ class Panel:
 
     def _add(self, name: str, handle: Input) -> None:
         self._inputs[name] = handle
-        # The id has no public name in viser 1.1.1; a test sends it back as a visitor would.
+        # The id has no public name in viser 1.1.1; a test sends it back as a client would.
         self._by_id[handle._impl.uuid] = handle  # pyright: ignore[reportPrivateUsage]
 
         # Asynchronous: viser calls it in its own thread, where a plain function would take one from its pool.
-        async def said(event: GuiEvent[Any]) -> None:
+        async def on_input(event: GuiEvent[Any]) -> None:
             if event.client_id is None:
-                return  # set by us, not by a visitor
+                return  # set by us, not by a client
             value: Any = event.target.value
-            self._wished({name: SPEEDS[value] if name == "speed" else value})
+            self._on_edit({name: SPEEDS[value] if name == "speed" else value})
 
         if isinstance(handle, GuiButtonGroupHandle):
-            handle.on_click(said)
+            handle.on_click(on_input)
         else:
-            handle.on_update(said)
+            handle.on_update(on_input)
 
 
 def gain_table(K: tuple[tuple[float, ...], ...]) -> str:

@@ -1,4 +1,4 @@
-"""How the rig's nodes stand along a motion, for recordings; static/scene/pose.js says the same live.
+"""How the rig's nodes stand along a motion, for its file; static/scene/pose.js says the same live.
 
 A test holds the two to one another.
 """

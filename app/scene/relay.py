@@ -1,6 +1,6 @@
-"""Carries viser's WebSocket between a visitor and the session's own server on the loopback.
+"""Carries viser's WebSocket between a client and the session's own server on the loopback.
 
-Towards the visitor everything passes. From the visitor only what a viewer must send passes: viser
+Towards the client everything passes. From the client only what a viewer must send passes: viser
 trusts its clients, so made-up messages could open a public tunnel or fill its memory.
 """
 
@@ -26,13 +26,13 @@ LARGEST_MESSAGE = 64 * 1024
 _UNSUPPORTED_DATA, _TOO_BIG, _TRY_LATER = 1003, 1009, 1013
 _QUEUED_FRAMES = 4
 RATE, BURST = 120.0, 240.0
-"""Messages a second that a visitor may send, and how many at once; a viewer that is turned sends thirty."""
+"""Messages a second that a client may send, and how many at once; a viewer that is turned sends thirty."""
 _Quaternion = tuple[float, float, float, float]
 _Vector = tuple[float, float, float]
 
 
 class _ViewerCamera(msgspec.Struct, tag_field="type", tag="ViewerCameraMessage", forbid_unknown_fields=True):
-    """Where the visitor looks from; viser counts a client as present from its first one."""
+    """Where the client looks from; viser counts a client as present from its first one."""
 
     wxyz: _Quaternion
     position: _Vector
@@ -52,7 +52,7 @@ class _GuiUpdate(msgspec.Struct, tag_field="type", tag="GuiUpdateMessage", forbi
     updates: dict[str, Any]
 
 
-Admit = Callable[[str, dict[str, Any]], dict[str, Any] | None]
+UpdateFilter = Callable[[str, dict[str, Any]], dict[str, Any] | None]
 """Returns what may be set of an element with this id, or None."""
 
 # The allow-list.
@@ -60,11 +60,11 @@ _decoder = msgspec.msgpack.Decoder(_ViewerCamera | _GuiUpdate)
 _encoder = msgspec.msgpack.Encoder()
 
 
-def admissible(frame: bytes, admit: Admit = lambda _id, _updates: None) -> bytes | None:
-    """Return what viser may have of a visitor's frame, or None.
+def allowed_frame(frame: bytes, filter_update: UpdateFilter = lambda _id, _updates: None) -> bytes | None:
+    """Return what viser may have of a client's frame, or None.
 
     A well-formed message that a viewer must send passes as it is. What is set at the panel is written
-    anew, as far as `admit` lets it.
+    anew, as far as `filter_update` lets it.
     """
     if len(frame) >= LARGEST_MESSAGE:
         return None
@@ -74,7 +74,7 @@ def admissible(frame: bytes, admit: Admit = lambda _id, _updates: None) -> bytes
         return None
     if isinstance(message, _ViewerCamera):
         return frame
-    updates = admit(message.uuid, message.updates)
+    updates = filter_update(message.uuid, message.updates)
     return None if updates is None else _encoder.encode(_GuiUpdate(message.uuid, updates))
 
 
@@ -83,7 +83,7 @@ def viser_subprotocol(offered: list[str]) -> str | None:
     return next((name for name in offered if name.startswith("viser-v")), None)
 
 
-class Pace:
+class RateLimit:
     """Lets so many a second pass, and a few at once.
 
     Whoever comes too fast waits, so that the network's own buffers fill and the sender waits, too.
@@ -105,38 +105,38 @@ class Pace:
 
 
 async def relay(
-    visitor: WebSocket,
+    client: WebSocket,
     port: int,
-    admit: Admit = lambda _id, _updates: None,
+    filter_update: UpdateFilter = lambda _id, _updates: None,
     metrics: Metrics | None = None,
 ) -> None:
     """Carry frames both ways until either side closes, then close the other.
 
     Args:
-        visitor: an accepted WebSocket.
+        client: an accepted WebSocket.
         port: of the viser server on the loopback.
-        admit: says what may be set at the panel.
+        filter_update: says what may be set at the panel.
         metrics: counts what passes and what does not.
     """
     metrics = metrics or Metrics()
-    protocol = viser_subprotocol(visitor.scope["subprotocols"])
+    protocol = viser_subprotocol(client.scope["subprotocols"])
     try:
         upstream = await connect(
             f"ws://127.0.0.1:{port}",
             subprotocols=[Subprotocol(protocol)] if protocol else None,
             compression=None,
             max_size=None,
-            # A slow visitor stops our reading, the kernel's buffers fill, and viser waits.
+            # A slow client stops our reading, the kernel's buffers fill, and viser waits.
             max_queue=_QUEUED_FRAMES,
             proxy=None,
         )
     except (OSError, InvalidHandshake, TimeoutError):
-        await _close(visitor, _TRY_LATER, "the scene is not reachable")
+        await _close(client, _TRY_LATER, "the scene is not reachable")
         return
     async with upstream:
         tasks = [
-            asyncio.create_task(_down(upstream, visitor, metrics)),
-            asyncio.create_task(_up(visitor, upstream, admit, metrics)),
+            asyncio.create_task(_to_client(upstream, client, metrics)),
+            asyncio.create_task(_to_viser(client, upstream, filter_update, metrics)),
         ]
         try:
             done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
@@ -145,15 +145,15 @@ async def relay(
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
     code, reason = done.pop().result()
-    await _close(visitor, code, reason)
+    await _close(client, code, reason)
 
 
-async def _down(upstream: ClientConnection, visitor: WebSocket, metrics: Metrics) -> tuple[int, str]:
-    """Carry viser's frames to the visitor; return how to close the visitor."""
+async def _to_client(upstream: ClientConnection, client: WebSocket, metrics: Metrics) -> tuple[int, str]:
+    """Carry viser's frames to the client; return how to close the client."""
     try:
         async for frame in upstream:
             if isinstance(frame, bytes):
-                await visitor.send_bytes(frame)
+                await client.send_bytes(frame)
                 metrics.scene_down.inc()
     except (ConnectionClosed, WebSocketDisconnect, RuntimeError):
         pass
@@ -164,13 +164,13 @@ async def _down(upstream: ClientConnection, visitor: WebSocket, metrics: Metrics
     return code, upstream.close_reason or "the scene was stopped"
 
 
-async def _up(
-    visitor: WebSocket, upstream: ClientConnection, admit: Admit, metrics: Metrics
+async def _to_viser(
+    client: WebSocket, upstream: ClientConnection, filter_update: UpdateFilter, metrics: Metrics
 ) -> tuple[int, str]:
-    """Carry the visitor's admissible frames to viser; return how to close the visitor."""
-    pace = Pace()
+    """Carry the client's admissible frames to viser; return how to close the client."""
+    limit = RateLimit()
     while True:
-        message = await visitor.receive()
+        message = await client.receive()
         if message["type"] == "websocket.disconnect":
             return 1000, ""
         frame = message.get("bytes")
@@ -178,8 +178,8 @@ async def _up(
             return _UNSUPPORTED_DATA, "binary frames only"
         if len(frame) >= LARGEST_MESSAGE:
             return _TOO_BIG, f"messages of {LARGEST_MESSAGE} bytes or more are refused"
-        await pace.take()
-        passed = admissible(frame, admit)
+        await limit.take()
+        passed = allowed_frame(frame, filter_update)
         (metrics.scene_refused if passed is None else metrics.scene_up).inc()
         if passed is not None:
             try:
@@ -188,8 +188,8 @@ async def _up(
                 return 1001, "the scene was stopped"
 
 
-async def _close(visitor: WebSocket, code: int, reason: str) -> None:
-    """Close the visitor's socket unless it is closed already."""
+async def _close(client: WebSocket, code: int, reason: str) -> None:
+    """Close the client's socket unless it is closed already."""
     with contextlib.suppress(RuntimeError, WebSocketDisconnect):
         # A close frame carries at most 123 bytes of reason.
-        await visitor.close(code, reason.encode()[:123].decode(errors="ignore"))
+        await client.close(code, reason.encode()[:123].decode(errors="ignore"))

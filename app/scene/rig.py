@@ -51,7 +51,7 @@ class RigServer(ViserServer):
         self.show(rig)
 
     def request_share_url(self, verbose: bool = True) -> str | None:
-        """Refuse: any visitor may ask, and the tunnel would publish the session."""
+        """Refuse: any client may ask, and the tunnel would publish the session."""
         return None
 
     def disconnect_share_url(self) -> None:

@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict
 from heli2dof_core.geometry import RigName
 
 from ..ops.metrics import Metrics
-from .hub import MOST_WINDOWS, Window, attend
+from .hub import MOST_WINDOWS, Window, serve_window
 from .page import ViewerPage
 from .relay import relay, viser_subprotocol
 from .sessions import SceneSessions, SessionsFullError
@@ -47,17 +47,17 @@ def build_router(
 
     @router.get("/{session}")
     async def without_slash(session: str) -> Response:
-        _check(session)
+        _require_session_id(session)
         return RedirectResponse(f"{session}/", status_code=308)
 
     @router.get("/{session}/")
     async def viewer(session: str, request: Request) -> Response:
-        _check(session)
+        _require_session_id(session)
         return page.response(request)
 
     @router.put("/{session}/rig", status_code=204)
     async def choose_rig(session: str, choice: RigChoice) -> Response:
-        _check(session)
+        _require_session_id(session)
         try:
             await sessions.set_rig(session, choice.rig)
         except SessionsFullError as full:
@@ -72,17 +72,17 @@ def _add_sockets(router: APIRouter, sessions: SceneSessions, metrics: Metrics) -
     """Add viser's socket, relayed, and the one on which a session's windows talk."""
 
     @router.websocket("/{session}")
-    async def socket(visitor: WebSocket, session: str) -> None:
+    async def socket(client: WebSocket, session: str) -> None:
         if not _SESSION_ID.fullmatch(session):
             # Closed before it is accepted: the handshake is answered with 403.
-            await visitor.close()
+            await client.close()
             return
-        await visitor.accept(subprotocol=viser_subprotocol(visitor.scope["subprotocols"]))
+        await client.accept(subprotocol=viser_subprotocol(client.scope["subprotocols"]))
         try:
-            async with sessions.watched(session) as scene:
-                await relay(visitor, scene.port, scene.admit, metrics)
+            async with sessions.viewing(session) as scene:
+                await relay(client, scene.port, scene.filter_update, metrics)
         except SessionsFullError as full:
-            await visitor.close(_TRY_LATER, str(full)[:120])
+            await client.close(_TRY_LATER, str(full)[:120])
 
     @router.websocket("/{session}/hub")
     async def hub(socket: WebSocket, session: str, page: bool = False) -> None:
@@ -92,16 +92,16 @@ def _add_sockets(router: APIRouter, sessions: SceneSessions, metrics: Metrics) -
         await socket.accept()
         window = Window(page=page)
         try:
-            async with sessions.sharing(session, window) as room:
+            async with sessions.joining(session, window) as room:
                 if room.full:
                     await socket.close(_TRY_LATER, f"{MOST_WINDOWS} windows of this scene are open already")
                 else:
-                    await attend(socket, room, window)
+                    await serve_window(socket, room, window)
         except SessionsFullError as full:
             await socket.close(_TRY_LATER, str(full)[:120])
 
 
-def _check(session: str) -> None:
+def _require_session_id(session: str) -> None:
     """Answer 404 to whatever cannot be a session's id."""
     if not _SESSION_ID.fullmatch(session):
         raise HTTPException(404, "no such scene")

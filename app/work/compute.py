@@ -29,7 +29,7 @@ from .kernel_compiler import KernelCompiler
 
 _log = logging.getLogger(__name__)
 T = TypeVar("T")
-SWITCH = 0.0005
+SWITCH_INTERVAL = 0.0005
 """Seconds for which a computing thread keeps Python's lock while the event loop wants it; Python's own 5 ms
 would be most of a drag's answer."""
 NICENESS = 5
@@ -37,28 +37,28 @@ NICENESS = 5
 
 
 @dataclass(frozen=True)
-class Asking:
-    """For whom the present task works; `gone` returns once an HTTP client has left."""
+class Caller:
+    """For whom the present task works; `disconnected` returns once an HTTP client has left."""
 
     client: Client = ("", "")
-    gone: Callable[[], Awaitable[None]] | None = None
+    disconnected: Callable[[], Awaitable[None]] | None = None
 
 
-NOBODY = Asking()
-asking: ContextVar[Asking] = ContextVar("asking", default=NOBODY)
+NO_CALLER = Caller()
+current_caller: ContextVar[Caller] = ContextVar("current_caller", default=NO_CALLER)
 """Set by the server for every request and socket."""
-_doing: ContextVar[tuple[Job, float] | None] = ContextVar("doing", default=None)
+_current_job: ContextVar[tuple[Job, float] | None] = ContextVar("current_job", default=None)
 
 
-def still_wanted() -> None:
+def check_cancelled() -> None:
     """Long work calls this now and then.
 
     Raises:
         CancelledError: nobody waits for its outcome any more, or it has taken too long.
     """
-    doing = _doing.get()
-    if doing is not None and (doing[0].called_off.is_set() or monotonic() > doing[1]):
-        raise CancelledError("called off")
+    current = _current_job.get()
+    if current is not None and (current[0].cancelled.is_set() or monotonic() > current[1]):
+        raise CancelledError("cancelled")
 
 
 class _Pool:
@@ -85,18 +85,18 @@ class _Pool:
             del job  # nothing of it is kept until the next one comes
 
     def _do(self, job: Job) -> None:
-        token = _doing.set((job, monotonic() + self.seconds))
+        token = _current_job.set((job, monotonic() + self.seconds))
         try:
             outcome = job.work()
         except BaseException as error:
-            self._settle(job.future.set_exception, error)
+            self._deliver(job.future.set_exception, error)
         else:
-            self._settle(job.future.set_result, outcome)
+            self._deliver(job.future.set_result, outcome)
         finally:
-            _doing.reset(token)
+            _current_job.reset(token)
 
     @staticmethod
-    def _settle(how: Callable[[Any], None], outcome: Any) -> None:
+    def _deliver(how: Callable[[Any], None], outcome: Any) -> None:
         with contextlib.suppress(InvalidStateError, RuntimeError):  # the event loop may be closed by now
             how(outcome)
 
@@ -126,22 +126,22 @@ class Compute:
     ) -> None:
         self._quick = _Pool("compute", threads, FairQueue(most_waiting, most_each), seconds, nice=False)
         self._slow = _Pool("slow", slow_threads, FairQueue(most_waiting, most_each), seconds, nice=True)
-        self._warm = threading.Event()
+        self._derived = threading.Event()
         self._failure: BaseException | None = None
         self._kernels = KernelCompiler()
-        self._settled = False
+        self._compiled = False
         self._once: dict[Any, asyncio.Task[Any]] = {}
         self._derivation: threading.Thread | None = None
 
     @property
     def ready(self) -> bool:
         """Whether the derivation is done."""
-        return self._warm.is_set() and self._failure is None
+        return self._derived.is_set() and self._failure is None
 
     @property
-    def settled(self) -> bool:
+    def compiled(self) -> bool:
         """Whether all is derived and compiled: a common update then takes a millisecond or two."""
-        return self._settled
+        return self._compiled
 
     @property
     def waiting(self) -> dict[str, int]:
@@ -160,7 +160,7 @@ class Compute:
         another, which costs three times the processor time of the work itself.
         """
         threadpool_limits(limits=1, user_api="blas")
-        sys.setswitchinterval(SWITCH)
+        sys.setswitchinterval(SWITCH_INTERVAL)
         self._derivation = threading.Thread(target=self._warm_up, name="derivation", daemon=True)
         self._derivation.start()
 
@@ -181,13 +181,13 @@ class Compute:
         """As `run_slow`, for what is always the same: derived by the first who asks, and kept."""
         task: asyncio.Task[T] | None = self._once.get(key)
         if task is None:
-            task = self._once[key] = asyncio.create_task(self._for_all(function, args))
+            task = self._once[key] = asyncio.create_task(self._run_without_caller(function, args))
             task.add_done_callback(partial(self._forget, key))
         # Shielded: who leaves meanwhile leaves the others their answer.
         return await asyncio.shield(task)
 
-    async def _for_all(self, function: Callable[..., T], args: tuple[object, ...]) -> T:
-        asking.set(NOBODY)
+    async def _run_without_caller(self, function: Callable[..., T], args: tuple[object, ...]) -> T:
+        current_caller.set(NO_CALLER)
         return await self._run(self._slow, function, args)
 
     def _forget(self, key: object, task: asyncio.Task[Any]) -> None:
@@ -196,18 +196,18 @@ class Compute:
 
     async def _run(self, pool: _Pool, function: Callable[..., T], args: tuple[object, ...]) -> T:
         def work() -> T:
-            self._warm.wait()
+            self._derived.wait()
             if self._failure is not None:
                 raise RuntimeError("the derivation failed at start") from self._failure
             return function(*args)
 
-        who = asking.get()
-        job = Job(who.client, work)
+        caller = current_caller.get()
+        job = Job(caller.client, work)
         pool.queue.put(job)
         outcome = asyncio.wrap_future(job.future)
-        leaving = asyncio.ensure_future(who.gone()) if who.gone else None
+        disconnect = asyncio.ensure_future(caller.disconnected()) if caller.disconnected else None
         try:
-            either = {outcome} if leaving is None else {outcome, leaving}
+            either = {outcome} if disconnect is None else {outcome, disconnect}
             await asyncio.wait(either, timeout=2 * pool.seconds, return_when=asyncio.FIRST_COMPLETED)
             if not outcome.done():
                 raise OverdueError(f"This took longer than the {pool.seconds:g} s that the server gives it.")
@@ -217,11 +217,11 @@ class Compute:
                 raise OverdueError(f"This took longer than {pool.seconds:g} s and was given up.") from error
         finally:
             if not outcome.done():
-                job.called_off.set()
+                job.cancelled.set()
                 pool.queue.drop(job)
                 outcome.cancel()
-            if leaving is not None:
-                leaving.cancel()
+            if disconnect is not None:
+                disconnect.cancel()
 
     def close(self) -> None:
         """Drops what waits and stops the threads."""
@@ -230,7 +230,7 @@ class Compute:
             task.cancel()
         for pool in (self._quick, self._slow):
             for job in pool.queue.close():
-                job.called_off.set()
+                job.cancelled.set()
                 job.future.cancel()
 
     def join(self) -> None:
@@ -248,7 +248,7 @@ class Compute:
             self._failure = error
             _log.exception("the derivation failed")
         finally:
-            self._warm.set()
+            self._derived.set()
         self._kernels.run()
         if self.ready and engine().compiled:
             warm_up(STRUCTURES)
@@ -256,7 +256,7 @@ class Compute:
             # stop every client for an eighth of a second.
             gc.collect()
             gc.freeze()
-            self._settled = True
+            self._compiled = True
 
 
-__all__ = ["Asking", "BusyError", "Compute", "OverdueError", "asking", "still_wanted"]
+__all__ = ["BusyError", "Caller", "Compute", "OverdueError", "check_cancelled", "current_caller"]

@@ -26,12 +26,12 @@ class OverdueError(Exception):
 
 @dataclass(eq=False)
 class Job:
-    """A piece of work: `future` becomes its outcome, and once `called_off` is set nobody wants it any more."""
+    """A piece of work: `future` becomes its outcome, and once `cancelled` is set nobody wants it any more."""
 
     client: Client
     work: Any
     future: Future[Any] = field(default_factory=Future)
-    called_off: threading.Event = field(default_factory=threading.Event)
+    cancelled: threading.Event = field(default_factory=threading.Event)
 
 
 class FairQueue:

@@ -14,7 +14,7 @@ KEPT_SECONDS = 1800.0
 
 
 @dataclass
-class _Kept:
+class _Entry:
     """A table, who sent it, and when it was last used."""
 
     table: Table
@@ -36,7 +36,7 @@ class RecordingStore:
     """
 
     def __init__(self, most: int, most_bytes: int) -> None:
-        self._kept: OrderedDict[str, _Kept] = OrderedDict()
+        self._kept: OrderedDict[str, _Entry] = OrderedDict()
         self._most, self._most_bytes = most, most_bytes
 
     def __len__(self) -> int:
@@ -45,8 +45,8 @@ class RecordingStore:
     def put(self, table: Table, owner: str = "", name: str = "") -> str:
         """Keeps a table, and its file's name, under a new key."""
         key = secrets.token_urlsafe(18)
-        self._drop_old()
-        self._kept[key] = _Kept(table, owner, monotonic(), name)
+        self._drop_expired()
+        self._kept[key] = _Entry(table, owner, monotonic(), name)
         while len(self._kept) > 1 and (len(self._kept) > self._most or self._bytes() > self._most_bytes):
             self._drop_one(key)
         return key
@@ -61,7 +61,7 @@ class RecordingStore:
 
     def named(self, key: str) -> tuple[str, Table]:
         """The file's name and the table under that key, see `get`."""
-        self._drop_old()
+        self._drop_expired()
         if key not in self._kept:
             raise RecordingError(
                 "the server does not hold this recording any more",
@@ -77,7 +77,7 @@ class RecordingStore:
     def _bytes(self) -> int:
         return sum(kept.size for kept in self._kept.values())
 
-    def _drop_old(self) -> None:
+    def _drop_expired(self) -> None:
         now = monotonic()
         while self._kept and now - next(iter(self._kept.values())).used > KEPT_SECONDS:
             self._kept.popitem(last=False)
@@ -87,6 +87,6 @@ class RecordingStore:
         held: Counter[str] = Counter()
         for kept in self._kept.values():
             held[kept.owner] += kept.size
-        greedy = max(held, key=lambda owner: held[owner])
+        largest_owner = max(held, key=lambda owner: held[owner])
         old = [key for key, kept in self._kept.items() if key != newest]
-        del self._kept[next((key for key in old if self._kept[key].owner == greedy), old[0])]
+        del self._kept[next((key for key in old if self._kept[key].owner == largest_owner), old[0])]

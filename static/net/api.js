@@ -120,8 +120,8 @@ export const sampleRecording = async (design) =>
 export const overlayRecording = (id, body) =>
   call(`api/v1/recordings/${encodeURIComponent(id)}/overlay`, { method: 'POST', body });
 
-/** The motion of a design. @param {'html'|'viser'} format @param {unknown} design */
-export const recordMotion = (format, design) => fileOf(`api/v1/recording?format=${format}`, design);
+/** The motion of a design as a file. @param {'html'|'viser'} format @param {unknown} design */
+export const motionFile = (format, design) => fileOf(`api/v1/motion?format=${format}`, design);
 /**
  * A design for another program or for print.
  * @param {string} format

@@ -1,6 +1,6 @@
 /** The small menu beside the transport: the rig in a window of its own, and its motion as a file to take away. */
 import { bodyOf, scenarioOf } from '../model/index.js';
-import { recordMotion, windowAddress } from '../net/index.js';
+import { motionFile, windowAddress } from '../net/index.js';
 import { copyText, h, popupButton, saveFile, setText, svg } from '../ui/index.js';
 
 const arrow = () =>
@@ -41,9 +41,9 @@ export function sceneMenu(store, session) {
     const save = async (format) => {
       const request = requestOf(store.state);
       if (!request) return;
-      setText(told, 'Recording…');
+      setText(told, 'Making the file…');
       try {
-        saveFile(`heli2dof-motion.${format}`, await recordMotion(format, request));
+        saveFile(`heli2dof-motion.${format}`, await motionFile(format, request));
         setText(told, 'Saved.');
       } catch (error) {
         setText(told, error instanceof Error ? error.message : String(error));

@@ -97,7 +97,7 @@ def resources(server: WholeServer) -> Resources:
     jobs = sum(compute.waiting.values()) + sum(compute.running.values())
     return Resources(
         (
-            server.app.state.limits.sockets,
+            server.app.state.socket_counts.total,
             jobs,
             threading.active_count(),
             len(list(Path("/proc/self/fd").iterdir())),

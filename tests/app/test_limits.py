@@ -13,7 +13,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from app.edge.limits import Buckets, Limits, OpenSockets, address_of
+from app.edge.limits import Buckets, Limits, SocketCounts, address_of
 from app.ops.settings import Settings
 from app.work.compute import Compute
 from app.work.fair_queue import BusyError, FairQueue, Job
@@ -106,7 +106,7 @@ def test_too_many_sockets_are_closed_with_1013(server):
     finally:
         for peer in peers:
             peer.close()
-    until(lambda: server.app.state.limits.sockets == 0, "all sockets are forgotten")
+    until(lambda: server.app.state.socket_counts.total == 0, "all sockets are forgotten")
 
 
 def test_slow_work_is_given_up_after_its_time():
@@ -118,7 +118,7 @@ def test_slow_work_is_given_up_after_its_time():
         until(lambda: server.app.state.compute.running["slow"] == 0, "the thread is free again")
 
 
-def asking(server) -> socket.socket:
+def slow_request(server) -> socket.socket:
     """One who has asked for what takes minutes."""
     peer = socket.create_connection(("127.0.0.1", server.port))
     body = b'{"samples": 20000, "scenario": {"duration": 600, "rtol": 1e-12}}'
@@ -129,9 +129,9 @@ def asking(server) -> socket.socket:
 
 def test_when_too_much_waits_more_is_refused_and_who_goes_makes_room(server, http):
     compute = server.app.state.compute
-    first = asking(server)
+    first = slow_request(server)
     until(lambda: compute.running["slow"] == 1, "the work begins")
-    others = [asking(server) for _ in range(SMALL["slow_waiting"])]
+    others = [slow_request(server) for _ in range(SMALL["slow_waiting"])]
     until(lambda: compute.waiting["slow"] == SMALL["slow_waiting"], "the others wait")
     busy = http.post("/api/v1/robustness", json=STIFF)
     refused(busy, 503, "busy")
@@ -255,7 +255,7 @@ def test_a_class_behind_one_address_meets_no_limit():
         async def receive():
             return {"type": "http.request"}
 
-        limits = Limits(app, usual, OpenSockets(), lambda: now)
+        limits = Limits(app, usual, SocketCounts(), lambda: now)
         open_sockets = [asyncio.create_task(limits(peer, receive, send)) for peer in peers]
         await asyncio.wait(
             {asyncio.create_task(all_in.wait()), *open_sockets}, return_when=asyncio.FIRST_COMPLETED

@@ -11,7 +11,7 @@ import pytest
 
 from app.contract import models
 from app.contract.encoding import ARRAY_KEY, BINARY_SUBPROTOCOL, binary_frame
-from app.routes.live import Newest
+from app.routes.live import Mailbox
 from tests.loops import run
 from tests.patience import until
 
@@ -38,14 +38,14 @@ def test_of_waiting_requests_only_the_newest_is_answered(client):
 
 def test_mailbox_keeps_the_newest():
     async def scene():
-        newest = Newest()
-        newest.put("old")
-        newest.put("new")
-        first = await newest.take()
-        waiting = asyncio.create_task(newest.take())
+        mailbox = Mailbox()
+        mailbox.put("old")
+        mailbox.put("new")
+        first = await mailbox.take()
+        waiting = asyncio.create_task(mailbox.take())
         await asyncio.sleep(0)
         assert not waiting.done()
-        newest.put("next")
+        mailbox.put("next")
         return first, await waiting
 
     assert run(scene()) == ("new", "next")
@@ -131,7 +131,7 @@ def test_quick_requests_are_answered_without_a_thread_and_others_with_one(client
         ({"method": "tits-yang"}, 1),
         ({"poles": [1, 2, 3]}, 0),  # a problem is quick
     ]
-    until(lambda: compute.settled, "all is derived and compiled")
+    until(lambda: compute.compiled, "all is derived and compiled")
     for body, threads in requests:
         threaded.clear()
         with client.websocket_connect("/api/v1/live") as socket:

@@ -306,15 +306,37 @@ def test_what_is_called_at_every_drag_knows_no_states(client):
     assert post(client, "evaluate", {"states": True}, status=422)["field"] == "states"
 
 
-def test_recording_is_a_file_and_refuses_what_is_wrong(client):
+def test_motion_is_a_file_and_refuses_what_is_wrong(client):
     body = {"scenario": {"duration": 0.5, "reference": {"theta": 0.1}}}
-    page = client.post("/api/v1/recording", json=body)
+    page = client.post("/api/v1/motion", json=body)
     assert page.status_code == 200
     assert page.headers["content-type"].startswith("text/html")
     assert page.headers["content-disposition"] == 'attachment; filename="heli2dof-motion.html"'
     assert "poles −12, −10, −9.25, −8.76 rad/s</title>" in page.text
-    file = client.post("/api/v1/recording?format=viser", json=body)
+    file = client.post("/api/v1/motion?format=viser", json=body)
     assert file.content[8:12] == b"\x28\xb5\x2f\xfd"  # Zstandard, behind the length
-    assert client.post("/api/v1/recording?format=avi", json=body).json()["field"] == "format"
-    wrong = client.post("/api/v1/recording", json={"poles": [-1, -2]})
+    assert client.post("/api/v1/motion?format=avi", json=body).json()["field"] == "format"
+    wrong = client.post("/api/v1/motion", json={"poles": [-1, -2]})
+    assert (wrong.status_code, wrong.json()["field"]) == (422, "poles")
+
+
+@pytest.mark.parametrize(
+    "query", ["", "?format=viser", "?format=viser&session=a_b-c", "?name=%C3%A4+%26%3D%2Fb"]
+)
+def test_former_address_of_the_motion_redirects(client, query):
+    reply = client.post(f"/api/v1/recording{query}", json={}, follow_redirects=False)
+    assert (reply.status_code, reply.headers["location"]) == (308, f"motion{query}")
+    assert client.get(f"/api/v1/recording{query}").status_code == 405
+    assert "/api/v1/recording" not in client.get("/openapi.json").json()["paths"]
+
+
+def test_who_follows_the_former_address_gets_the_file(client):
+    body = {"scenario": {"duration": 0.5, "reference": {"theta": 0.1}}}
+    for kind, at, mark in (("html", 0, b"<!doctype html>"), ("viser", 8, b"\x28\xb5\x2f\xfd")):
+        reply = client.post(f"/api/v1/recording?format={kind}", json=body, follow_redirects=True)
+        assert [(r.status_code, r.request.method) for r in reply.history] == [(308, "POST")]
+        assert (reply.status_code, reply.request.method) == (200, "POST")
+        assert reply.headers["content-disposition"] == f'attachment; filename="heli2dof-motion.{kind}"'
+        assert reply.content[at : at + len(mark)].lower() == mark
+    wrong = client.post("/api/v1/recording", json={"poles": [-1, -2]}, follow_redirects=True)
     assert (wrong.status_code, wrong.json()["field"]) == (422, "poles")

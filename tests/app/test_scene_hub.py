@@ -285,10 +285,10 @@ def test_of_what_waits_only_the_newest_stays():
         room.join(window)
         for k in range(1000):
             room.show(frame(after=k), page)
-            room.run(msgspec.convert({**RUN, "at": float(k)}, Transport), page)
+            room.set_transport(msgspec.convert({**RUN, "at": float(k)}, Transport), page)
             room.edit({"pitch.first": -float(k), f"name{k % 3}": k})
         for member in (window, page):
-            sending = asyncio.create_task(member.send_to(Socket()))  # pyright: ignore
+            sending = asyncio.create_task(member.send_pending(Socket()))  # pyright: ignore
             before = -1
             while before < len(sent):  # a turn in which nothing is sent is the last
                 before = len(sent)

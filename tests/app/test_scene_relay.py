@@ -13,7 +13,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from app.scene.relay import BURST, LARGEST_MESSAGE, RATE, admissible
+from app.scene.relay import BURST, LARGEST_MESSAGE, RATE, allowed_frame
 from tests.patience import until
 from tests.scene_client import (
     CAMERA,
@@ -109,7 +109,7 @@ def test_camera_reaches_viser(server: SceneServer):
 
 
 def test_camera_is_admissible():
-    assert admissible(encode(CAMERA)) == encode(CAMERA)
+    assert allowed_frame(encode(CAMERA)) == encode(CAMERA)
 
 
 @pytest.mark.parametrize(
@@ -127,7 +127,7 @@ def test_camera_is_admissible():
     ],
 )
 def test_nothing_else_is_admissible(frame: bytes):
-    assert admissible(frame, lambda _id, updates: None) is None
+    assert allowed_frame(frame, lambda _id, updates: None) is None
 
 
 @pytest.mark.parametrize(("frame", "code"), [(b"\0" * LARGEST_MESSAGE, 1009), ("text", 1003)])
@@ -227,10 +227,10 @@ def heard_by(server: SceneServer, name: str) -> list[tuple[str, float]]:
 def test_of_all_of_visers_messages_two_pass():
     told = sorted(viser_types())
     assert "ShareUrlRequest" in told and len(told) > 80
-    allowed = [name for name in told if admissible(encode(CAMERA | {"type": name}))]
+    allowed = [name for name in told if allowed_frame(encode(CAMERA | {"type": name}))]
     assert allowed == ["ViewerCameraMessage"]
     update = {"uuid": "x", "updates": {"value": 1}}
-    by_panel = [name for name in told if admissible(encode({"type": name, **update}), lambda _id, u: u)]
+    by_panel = [name for name in told if allowed_frame(encode({"type": name, **update}), lambda _id, u: u)]
     assert by_panel == ["GuiUpdateMessage"]
 
 

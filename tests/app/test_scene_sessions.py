@@ -40,7 +40,7 @@ def server() -> Iterator[SceneServer]:
 
 
 def test_full_server_says_so_and_makes_room_when_someone_leaves():
-    with serving(capacity=1, spare_seconds=0.0) as small:
+    with serving(capacity=1, evict_after_seconds=0.0) as small:
         with watch(small, "first") as first:
             replay(first)
             with watch(small, "second") as second:

@@ -61,10 +61,7 @@ RULES: dict[str, dict[str, str]] = {
         DESIGN,
     ),
     **dict.fromkeys(
-        [
-            f"POST /api/v1/{name}"
-            for name in ("step", "evaluate", "compare", "recording", "recordings/sample")
-        ],
+        [f"POST /api/v1/{name}" for name in ("step", "evaluate", "compare", "motion", "recordings/sample")],
         EXPERIMENT,
     ),
     "POST /api/v1/export/{format}": EXPERIMENT,

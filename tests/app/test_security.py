@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from urllib.parse import urljoin
 
 import pytest
 from starlette.testclient import TestClient, WebSocketDenialResponse
@@ -106,7 +107,7 @@ def test_a_page_over_tls_has_its_browsing_context_to_itself():
 
 
 def test_files_to_take_away_are_attachments(client):
-    for call in ("recording?format=html", "export/report"):
+    for call in ("motion?format=html", "export/report"):
         reply = client.post(f"/api/v1/{call}", json={"scenario": {"duration": 0.5}})
         assert reply.status_code == 200
         assert reply.headers["content-disposition"].startswith("attachment")
@@ -257,6 +258,21 @@ def test_everything_is_found_below_a_prefix_whether_the_proxy_strips_it_or_not(s
         ):
             assert client.get(path if stripped else f"/lab/one{path}").status_code == 200, path
         assert client.get("/static/no.js").status_code == 404
+
+
+@pytest.mark.parametrize("stripped", [False, True])
+def test_the_motions_former_address_leads_to_the_new_one_below_a_prefix(stripped: bool):
+    old = "/lab/one/api/v1/recording?format=viser"
+    asked = old.removeprefix("/lab/one") if stripped else old
+    with app_with(root_path="/lab/one") as client:
+        moved = client.post(asked, json={})
+        assert moved.status_code == 308
+        leads_to = urljoin(f"http://lab.example{old}", moved.headers["location"])
+        assert leads_to == "http://lab.example/lab/one/api/v1/motion?format=viser"
+        # Method and body arrive: the refusal is of the body that was sent.
+        wrong = client.post(asked, json={"poles": [-1, -2]}, follow_redirects=True)
+        assert [reply.status_code for reply in (*wrong.history, wrong)] == [308, 422]
+        assert wrong.json()["field"] == "poles"
 
 
 def test_sockets_that_the_server_does_not_know_are_refused():

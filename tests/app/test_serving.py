@@ -13,7 +13,7 @@ from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
 from app.cli.serving import listener
-from app.ops.kept_files import KeptFiles
+from app.ops.cached_files import CachedFiles
 from app.ops.settings import Settings
 from tests.loops import run
 
@@ -57,7 +57,7 @@ def folder(tmp_path: Path) -> Path:
 @pytest.fixture
 def client(folder: Path) -> TestClient:
     app = FastAPI()
-    app.mount("/static", KeptFiles(directory=folder))
+    app.mount("/static", CachedFiles(directory=folder))
     return TestClient(app)
 
 

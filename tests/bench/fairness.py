@@ -89,7 +89,7 @@ def others(port: int) -> list[Awaitable[None]]:
         *(identifications(port) for _ in range(2)),
         *(posts(port, "/compare", compared) for _ in range(2)),
         posts(port, "/export/report", {}),
-        posts(port, "/recording", {}),
+        posts(port, "/motion", {}),
     ]
 
 

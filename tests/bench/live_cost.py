@@ -1,4 +1,4 @@
-"""What metrics, request ids and goodbyes cost a live answer: python -m tests.bench.live_cost."""
+"""What metrics, request ids and the list of open sockets cost a live answer: python -m tests.bench.live_cost."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import asyncio
 import logging
 from time import perf_counter
 
+from app.edge.connections import Connections
 from app.edge.requests import Requests
 from app.edge.sockets import Sockets
-from app.edge.visits import Visits
 from app.ops.metrics import Metrics
 
 ROUNDS = 20_000
@@ -16,26 +16,26 @@ ROUNDS = 20_000
 
 async def _handler(scope, receive, send) -> None:
     """As app.routes.live handles its messages, less the mathematics."""
-    metrics, visit = scope["metrics"], scope.get("heli2dof.visit")
+    metrics, connection = scope["metrics"], scope.get("heli2dof.connection")
     await send({"type": "websocket.accept"})
     answer = {"type": "websocket.send", "bytes": b"x" * 40_000}
     while True:
         message = await receive()
         if message["type"] == "websocket.disconnect":
             return
-        if visit is not None:
+        if connection is not None:
             since = perf_counter()
-            visit.busy = True
+            connection.busy = True
         await send(answer)
-        if visit is not None:
+        if connection is not None:
             metrics.update.observe(perf_counter() - since)
             metrics.evaluations.inc()
-            await visit.rest()
+            await connection.set_idle()
 
 
-async def _seconds(surrounded: bool) -> float:
+async def _seconds(with_middleware: bool) -> float:
     metrics, left = Metrics(), ROUNDS
-    app = Requests(Sockets(_handler, metrics, Visits()), metrics) if surrounded else _handler
+    app = Requests(Sockets(_handler, metrics, Connections()), metrics) if with_middleware else _handler
 
     async def receive():
         nonlocal left

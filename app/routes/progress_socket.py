@@ -12,25 +12,25 @@ from fastapi import WebSocket, WebSocketDisconnect
 
 from ..contract.encoding import json_bytes
 from ..contract.problems import problem_of
-from ..edge.visits import visit_of
+from ..edge.connections import connection_of
 
 _log = logging.getLogger(__name__)
 Send = Callable[[str], Awaitable[None]]
 
 
-async def converse(socket: WebSocket, answer: Callable[[Any, Send], Awaitable[None]]) -> None:
+async def serve_with_progress(socket: WebSocket, answer: Callable[[Any, Send], Awaitable[None]]) -> None:
     """Lets `answer` send replies to each request, until the visitor goes; what it raises becomes a problem object."""
-    visit = visit_of(socket)
+    connection = connection_of(socket)
 
     async def answered(text: str | bytes) -> None:
         await _answer(socket, text, answer)
-        await visit.rest()
+        await connection.set_idle()
 
     await socket.accept()
     try:
         text = await _received(socket)
         while True:
-            visit.busy = True
+            connection.busy = True
             answering = asyncio.create_task(answered(text))
             try:
                 text = await _received(socket)

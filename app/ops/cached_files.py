@@ -53,7 +53,7 @@ class Content:
         return Response(packed or self.plain, media_type=self.media_type, headers=headers)
 
 
-class KeptFiles(StaticFiles):
+class CachedFiles(StaticFiles):
     """A folder's files. Browsers ask about them again (no-cache, ETag), so that an upgrade shows at once.
 
     Starlette's own answers cost three changes of thread each. Here only the file's date is looked at, and its

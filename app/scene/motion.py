@@ -15,13 +15,13 @@ import numpy as np
 from heli2dof_core.geometry import RigName
 from heli2dof_core.signals import Floats
 
-from .page import taken_away
+from .page import standalone_page
 from .poses import Motion, Slot, states
 
 if TYPE_CHECKING:
     from .rig import RigServer
 
-Format = Literal["html", "viser"]
+MotionFormat = Literal["html", "viser"]
 RATE = 30.0
 """Frames per second; between two the rig stands still."""
 MOST_FRAMES = 1800
@@ -35,8 +35,8 @@ def frame_times(duration: float) -> Floats:
     return np.linspace(0.0, duration, count + 1)
 
 
-def record(rig: RigName, motion: Motion, kind: Format, title: str = "heli2dof") -> bytes:
-    """Return the rig playing the motion, again and again.
+def motion_file(rig: RigName, motion: Motion, kind: MotionFormat, title: str = "heli2dof") -> bytes:
+    """Return a file in which the rig plays the motion, again and again.
 
     Takes a quarter of a second and a viser server of its own for as long.
     """
@@ -48,10 +48,10 @@ def record(rig: RigName, motion: Motion, kind: Format, title: str = "heli2dof") 
         content = _played(server, frames, kind)
     finally:
         server.stop()
-    return content if isinstance(content, bytes) else taken_away(content, title).encode()
+    return content if isinstance(content, bytes) else standalone_page(content, title).encode()
 
 
-def _played(server: RigServer, frames: Motion, kind: Format) -> bytes | str:
+def _played(server: RigServer, frames: Motion, kind: MotionFormat) -> bytes | str:
     nodes: dict[str, Any] = {}
     shown: dict[Slot, Any] = {}
 

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 import zstandard
 
+from app.scene.motion import MOST_FRAMES, REST, frame_times, motion_file
 from app.scene.poses import Motion, State, rotor_angles, states
-from app.scene.recording import MOST_FRAMES, REST, frame_times, record
 
 ROOT = Path(__file__).parents[2]
 ASKED = """
@@ -64,7 +64,7 @@ def state_of(told: list[dict[str, Any]]) -> State:
     return state
 
 
-def test_recorded_poses_are_those_of_the_page():
+def test_poses_are_those_of_the_page():
     given = motion()
     for mine, told in zip(states(given), of_the_page(given), strict=True):
         page = state_of(told)
@@ -100,7 +100,7 @@ def test_frames_span_the_motion_and_are_bounded(duration: float, frames: int):
     assert (times[0], times[-1], len(times)) == (0.0, duration, frames)
 
 
-def recorded(content: bytes) -> dict[str, Any]:
+def read_viser(content: bytes) -> dict[str, Any]:
     """What is in a .viser file, without its binary buffers."""
     inner = zstandard.ZstdDecompressor().decompress(
         content[8:], max_output_size=int.from_bytes(content[:8], "little")
@@ -109,9 +109,9 @@ def recorded(content: bytes) -> dict[str, Any]:
     return msgspec.msgpack.decode(inner[8 : 8 + size])
 
 
-def test_recording_turns_the_rig_along_the_trajectory():
+def test_file_turns_the_rig_along_the_trajectory():
     given = motion(samples=501, duration=2.0)
-    told = recorded(record("helicopter", given, "viser"))
+    told = read_viser(motion_file("helicopter", given, "viser"))
     assert told["durationSeconds"] == pytest.approx(2.0 + REST)
     turns = [
         (time, message["wxyz"])
@@ -123,11 +123,11 @@ def test_recording_turns_the_rig_along_the_trajectory():
         assert -2.0 * math.atan2(z, w) == pytest.approx(0.5 * time, abs=1e-3)
 
 
-def test_each_rig_is_recorded_as_itself():
+def test_each_rig_plays_as_itself():
     short = motion(samples=3, duration=0.1)
     pivots = []
     for rig in ("helicopter", "aero"):
-        told = recorded(record(rig, short, "viser"))["messages"]
+        told = read_viser(motion_file(rig, short, "viser"))["messages"]
         pivots += [
             m["position"][2]
             for _, m in told
@@ -137,7 +137,7 @@ def test_each_rig_is_recorded_as_itself():
 
 
 def test_page_is_whole_and_its_title_is_text():
-    page = record("aero", motion(samples=3, duration=0.1), "html", "<b>2 & 3</b>").decode()
+    page = motion_file("aero", motion(samples=3, duration=0.1), "html", "<b>2 & 3</b>").decode()
     assert "<title>&lt;b&gt;2 &amp; 3&lt;/b&gt;</title>" in page
     assert page.count("__VISER_EMBED_DATA__=") == 1
     assert 'src="http' not in page

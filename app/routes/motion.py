@@ -1,11 +1,13 @@
-"""POST recording: a design and an experiment in, the rig's motion as a file out."""
+"""POST motion: a design and an experiment in, the rig's motion as a file out."""
 
 from __future__ import annotations
 
 import asyncio
 from typing import Annotated, Any
+from urllib.parse import quote
 
-from fastapi import APIRouter, HTTPException, Query, Response
+from fastapi import APIRouter, HTTPException, Query, Request, Response
+from fastapi.responses import RedirectResponse
 
 from heli2dof_core import Spec, close_loop, place, preset, simulate
 from heli2dof_core.geometry import RigName
@@ -13,40 +15,49 @@ from heli2dof_core.scenario import Model
 
 from ..contract.models import described
 from ..contract.requests import StepRequest
+from ..scene.motion import MotionFormat, motion_file
 from ..scene.poses import Motion
-from ..scene.recording import Format, record
 from ..work.compute import Compute
 
-Kind = Annotated[Format, Query(alias="format")]
+Kind = Annotated[MotionFormat, Query(alias="format")]
 MOST_WAITING = 8
-"""Recordings asked for at one time; one is made after the other."""
-_TYPES: dict[Format, str] = {"html": "text/html; charset=utf-8", "viser": "application/octet-stream"}
-_NAMES: dict[Format, str] = {"html": "heli2dof-motion.html", "viser": "heli2dof-motion.viser"}
+"""Files asked for at one time; one is made after the other."""
+_QUERY_CHARACTERS = ":/%#?=@[]!$&'()*+,;"
+"""Left as they are in an address; what else a client may have sent there is percent-encoded."""
+_TYPES: dict[MotionFormat, str] = {"html": "text/html; charset=utf-8", "viser": "application/octet-stream"}
+_NAMES: dict[MotionFormat, str] = {"html": "heli2dof-motion.html", "viser": "heli2dof-motion.viser"}
 
 
 def build_router(compute: Compute) -> APIRouter:
-    """The route recording under /api/v1."""
+    """The route motion under /api/v1, and the address that it had before."""
     router = APIRouter(prefix="/api/v1", tags=["scene"])
     free = asyncio.Lock()
     waiting = 0
 
-    @router.post("/recording", **_described())
-    async def recording(request: StepRequest, kind: Kind = "html") -> Response:
+    @router.post("/motion", **_described())
+    async def motion(request: StepRequest, kind: Kind = "html") -> Response:
         nonlocal waiting
         if waiting >= MOST_WAITING:
-            busy = "Too many recordings are being made at this moment; try again in a few seconds."
+            busy = "Too many motions are being made into files at this moment; try again in a few seconds."
             raise HTTPException(503, busy, {"Retry-After": "5"})
         rig, title = _of_rig(request)
         spec = request.to_spec()
         waiting += 1
         try:
-            motion = await compute.run_slow(_motion, spec, request.scenario.model)
+            played = await compute.run_slow(_motion, spec, request.scenario.model)
             async with free:  # one at a time leaves a processor to the designs
-                content = await asyncio.to_thread(record, rig, motion, kind, _title(title, spec))
+                content = await asyncio.to_thread(motion_file, rig, played, kind, _title(title, spec))
         finally:
             waiting -= 1
         name = {"Content-Disposition": f'attachment; filename="{_NAMES[kind]}"'}
         return Response(content, media_type=_TYPES[kind], headers=name)
+
+    # The former address, for this version still; left out of the schema, so that no new client is made for it.
+    @router.post("/recording", include_in_schema=False)
+    async def moved(request: Request) -> Response:
+        query = quote(request.scope["query_string"], safe=_QUERY_CHARACTERS)
+        # Relative: a proxy may have cut a prefix off that the client's address has.
+        return RedirectResponse(f"motion?{query}" if query else "motion", 308)
 
     return router
 
@@ -76,7 +87,7 @@ def _pole(p: complex) -> str:
 
 def _described() -> dict[str, Any]:
     """Route options for the schema: a file instead of JSON."""
-    options = described(None, "The motion as a file: an HTML page that plays offline, or a .viser recording")
+    options = described(None, "The motion as a file: an HTML page that plays offline, or a .viser file")
     content = {kind.partition(";")[0]: {"schema": {"type": "string"}} for kind in _TYPES.values()}
     del options["responses"][200]["model"]
     options["responses"][200]["content"] = content
