@@ -18,7 +18,6 @@ from .findings import Finding
 from .interop import state_space
 from .kernels.layout import POLYNOMIAL_WORKSPACE, POLYNOMIALS, ROUNDING
 from .placement.exact import exact_coefficients, exact_matrix, float_matrix
-from .placement.lqr_integral import IntegralPlacement
 from .placement.method import Task, Weights
 from .placement.registry import method as method_named
 from .placement.verdict import Verdict, eigenvector_condition, judge
@@ -201,12 +200,13 @@ def design(
         MethodUnavailableError: the method cannot place these poles on this rig.
     """
     chosen = method_named(method)
-    if method == FULL_RANK:
+    if chosen.structured:
         return Design(plant, poles, method, structure, *full_rank_gain(plant, poles, structure))
     placed = chosen.place(Task(plant.A, plant.B, poles.array, C, weights))
-    integral = placed.integral if isinstance(placed, IntegralPlacement) else None
     K = np.ascontiguousarray(placed.K, dtype=np.float64)
-    return Design(plant, poles, method, None, K, K[:, :2] - plant.statics, integral, chosen.places_poles)
+    return Design(
+        plant, poles, method, None, K, K[:, :2] - plant.statics, placed.integral, chosen.places_poles
+    )
 
 
 def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> tuple[Floats, Floats]:

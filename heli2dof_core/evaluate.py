@@ -7,12 +7,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from .behaviour import Experiment, behaviour_remarks
-from .design import FULL_RANK, Design, design
+from .design import Design, design
 from .findings import Finding, merged
 from .interaction import Interaction, interaction
 from .loop import Loop, close_loop
 from .margins import Margins, loop_margins, margin_table
 from .metrics import StepMetrics, step_metrics
+from .placement.registry import method
 from .plant import plant
 from .scenario import Model, Scenario
 from .sensitivity import Sensitivity, loop_sensitivity
@@ -118,7 +119,7 @@ class Report(Shown):
 
 def place(spec: Spec) -> Design:
     """The design alone."""
-    weights = None if spec.method == FULL_RANK else spec.weights or bryson_weights(spec.limits)
+    weights = spec.weights or bryson_weights(spec.limits) if method(spec.method).weighted else None
     return design(plant(spec.parameters, spec.theta_0), spec.poles, spec.structure, spec.method, weights)
 
 

@@ -69,6 +69,7 @@
  * @property {string} title
  * @property {string} source
  * @property {boolean} places_poles
+ * @property {boolean} integrates  whether it brings integral action, in place of the PI loops
  * @property {boolean} available
  * @property {string} [needs]  the package that it is computed with
  *

@@ -13,7 +13,8 @@ class Method(Model):
     name: str
     title: str
     source: str
-    places_poles: bool
+    places_poles: bool = Field(description="whether it takes the poles given, rather than choose its own")
+    integrates: bool = Field(description="whether it brings integral action, in place of the PI loops")
     available: bool
     couplings: list[str]
     leads: list[str]

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from importlib.util import find_spec
 
 from heli2dof_core.comparison import STRUCTURES, Comparison, Row, Split
-from heli2dof_core.design import FULL_RANK
 from heli2dof_core.placement.assess import Assessment
-from heli2dof_core.placement.full_rank import FullRankPlacement
-from heli2dof_core.placement.lqr_integral import IntegralPlacement
 from heli2dof_core.placement.method import Method
 from heli2dof_core.placement.registry import METHODS
 
@@ -46,14 +42,9 @@ def assessment_reply(result: Assessment) -> Reply:
         reply["pole_error_bound"] = result.pole_error_bound
     if result.eigenvector_condition is not None:
         reply["eigenvector_condition"] = result.eigenvector_condition
-    if isinstance(placement, IntegralPlacement):
+    if placement.integral is not None:
         reply["integral"] = placement.integral.tolist()
-    if isinstance(placement, FullRankPlacement):
-        reply["T"] = placement.T.tolist()
-        reply["Q"] = placement.Q.tolist()
-        reply["controllability_indices"] = list(placement.controllability_indices)
-        reply["groups"] = [asdict(group) for group in placement.groups]
-    return reply
+    return reply | placement.construction()
 
 
 def comparison_reply(comparison: Comparison) -> Reply:
@@ -77,16 +68,16 @@ def splits_reply(splits: tuple[Split, ...]) -> list[Reply]:
 
 
 def _method(method: Method) -> Reply:
-    own = method.name == FULL_RANK
     needs = {} if method.needs is None else {"needs": method.needs}
     return {
         "name": method.name,
         "title": method.title,
         "source": method.source,
         "places_poles": method.places_poles,
+        "integrates": method.integrates,
         "available": method.needs is None or find_spec(method.needs) is not None,
-        "couplings": list(dict.fromkeys(s.coupling for s in STRUCTURES)) if own else [],
-        "leads": ["pitch", "yaw"] if own else [],
+        "couplings": list(dict.fromkeys(s.coupling for s in STRUCTURES)) if method.structured else [],
+        "leads": ["pitch", "yaw"] if method.structured else [],
         **needs,
     }
 

@@ -52,7 +52,7 @@ def origin(spec: Spec, name: str, link: str = "") -> list[str]:
 
 def structure_in_words(spec: Spec) -> str:
     """The placement method and, for full-rank placement, its structure."""
-    if spec.method != "full-rank":
+    if not METHODS[spec.method].structured:
         return spec.method
     structure = spec.structure
     lead = f", {structure.lead} leads" if structure.coupling == "triangular" else ""
@@ -63,7 +63,7 @@ def structure_in_words(spec: Spec) -> str:
 def outer_in_words(spec: Spec) -> str:
     """What is around the state feedback."""
     outer = spec.outer
-    if spec.method == "lqr-integral":
+    if METHODS[spec.method].integrates:
         return "the method's own integral action"
     if outer.outer == "none":
         return "none, v = G(0)^-1 r"

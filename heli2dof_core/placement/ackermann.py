@@ -6,17 +6,15 @@ import numpy as np
 
 from ..signals import Floats
 from .dyadic import krylov, place_dyadic
-from .method import Placement, Task
+from .method import Method, Placement, Task
 
 
-class Ackermann:
+class Ackermann(Method):
     """k = [0 … 0 1] 𝒞⁻¹ d(A), applied to the input direction with the smallest gain."""
 
     name = "ackermann"
     title = "Ackermann's formula, dyadic input"
     source = "J. Ackermann, Regelungstechnik 20 (1972) 297–300; dyadic: Gopinath, IEEE TAC 16 (1971) 230"
-    needs = None
-    places_poles = True
 
     def place(self, task: Task) -> Placement:
         """K = f k of rank one.

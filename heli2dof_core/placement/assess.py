@@ -13,7 +13,6 @@ from ..findings import Finding
 from ..signals import Complexes, Floats
 from ..tables import Shown, Table, number
 from ..tables import poles as pole_words
-from .full_rank import FullRankPlacement
 from .groups import conjugate_units
 from .method import Placement, Task, Weights, require_system
 from .registry import method as method_named
@@ -119,7 +118,7 @@ def assess(
 
 
 def _remarks(placement: Placement, wanted: Complexes, verdict: Verdict, *, aimed: bool) -> Iterator[Finding]:
-    if isinstance(placement, FullRankPlacement) and placement.weakest < NEARLY_DEPENDENT:
+    if placement.weakest is not None and placement.weakest < NEARLY_DEPENDENT:
         yield Finding(
             "nearly_uncontrollable",
             "warning",

@@ -6,17 +6,15 @@ import numpy as np
 
 from ..signals import Floats
 from .dyadic import krylov, place_dyadic
-from .method import Placement, Task
+from .method import Method, Placement, Task
 
 
-class BassGura:
+class BassGura(Method):
     """k = (d − a)(𝒞 W)⁻¹ from the open-loop polynomial, along the direction with the smallest gain."""
 
     name = "bass-gura"
     title = "Bass–Gura formula, dyadic input"
     source = "R. W. Bass and I. Gura, Proc. Joint Automatic Control Conf. (1965) 233–240"
-    needs = None
-    places_poles = True
 
     def place(self, task: Task) -> Placement:
         """K = f k of rank one.

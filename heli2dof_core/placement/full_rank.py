@@ -9,8 +9,8 @@ most of them.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, get_args
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,7 +20,7 @@ from ..errors import InvalidInputError
 from ..signals import Floats
 from .exact import exact_coefficients, exact_matrix, float_matrix
 from .groups import Group, assign, require_groups
-from .method import Placement, Task, require_system
+from .method import Method, Placement, Task, require_system
 
 if TYPE_CHECKING:  # SymPy is imported on the first placement
     from sympy.polys.matrices import DomainMatrix
@@ -28,7 +28,7 @@ if TYPE_CHECKING:  # SymPy is imported on the first placement
     from ..symbolic.luenberger import Triangle
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class FullRankPlacement(Placement):
     """A full-rank placement with its construction.
 
@@ -36,25 +36,32 @@ class FullRankPlacement(Placement):
         T: n×n, x̄ = Tx.
         Q: p×p, the nonzero rows of TB; its columns are the inputs as given.
         controllability_indices: σ, one per input as given.
-        weakest: smallest singular value that a column of the scan left (see `controllability.scan`).
         groups: the blocks of the closed loop, in the order of T.
     """
 
     T: Floats
     Q: Floats
     controllability_indices: tuple[int, ...]
-    weakest: float
     groups: tuple[Group, ...]
 
+    def construction(self) -> dict[str, Any]:
+        """T, Q, the controllability indices and the groups."""
+        return {
+            "T": self.T.tolist(),
+            "Q": self.Q.tolist(),
+            "controllability_indices": list(self.controllability_indices),
+            "groups": [asdict(group) for group in self.groups],
+        }
 
-class FullRank:
+
+class FullRank(Method):
     """Full-rank placement as one of the methods: poles dealt in their order, block-diagonal."""
 
     name = "full-rank"
     title = "Full-rank state feedback through Luenberger's canonical form"
     source = "Patel & Munro, Multivariable System Theory and Design, 1982; Luenberger, IEEE TAC 12 (1967) 290"
-    needs = None
-    places_poles = True
+
+    structured = True
 
     def place(self, task: Task) -> FullRankPlacement:
         """K = Q⁻¹ K̄ T with block-diagonal D."""

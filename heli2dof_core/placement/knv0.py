@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import MethodUnavailableError
-from .method import Placement, Task
+from .method import Method, Placement, Task
 from .robust import place_with_scipy
 
 
-class KNV0:
+class KNV0(Method):
     """Improves one eigenvector after the other; real poles only."""
 
     name = "knv0"
@@ -18,8 +18,6 @@ class KNV0:
         "J. Kautsky, N. K. Nichols and P. Van Dooren, Int. J. Control 41 (1985) 1129–1155; "
         "scipy.signal.place_poles"
     )
-    needs = None
-    places_poles = True
 
     def place(self, task: Task) -> Placement:
         """K with well-conditioned closed-loop eigenvectors.

@@ -6,11 +6,11 @@ import numpy as np
 
 from ..errors import InvalidInputError, MethodUnavailableError
 from ..signals import Floats
-from .method import Placement, Task, Weights
+from .method import Method, Placement, Task, Weights
 from .riccati import Regulator, refusal, require_stabilizing
 
 
-class LQR:
+class LQR(Method):
     """Minimizes ∫ (xᵀQx + uᵀRu) dt; chooses its own poles."""
 
     name = "lqr"
@@ -18,6 +18,7 @@ class LQR:
     source = "R. E. Kalman, Bol. Soc. Mat. Mexicana 5 (1960) 102–119; control.lqr"
     needs = "control"
     places_poles = False
+    weighted = True
 
     def place(self, task: Task) -> Placement:
         """The optimal K for the task's weights.

@@ -2,28 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..errors import MethodUnavailableError
-from ..signals import Floats
 from .lqr import regulate, require_weights
-from .method import Placement, Task
+from .method import Method, Placement, Task
 
 
-@dataclass(frozen=True)
-class IntegralPlacement(Placement):
-    """u = −Kx + K_z z, z = ∫ (r − y) dt.
-
-    Attributes:
-        integral: K_z, p×q.
-    """
-
-    integral: Floats
-
-
-class LQRIntegral:
+class LQRIntegral(Method):
     """Minimizes ∫ (xᵀQx + zᵀQ_z z + uᵀRu) dt; brings its own integrators in place of PI loops."""
 
     name = "lqr-integral"
@@ -33,8 +19,10 @@ class LQRIntegral:
     )
     needs = "control"
     places_poles = False
+    weighted = True
+    integrates = True
 
-    def place(self, task: Task) -> IntegralPlacement:
+    def place(self, task: Task) -> Placement:
         """The optimal K and K_z for the task's weights.
 
         Raises:
@@ -48,4 +36,4 @@ class LQRIntegral:
         n = len(task.A)
         Q = np.diag([*weights.states, *weights.integrals])
         K = regulate(task.A, task.B, Q, np.diag(weights.inputs), integrate=task.C)
-        return IntegralPlacement(K[:, :n], K[:, n:])
+        return Placement(K[:, :n], K[:, n:])

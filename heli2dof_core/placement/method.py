@@ -50,42 +50,46 @@ class Task:
 
 @dataclass(frozen=True)
 class Placement:
-    """A state feedback u = −Kx + v.
+    """A state feedback u = −Kx + v, or u = −Kx + K_z z with integral action, z = ∫ (r − y) dt.
 
     Attributes:
         K: p×n.
+        integral: K_z, p×q; None where the method brings no integral action.
+        weakest: smallest singular value that a column of the scan left (see `controllability.scan`); None where the
+            method looks for none.
     """
 
     K: Floats
+    integral: Floats | None = None
+    weakest: float | None = None
+
+    def construction(self) -> dict[str, Any]:
+        """What else the method found on its way, by name, in plain numbers and lists."""
+        return {}
 
 
 class Method(Protocol):
-    """One placement method; `registry.METHODS` holds them all."""
+    """One placement method; `registry.METHODS` holds them all.
 
-    @property
-    def name(self) -> str:
-        """For programs."""
-        ...
+    Attributes:
+        name: for programs.
+        title: for people.
+        source: who published it, and whose code runs.
+        needs: the distribution whose code runs, where it is an optional one.
+        places_poles: whether it takes the poles given, rather than choose its own.
+        weighted: whether it minimizes a cost, by `Task.weights`.
+        integrates: whether it brings integral action, which takes the PI loops' place.
+        structured: whether the closed loop's structure can be chosen (`couplings.Structure`).
+    """
 
-    @property
-    def title(self) -> str:
-        """For people."""
-        ...
-
-    @property
-    def source(self) -> str:
-        """Who published it, and whose code runs."""
-        ...
-
-    @property
-    def needs(self) -> str | None:
-        """The distribution whose code runs, where it is an optional one."""
-        ...
-
-    @property
-    def places_poles(self) -> bool:
-        """Whether it takes the poles given, rather than choose its own."""
-        ...
+    name: str
+    title: str
+    source: str
+    needs: str | None = None
+    places_poles: bool = True
+    weighted: bool = False
+    integrates: bool = False
+    structured: bool = False
 
     def place(self, task: Task) -> Placement:
         """The gain.

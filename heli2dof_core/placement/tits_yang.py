@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from .method import Placement, Task
+from .method import Method, Placement, Task
 from .robust import place_with_scipy
 
 
-class TitsYang:
+class TitsYang(Method):
     """Maximizes |det| of the eigenvector matrix over pairs of eigenvectors; complex poles allowed."""
 
     name = "tits-yang"
@@ -14,8 +14,6 @@ class TitsYang:
     source = (
         "A. L. Tits and Y. Yang, IEEE Trans. Autom. Control 41 (1996) 1432–1452; scipy.signal.place_poles"
     )
-    needs = None
-    places_poles = True
 
     def place(self, task: Task) -> Placement:
         """K with well-conditioned closed-loop eigenvectors."""

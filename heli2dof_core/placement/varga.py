@@ -12,20 +12,19 @@ from ..poles import pole_error
 from ..signals import Complexes, Floats
 from ..tables import poles as pole_words
 from .groups import conjugate_units
-from .method import Placement, Task
+from .method import Method, Placement, Task
 
 MISSED = 1e-3
 """Share of the largest pole by which a gain may miss the poles and still count as one that places them."""
 
 
-class Varga:
+class Varga(Method):
     """Moves the poles one or two at a time up the real Schur form of A."""
 
     name = "varga"
     title = "Varga's Schur method (SLICOT SB01BD)"
     source = "A. Varga, IEEE Trans. Autom. Control 26 (1981) 517–519; slycot.sb01bd"
     needs = "slycot"
-    places_poles = True
 
     def place(self, task: Task) -> Placement:
         """K from poles placed one after the other, without inverting a controllability matrix.

@@ -27,7 +27,7 @@ export {
 export { placeOf, remarksOf } from './finding_places.js';
 export { lockNames, LOCKS } from './locks.js';
 export { inverseOf, mixingOf } from './loop_values.js';
-export { FULL_RANK, keyOf, nameOf, partOf, placesPoles, STRUCTURES } from './methods.js';
+export { bringsIntegralAction, FULL_RANK, keyOf, nameOf, partOf, placesPoles, STRUCTURES } from './methods.js';
 export { colorOf, COLORS, differenceTable, FIGURES, letterOf } from './pins.js';
 export {
   character,

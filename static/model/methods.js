@@ -56,3 +56,8 @@ export function nameOf(way) {
 export function placesPoles({ design, methods }) {
   return methods.find((m) => m.name === design?.method)?.places_poles !== false;
 }
+
+/** Whether the method brings integral action, in place of the PI loops. @param {import('../types.js').State} state */
+export function bringsIntegralAction({ design, methods }) {
+  return methods.find((m) => m.name === design?.method)?.integrates === true;
+}

@@ -2,7 +2,7 @@
  * How the experiment is run: where it starts, what limits it, which controller, what disturbs it. Folded away; one line
  * says what differs from the standard.
  */
-import { experimentWords, isStandard, presetOf, standard } from '../model/index.js';
+import { bringsIntegralAction, experimentWords, isStandard, presetOf, standard } from '../model/index.js';
 import { h, setAttr, setText } from '../ui/index.js';
 import {
   AccuracyPart,
@@ -74,7 +74,8 @@ export class ExperimentPanel {
   }
 
   /** @param {import('../types.js').State} state */
-  render({ presets, design, reply, problem }) {
+  render(state) {
+    const { presets, design, reply, problem } = state;
     if (!design) return;
     const words = experimentWords(design.scenario).join(' · ');
     const findings = (reply?.findings ?? []).filter((f) => TOLD_HERE.includes(f.code) && !problem);
@@ -84,7 +85,8 @@ export class ExperimentPanel {
     this.reset.hidden = isStandard(design.scenario);
     this.summary.classList.toggle('refused', CONCERNED.test(problem?.field ?? ''));
     this.start.render(design);
-    this.limits.render(design, presetOf({ presets, design })?.limits.theta !== undefined);
+    const hasStops = presetOf({ presets, design })?.limits.theta !== undefined;
+    this.limits.render(design, { hasStops, own: bringsIntegralAction(state) });
     this.digital.render(design, findings);
     this.disturbance.render(design);
     this.accuracy.render(design);

@@ -183,14 +183,16 @@ export class LimitsPart {
     );
   }
 
-  /** @param {Design} design @param {boolean} hasStops */
-  render({ scenario, outer, method, loops }, hasStops) {
+  /**
+   * @param {Design} design
+   * @param {{hasStops: boolean, own: boolean}} rig whether pitch has stops, and the method integral action without a T_i
+   */
+  render({ scenario, outer, loops }, { hasStops, own }) {
     const { saturation, anti_windup, travel_stops, trim_feedforward } = { ...STANDARD, ...scenario };
     this.saturation.input.checked = saturation;
     this.stops.input.checked = travel_stops;
     this.stops.input.disabled = !hasStops;
     this.trim.input.checked = trim_feedforward;
-    const own = method === 'lqr-integral'; // integral action without a T_i
     const idle = !saturation || (outer === 'none' && !own);
     this.windup.set(anti_windup);
     this.windup.disable(idle);

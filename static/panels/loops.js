@@ -1,7 +1,7 @@
 /**
  * The outer loops: on or off, their PI values, how they are paired; and the method that makes the inner loop's gain.
  */
-import { bodyOf, FULL_RANK, keyOf, nameOf, partOf, STRUCTURES } from '../model/index.js';
+import { bodyOf, bringsIntegralAction, FULL_RANK, keyOf, nameOf, partOf, STRUCTURES } from '../model/index.js';
 import { suggestLoops } from '../net/index.js';
 import { Choice, h, NumberField, setText, symbol } from '../ui/index.js';
 
@@ -199,7 +199,7 @@ export class LoopsPanel {
         ti.setRange({ min: Math.min(0.01, preset.loops[axis].ti / 10), max: Math.max(5, preset.loops[axis].ti * 5) });
       }
     }
-    const off = design.outer === 'none' || design.method === 'lqr-integral'; // that brings its own integral action
+    const off = design.outer === 'none' || bringsIntegralAction(this.store.state);
     this.outer.set(design.outer);
     for (const { axis, kp, ti, node } of this.axes) {
       kp.set(design.loops[axis].kp);

@@ -1,6 +1,6 @@
 /** K and the RGA as matrices, what the RGA says, in words, and the one step that heeds it. */
 import { fixed, significant } from '../text/index.js';
-import { bodyOf } from '../model/index.js';
+import { bodyOf, bringsIntegralAction } from '../model/index.js';
 import { suggestLoops } from '../net/index.js';
 import { GAIN, gainMatrix, h, relativeGains, setAttr, setText } from '../ui/index.js';
 
@@ -113,7 +113,8 @@ export class NumbersPanel {
   }
 
   /** @param {import('../types.js').State} state */
-  render({ reply, design }) {
+  render(state) {
+    const { reply, design } = state;
     this.k.render(reply?.gains.K, (v) => significant(v, 4));
     this.rga.render(reply?.rga?.rga, (v) => fixed(v, 3));
     if (design !== this.#told) this.#tell('');
@@ -123,7 +124,7 @@ export class NumbersPanel {
     setText(this.words, text);
     setAttr(this.words, 'title', text);
     const advised = advisedPairing(reply);
-    this.pair.hidden = level !== 'warning' || design.outer === 'none' || design.method === 'lqr-integral';
+    this.pair.hidden = level !== 'warning' || design.outer === 'none' || bringsIntegralAction(state);
     setText(this.pair, advised === 'cross' ? 'Pair crosswise' : 'Pair diagonally');
   }
 }

@@ -24,7 +24,6 @@ from heli2dof_core import (
 from heli2dof_core.placement.ackermann import ackermann
 from heli2dof_core.placement.bass_gura import bass_gura
 from heli2dof_core.placement.dyadic import place_dyadic
-from heli2dof_core.placement.lqr_integral import IntegralPlacement
 from heli2dof_core.placement.method import Task
 from heli2dof_core.signals import C
 from tests.systems import random_poles, random_system, rounding
@@ -98,7 +97,7 @@ def test_lqr_solves_the_riccati_equation_of_scipy():
 def test_lqr_with_integral_action_is_lqr_of_the_augmented_system():
     weights = Weights((30.0, 30.0, 1.0, 1.0), (0.002, 0.004), (100.0, 50.0))
     placed = place_poles(HELICOPTER.A, HELICOPTER.B, REAL, "lqr-integral", C=C, weights=weights).placement
-    assert isinstance(placed, IntegralPlacement)
+    assert placed.integral is not None
     A = np.block([[HELICOPTER.A, np.zeros((4, 2))], [-C, np.zeros((2, 2))]])  # z' = r − y
     B = np.vstack([HELICOPTER.B, np.zeros((2, 2))])
     Q, R = np.diag([*weights.states, *weights.integrals]), np.diag(weights.inputs)
