@@ -21,7 +21,7 @@ ROOT = Path(__file__).parents[2]
 NODE = shutil.which("node", path=f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}") or "node"
 PYTEST = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider"]
 PROCESSOR_SECONDS, SECONDS = 400, 1500
-KERNELS = ("heli2dof_core/kernels/", "heli2dof_core/kernels/layout.py")
+KERNELS = ("heli2dof_core/kernels/",)
 # What the kernels' plain twins pass in seconds: most changes of a kernel need not be compiled to be noticed.
 INTERPRETED = [
     f"tests/core/test_{name}.py"
