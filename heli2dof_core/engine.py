@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
+from .figures import AXIS_METRICS
 from .kernel_cache import KernelCache
 from .layout import (
     ALPHA,
     AUGMENTED,
-    AXIS_METRICS,
     BOUND,
     CONSTANTS,
     COURSE,

@@ -11,10 +11,11 @@ from .behaviour import Experiment, behaviour_remarks
 from .couplings import Coupling, Lead, Structure
 from .design import FULL_RANK, Design, design
 from .errors import InvalidInputError
+from .figures import Margins
 from .findings import Finding, merged
 from .interaction import Interaction, interaction
 from .loop import Loop, close_loop
-from .margins import Margins, loop_margins, margin_table
+from .margins import loop_margins, margin_table
 from .metrics import StepMetrics, step_metrics
 from .parameters import Parameters
 from .placement.method import Weights
