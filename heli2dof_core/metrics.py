@@ -42,7 +42,7 @@ class StepMetrics(Shown):
         axes = [
             (figure.head, *(_cell(m, name) for m in self.axes.values()))
             for name, figure in AXIS.items()
-            if name != "settled"  # its time says so
+            if figure.notation != "flag"
         ]
         if self.coupling_peak is not None:
             axes.append((STEP["coupling_peak"].head, number(self.coupling_peak)))

@@ -7,11 +7,11 @@ against its model.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, get_type_hints
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
-from heli2dof_core import figures
+from heli2dof_core.figures import AXIS, DESIGN, MARGINS, MOTOR, SENSITIVITY, STEP, Figure
 
 
 class Model(BaseModel):
@@ -20,18 +20,17 @@ class Model(BaseModel):
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
-def told_by(known: Mapping[str, figures.Figure], cls: type | None = None) -> type[Model]:
-    """A reply of figures: their names and descriptions from the registry, whether they are flags from the results.
-
-    A figure that may be absent, as its description says then, is left out where it is.
-    """
-    types = get_type_hints(cls) if cls else {}
-    own: dict[str, Any] = {
-        name: (bool if types.get(name) is bool else float, Field(description=figure.described))
-        if not figure.absent
-        else (float | None, Field(None, description=figure.described))
-        for name, figure in known.items()
-    }
+def told_by(known: Mapping[str, Figure]) -> type[Model]:
+    """A reply of figures, as the registry names and describes them; one that may be absent is left out then."""
+    own: dict[str, Any] = {}
+    for name, figure in known.items():
+        kind = bool if figure.notation == "flag" else float
+        words = figure.described
+        own[name] = (
+            (kind | None, Field(None, description=words))
+            if figure.absent
+            else (kind, Field(description=words))
+        )
     return create_model("Figures", __base__=Model, **own)
 
 
@@ -80,13 +79,11 @@ class Gains(Model):
     B: list[list[float]] = Field(description="4×2, inputs V_p, V_y, SI")
     poles: list[Complex]
     closed_loop_poles: list[Complex]
-    pole_error: float | None = Field(None, description=figures.DESIGN["pole_error"].described)
-    pole_error_bound: float | None = Field(None, description=figures.DESIGN["pole_error_bound"].described)
-    norm: float = Field(description=figures.DESIGN["norm"].described)
-    spectral_norm: float = Field(description=figures.DESIGN["spectral_norm"].described)
-    eigenvector_condition: float | None = Field(
-        None, description=figures.DESIGN["eigenvector_condition"].described
-    )
+    pole_error: float | None = Field(None, description=DESIGN["pole_error"].described)
+    pole_error_bound: float | None = Field(None, description=DESIGN["pole_error_bound"].described)
+    norm: float = Field(description=DESIGN["norm"].described)
+    spectral_norm: float = Field(description=DESIGN["spectral_norm"].described)
+    eigenvector_condition: float | None = Field(None, description=DESIGN["eigenvector_condition"].described)
     controllability_indices: list[int] = Field(description="one per input")
     findings: list[Finding]
 
@@ -112,11 +109,11 @@ class Rga(Model):
     findings: list[Finding]
 
 
-class AxisMetrics(told_by(figures.AXIS, figures.AxisMetrics)):
+class AxisMetrics(told_by(AXIS)):
     """Step metrics of one axis; s, %, rad, rad·s, rad·s². They belong to the response, not to its samples."""
 
 
-class MotorMetrics(told_by(figures.MOTOR, figures.MotorMetrics)):
+class MotorMetrics(told_by(MOTOR)):
     """Largest |voltage|, V, share of time at the limit, and effort ∫ (V − V_trim)² dt, V²·s."""
 
 
@@ -125,7 +122,7 @@ class Metrics(Model):
 
     theta: AxisMetrics | None = None
     psi: AxisMetrics | None = None
-    coupling_peak: float | None = Field(None, description=figures.STEP["coupling_peak"].described)
+    coupling_peak: float | None = Field(None, description=STEP["coupling_peak"].described)
     V_p: MotorMetrics
     V_y: MotorMetrics
 
@@ -166,7 +163,7 @@ class BothModels(Model):
     nonlinear: Step
 
 
-class Margins(told_by(figures.MARGINS, figures.Margins)):
+class Margins(told_by(MARGINS)):
     """Margins at one motor's input: factors, rad, s; left out where unlimited."""
 
 
@@ -194,7 +191,7 @@ class OpenLoops(Model):
     stable: bool
 
 
-class Sensitivity(told_by(figures.SENSITIVITY)):
+class Sensitivity(told_by(SENSITIVITY)):
     """Sensitivity peak and disk margin at both motors at once, rad/s; what the disk margin guarantees."""
 
 

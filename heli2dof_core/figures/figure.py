@@ -8,7 +8,7 @@ from math import pi
 from typing import Literal, TypeVar, get_args, get_type_hints
 
 Better = Literal["lower", "higher", "none"]
-Notation = Literal["fixed", "significant", "seconds", "decibel", "exponent"]
+Notation = Literal["fixed", "significant", "seconds", "decibel", "exponent", "flag"]
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Figure:
         better: which way is better.
         source: of the definition; empty where it says itself what it is.
         absent: when there is no value, as it goes on after "left out".
-        notation: how its value is written; "seconds" and "decibel" bring their unit.
+        notation: how its value is written; "seconds" and "decibel" bring their unit, a "flag" is yes or no.
         digits: decimals ("fixed") or significant digits.
         shown: the unit that people read; `unit` where empty.
         in_head: whether that unit stands at the row's head and not after each number.

@@ -24,7 +24,7 @@ class Margins:
         float | None,
         Figure(
             "gain margin",
-            "smallest factor above 1 on the motor's gain that makes the loop unstable",
+            "smallest factor above 1 on the motor’s gain that makes the loop unstable",
             better="higher",
             source=_OGATA,
             absent="where unlimited",
@@ -39,7 +39,7 @@ class Margins:
         float | None,
         Figure(
             "gain reduction margin",
-            "largest factor below 1 on the motor's gain that makes the loop unstable",
+            "largest factor below 1 on the motor’s gain that makes the loop unstable",
             better="lower",
             absent="where unlimited",
             notation="decibel",

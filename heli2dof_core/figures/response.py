@@ -152,7 +152,13 @@ class AxisMetrics:
     ]
     settled: Annotated[
         bool,
-        Figure("settled", "whether it is within 2 % of the step when the window ends, for good", "", "none"),
+        Figure(
+            "settled",
+            "whether it is within 2 % of the step when the window ends, for good",
+            "",
+            "none",
+            notation="flag",
+        ),
     ]
 
     @classmethod
