@@ -86,20 +86,21 @@ def _object(kind: str, known: Mapping[str, Figure]) -> str:
 
 
 def _properties(name: str, figure: Figure) -> Iterator[str]:
-    unit = "" if figure.in_head or figure.notation in ("seconds", "decibel") else figure.shown or figure.unit
+    unit = figure.shown or figure.unit if figure.notation in ("fixed", "significant") else ""
+    bare = figure.measured if figure.notation == "exponent" else figure.meaning  # its cells have no unit
     seen = bool(figure.title)
     told = {
         "name": name,
         "head": figure.titled,
         "short": figure.short,
-        "hint": figure.short and (figure.hint or figure.measured),
+        "hint": figure.short and (figure.hint or bare),
         "meaning": f"{figure.meaning[:1].upper()}{figure.meaning[1:]}" if seen else "",
         "source": figure.source if seen else "",
         "symbol": figure.symbol,
         "notation": "" if figure.notation in ("fixed", "flag") else figure.notation,
         "digits": figure.digits,
         "scale": figure.scale if figure.scale != 1 else "",
-        "after": unit if unit in ("", "°") else f" {unit}",
+        "after": "" if figure.in_head else unit if unit in ("", "°") else f" {unit}",
         "better": "" if figure.better == "lower" else figure.better,
         "signed": figure.signed,
         "detail": figure.detail,

@@ -28,7 +28,7 @@ class Figure:
         in_head: whether that unit stands at the row's head and not after each number.
         title: heads its row on the page and in the report; without one it has none there.
         short: heads its narrow column where designs stand one below the other; without one it has none there.
-        hint: what is said of that column; `measured` where empty.
+        hint: what is said of that column; its meaning where empty.
         symbol: as printed, subscripts after "_".
         key: its short name on the page, in requirements and addresses; its own name where empty.
         signed: whether its size alone is better or worse.

@@ -166,7 +166,7 @@ export const STEP = {
     name: 'coupling_peak',
     head: 'Other axis moves',
     short: 'Other axis',
-    hint: 'largest deviation of the axis that is not stepped, rad',
+    hint: 'largest deviation of the axis that is not stepped',
     meaning: 'Largest deviation of the axis that is not stepped',
     digits: 2,
     scale: 57.29577951308232,
@@ -334,7 +334,6 @@ export const DESIGN = {
     hint: 'farthest distance of a computed pole from the placed one, rad/s',
     notation: 'exponent',
     digits: 0,
-    after: ' rad/s',
   },
   pole_error_bound: {
     name: 'pole_error_bound',
