@@ -35,9 +35,8 @@ from ..layout import (
 )
 from .jit import kernel
 
-RISE_TIME, SETTLING_TIME, OVERSHOOT, UNDERSHOOT, PEAK, PEAK_TIME, STEADY_STATE_ERROR, IAE, ITAE, SETTLED = (
-    range(10)
-)
+RISE_TIME, SETTLING_TIME, OVERSHOOT, UNDERSHOOT, PEAK, PEAK_TIME, STEADY_STATE_ERROR, IAE, ITAE = range(9)
+SETTLED = 9
 """Columns of an axis' row: the attributes of `AxisMetrics` in the registry of figures, in their order."""
 LOW, HIGH = 0.1, 0.9
 FOUND = 1e-12
