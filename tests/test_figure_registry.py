@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import re
+import subprocess
+import sys
 from dataclasses import fields
+from pathlib import Path
 
 import pytest
 
 from app.contract import models
 from heli2dof_core import figures
-from heli2dof_core.export.report_figures import ROWS
+from heli2dof_core.export.report_figures import ROWS, told
 from heli2dof_core.figures import KINDS, RESPONSE, Figure
 from heli2dof_core.kernels import figures as kernel
 from heli2dof_core.sensitivity import Sensitivity
@@ -87,3 +91,30 @@ def test_the_report_has_the_pages_rows():
     assert re.findall(r"^  \w+: (?:AXIS|STEP)\.(\w+),$", text, re.MULTILINE) == [
         ({**figures.AXIS, **figures.STEP})[name].key or name for name in RESPONSE
     ]
+
+
+VALUES = (0.0, 1e-9, 0.0123, 0.0951, 0.7, 1.0, 1.0049, 2.347, 12.347, 99.96, 1234.7, 2.5e7, None)
+
+
+def test_the_page_and_the_report_write_alike():
+    """Every figure that both write, small and large and absent, by the page's own module."""
+    values = [*VALUES, *(-value for value in VALUES if value is not None)]
+    texts = (PAGE.with_name("figure_texts.js")).as_uri()
+    script = f"""
+        const known = await import({json.dumps(PAGE.as_uri())});
+        const {{ textOf }} = await import({json.dumps(texts)});
+        const values = {json.dumps(values)}.map((v) => v ?? undefined);
+        const kinds = {json.dumps([kind.upper() for kind in KINDS])};
+        console.log(JSON.stringify(kinds.flatMap((kind) =>
+          Object.values(known[kind]).flatMap((f) => values.map((v) => textOf(f, v))))));
+    """
+    node = str(Path(sys.executable).with_name("node"))
+    found = subprocess.run(
+        [node, "--input-type=module", "-e", script], capture_output=True, text=True, check=True
+    )
+    written = iter(json.loads(found.stdout))
+    for name, figure in ALL.items():
+        for value in values:
+            text = next(written)
+            if figure.notation in ("fixed", "significant", "seconds", "decibel"):
+                assert told(figure, value) == text, (name, value)

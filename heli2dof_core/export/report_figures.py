@@ -34,7 +34,9 @@ def significant(value: float | None, digits: int = 4) -> str:
     if size and (size >= 1e6 or size < 1e-4):
         mantissa, exponent = f"{value:.{max(0, digits - 2)}e}".split("e")
         return f"{mantissa}e{int(exponent)}".replace("-", "−")
-    whole = floor(log10(size)) + 1 if size >= 1 else 1
+    leading = floor(log10(size)) if size else 0
+    # so that a small figure is not rounded to a zero
+    whole = leading + 1 if leading >= 0 else 1 if leading == -1 else leading + 2
     return fixed(value, max(0, digits - whole))
 
 
