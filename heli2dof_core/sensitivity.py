@@ -16,10 +16,10 @@ from .loop import Loop
 class Sensitivity:
     """Robustness of the loop opened at both motors' inputs, L(s), S = (I + L)⁻¹, T = I − S.
 
-    Attributes as the registry says (`figures.SENSITIVITY`): the peak M_S is the maximum over ω of the largest singular
-    value of S(jω), never below 1, as S(j∞) = I (Skogestad & Postlethwaite 2005, 2.4.3). The disk margin α has skew 0:
-    1/max μ((S − T)/2) with diagonal μ, at most 2 (Seiler, Packard & Gahinet, IEEE Control Systems 40 (2020) 78–95). A
-    frequency is None where its value is approached as ω grows without bound.
+    Its attributes are those of the registry (`figures.SENSITIVITY`). The peak M_S is the maximum over ω of the
+    largest singular value of S(jω), never below 1, as S(j∞) = I (Skogestad & Postlethwaite 2005, 2.4.3). The disk
+    margin α has skew 0: 1/max μ((S − T)/2) with diagonal μ, at most 2 (Seiler, Packard & Gahinet, IEEE Control
+    Systems 40 (2020) 78–95). A frequency is None where its value is approached as ω grows without bound.
     """
 
     peak: float
