@@ -9,11 +9,11 @@ from math import degrees, radians
 
 import numpy as np
 
+from .figures import AxisMetrics, Margins
 from .findings import Finding
 from .kernels.layout import BAND
 from .loop import Loop
-from .margins import Margins
-from .metrics import AxisMetrics, StepMetrics
+from .metrics import StepMetrics
 from .remarks import FAR_OUT
 from .scenario import Digital, Limits, Scenario
 from .signals import AXES, INPUTS, OUTPUTS

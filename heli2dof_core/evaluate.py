@@ -8,10 +8,11 @@ from functools import cached_property
 
 from .behaviour import Experiment, behaviour_remarks
 from .design import Design, design
+from .figures import Margins
 from .findings import Finding, merged
 from .interaction import Interaction, interaction
 from .loop import Loop, close_loop
-from .margins import Margins, loop_margins, margin_table
+from .margins import loop_margins, margin_table
 from .metrics import StepMetrics, step_metrics
 from .placement.registry import method
 from .plant import plant

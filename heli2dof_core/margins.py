@@ -2,37 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isnan
 
 import numpy as np
 
 from .eigenvalues import resolvent
 from .engine import engine
+from .figures import MARGINS as FIGURES
+from .figures import Margins
 from .kernels.layout import MARGINS, POLYNOMIAL_WORKSPACE
 from .loop import Loop
 from .signals import AXES, Complexes, Floats
 from .tables import Table, number
-
-
-@dataclass(frozen=True)
-class Margins:
-    """Margins of the loop opened at one motor's input, the rest closed; None where unlimited.
-
-    Every crossing counts, those at ω = 0 too: there a factor on the gain puts a pole at 0. None is at infinity, where
-    L = 0.
-
-    Attributes:
-        gain_margin: smallest factor above 1 on the motor's gain that makes the loop unstable.
-        gain_reduction_margin: largest factor below 1 that does.
-        phase_margin: smallest phase lag or lead at a gain crossover that does, rad.
-        delay_margin: smallest delay that does, s.
-    """
-
-    gain_margin: float | None
-    gain_reduction_margin: float | None
-    phase_margin: float | None
-    delay_margin: float | None
 
 
 def loop_margins(loop: Loop) -> tuple[Margins, Margins] | None:
@@ -52,13 +33,9 @@ def loop_margins(loop: Loop) -> tuple[Margins, Margins] | None:
 
 def margin_table(margins: tuple[Margins, Margins]) -> Table:
     """Both motors' margins; a dash where there is no limit."""
-    rows = (
-        ("gain margin", "gain_margin"),
-        ("gain reduction margin", "gain_reduction_margin"),
-        ("phase margin (rad)", "phase_margin"),
-        ("delay margin (s)", "delay_margin"),
+    cells = (
+        (figure.head, *(number(getattr(own, name)) for own in margins)) for name, figure in FIGURES.items()
     )
-    cells = ((label, *(number(getattr(own, name)) for own in margins)) for label, name in rows)
     return Table.of("margins at the motors", ("", *AXES), cells)
 
 

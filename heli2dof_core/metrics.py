@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isnan
 
+from .figures import AXIS, MOTOR, STEP, AxisMetrics, MotorMetrics
 from .kernels.layout import DEVIATION
 from .signals import INPUTS, OUTPUTS
 from .simulation.response import Response
@@ -14,68 +14,13 @@ NOT_SETTLED = "not settled"
 """What stands in place of a settling time where there is none within the window."""
 
 
-@dataclass(frozen=True)
-class AxisMetrics:
-    """How one stepped axis follows its reference; what does not happen within the window is None.
-
-    Attributes:
-        rise_time: from 10 % to 90 % of the step, s.
-        settling_time: after it the axis stays within 2 % of the step around the reference, s; None unless `settled`.
-        settled: the axis is within that band at the end of the window and stays there. A crossing shortly before
-            the end does not count: the course is followed beyond it, for ten periods or six time constants of every
-            pole where it is linear, for one period of the slowest pole, at most the window's length, where it is not.
-        overshoot: largest excess beyond the reference, % of the step.
-        undershoot: largest excursion from the start away from the reference, % of the step.
-        peak: angle of the largest deviation from the start, rad.
-        peak_time: when, s; None where nothing overshoots, or the window ends on the peak: the axis still moves
-            outwards then, or creeps towards a value beyond the reference.
-        steady_state_error: reference minus the last value, rad.
-        iae: integral of the absolute error over the window, ∫ |e| dt, rad·s.
-        itae: the same weighted with time, ∫ t |e| dt, rad·s² (Graham & Lathrop, Trans. AIEE 72 (1953) 273).
-    """
-
-    rise_time: float | None
-    settling_time: float | None
-    settled: bool
-    overshoot: float
-    undershoot: float
-    peak: float
-    peak_time: float | None
-    steady_state_error: float
-    iae: float
-    itae: float
-
-    @classmethod
-    def of(cls, numbers: list[float]) -> AxisMetrics:
-        """From the kernels' row, laid out as `layout` says; NaN is what did not happen."""
-        rise, settling, over, under, peak, at, error, iae, itae, settled = (
-            None if isnan(number) else number for number in numbers
-        )
-        return cls(rise, settling, bool(settled), over, under, peak, at, error, iae, itae)  # type: ignore[arg-type]
-
-
-@dataclass(frozen=True)
-class MotorMetrics:
-    """What one motor has to do.
-
-    Attributes:
-        peak: its largest |voltage|, V.
-        saturated: share of time at its limit.
-        effort: ∫ (V − V_trim)² dt, V²·s: what the control costs beyond holding still.
-    """
-
-    peak: float
-    saturated: float
-    effort: float
-
-
 @dataclass(frozen=True, repr=False)
 class StepMetrics(Shown):
     """All metrics of one response.
 
     Attributes:
         axes: by output name, the axes that are stepped.
-        coupling_peak: largest deviation of the other axis where one alone is stepped, rad.
+        coupling_peak: see `figures.STEP`; None unless one axis alone is stepped.
         motors: by input name.
     """
 
@@ -86,7 +31,8 @@ class StepMetrics(Shown):
     def summary(self) -> str:
         """Settling and overshoot per axis, and the largest voltages."""
         axes = (
-            f"{name}: {_settling(m)}, overshoot {number(m.overshoot, 3)} %" for name, m in self.axes.items()
+            f"{name}: {_settling(m)}, {AXIS['overshoot'].term} {number(m.overshoot, 3)} %"
+            for name, m in self.axes.items()
         )
         motors = (f"|{name}| ≤ {number(m.peak, 3)} V" for name, m in self.motors.items())
         return "; ".join((*axes, ", ".join(motors)))
@@ -94,17 +40,15 @@ class StepMetrics(Shown):
     def tables(self) -> tuple[Table, ...]:
         """A row per figure of merit, a column per axis; and the motors'."""
         axes = [
-            (f"{label} ({unit})", *(_cell(m, name) for m in self.axes.values()))
-            for name, label, unit in _AXIS_ROWS
+            (figure.head, *(_cell(m, name) for m in self.axes.values()))
+            for name, figure in AXIS.items()
+            if figure.notation != "flag"
         ]
         if self.coupling_peak is not None:
-            axes.append(("peak of the other axis (rad)", number(self.coupling_peak)))
+            axes.append((STEP["coupling_peak"].head, number(self.coupling_peak)))
         motors = (
-            (
-                f"{label} ({unit})" if unit else label,
-                *(number(getattr(m, name)) for m in self.motors.values()),
-            )
-            for name, label, unit in _MOTOR_ROWS
+            (figure.head, *(number(getattr(m, name)) for m in self.motors.values()))
+            for name, figure in MOTOR.items()
         )
         return (
             *([Table.of("step", ("", *(_SYMBOLS[name] for name in self.axes)), axes)] if self.axes else []),
@@ -126,22 +70,6 @@ def _cell(axis: AxisMetrics, name: str) -> str:
 
 
 _SYMBOLS = {signal.name: signal.symbol for signal in OUTPUTS}
-_AXIS_ROWS = (
-    ("rise_time", "rise time", "s"),
-    ("settling_time", "settling time", "s"),
-    ("overshoot", "overshoot", "%"),
-    ("undershoot", "undershoot", "%"),
-    ("peak", "peak", "rad"),
-    ("peak_time", "peak time", "s"),
-    ("steady_state_error", "steady-state error", "rad"),
-    ("iae", "IAE", "rad·s"),
-    ("itae", "ITAE", "rad·s²"),
-)
-_MOTOR_ROWS = (
-    ("peak", "largest |voltage|", "V"),
-    ("saturated", "share of time at the limit", ""),
-    ("effort", "effort", "V²·s"),
-)
 
 
 def step_metrics(response: Response, calm: Response | None = None) -> StepMetrics:

@@ -16,15 +16,10 @@ from .loop import Loop
 class Sensitivity:
     """Robustness of the loop opened at both motors' inputs, L(s), S = (I + L)⁻¹, T = I − S.
 
-    Attributes:
-        peak: M_S = max over ω of the largest singular value of S(jω): its inverse is the smallest
-            distance to instability by an additive change of L (Skogestad & Postlethwaite 2005, 2.4.3).
-            Never below 1, as S(j∞) = I.
-        peak_frequency: where, rad/s; None where it is approached as ω grows without bound.
-        disk_margin: α of the largest disks of independent simultaneous changes of gain and phase at
-            both motors that the loop bears, skew 0: 1/max μ((S − T)/2) with diagonal μ (Seiler,
-            Packard & Gahinet, IEEE Control Systems 40 (2020) 78–95).
-        disk_frequency: where it is reached, rad/s; None as above, with the largest disk margin there is, 2.
+    Its attributes are those of the registry (`figures.SENSITIVITY`). The peak M_S is the maximum over ω of the
+    largest singular value of S(jω), never below 1, as S(j∞) = I (Skogestad & Postlethwaite 2005, 2.4.3). The disk
+    margin α has skew 0: 1/max μ((S − T)/2) with diagonal μ, at most 2 (Seiler, Packard & Gahinet, IEEE Control
+    Systems 40 (2020) 78–95). A frequency is None where its value is approached as ω grows without bound.
     """
 
     peak: float

@@ -76,17 +76,7 @@
  * @typedef {{code: string, severity: 'info'|'warning'|'error', message: string}} Finding
  * @typedef {ArrayLike<number>} Series
  *
- * @typedef {object} AxisMetrics
- * @property {number} [rise_time]
- * @property {number} [settling_time]
- * @property {boolean} [settled]
- * @property {number} [overshoot]
- * @property {number} [undershoot]
- * @property {number} [peak]
- * @property {number} [peak_time]
- * @property {number} [steady_state_error]
- * @property {number} [iae]
- * @property {number} [itae]
+ * @typedef {import('./model/figures.js').AxisMetrics} AxisMetrics
  *
  * @typedef {object} Step
  * @property {Series} t
@@ -110,9 +100,8 @@
  *   number}} [rga]
  * @property {StepPair} step
  * @property {{theta?: StepPair, psi?: StepPair}} axis_steps
- * @property {Record<string, {gain_margin?: number, phase_margin?: number, delay_margin?: number}>} [margins]
- * @property {{peak: number, peak_frequency?: number, disk_margin: number, gain_low: number, gain_high?: number, phase:
- *   number}} [sensitivity]
+ * @property {Record<string, import('./model/figures.js').Margins>} [margins]
+ * @property {import('./model/figures.js').Sensitivity} [sensitivity]
  * @property {Complex[]} loop_poles
  * @property {boolean} stable
  * @property {{V_p: number, V_y: number}} trim

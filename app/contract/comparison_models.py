@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from heli2dof_core.figures import DESIGN
+
 from .models import Complex, Finding, LoopMargins, Metrics, Model, Sensitivity
 
 
@@ -38,13 +40,11 @@ class Placement(Model):
     controllability_indices: list[int] | None = Field(None, description="one per input")
     groups: list[Group] | None = None
     closed_loop_poles: list[Complex]
-    pole_error: float | None = Field(None, description="largest distance of a pole from the one asked for")
-    pole_error_bound: float | None = Field(
-        None, description="how far rounding may have moved the poles told, and so their error"
-    )
-    norm: float = Field(description="Frobenius norm of K")
-    spectral_norm: float = Field(description="largest singular value of K")
-    eigenvector_condition: float | None = Field(None, description="κ₂ of the closed loop's eigenvectors")
+    pole_error: float | None = Field(None, description=DESIGN["pole_error"].described)
+    pole_error_bound: float | None = Field(None, description=DESIGN["pole_error_bound"].described)
+    norm: float = Field(description=DESIGN["norm"].described)
+    spectral_norm: float = Field(description=DESIGN["spectral_norm"].described)
+    eigenvector_condition: float | None = Field(None, description=DESIGN["eigenvector_condition"].described)
     findings: list[Finding]
 
 
@@ -79,15 +79,11 @@ class ComparisonRow(Model):
     )
     poles: list[Complex] | None = None
     closed_loop_poles: list[Complex] | None = None
-    pole_error: float | None = Field(
-        None, description="largest distance of a pole from the one asked for, rad/s"
-    )
-    pole_error_bound: float | None = Field(
-        None, description="how far rounding may have moved the poles told, and so their error"
-    )
-    norm: float | None = Field(None, description="Frobenius norm of K")
-    spectral_norm: float | None = Field(None, description="largest singular value of K")
-    eigenvector_condition: float | None = Field(None, description="κ₂ of the closed loop's eigenvectors")
+    pole_error: float | None = Field(None, description=DESIGN["pole_error"].described)
+    pole_error_bound: float | None = Field(None, description=DESIGN["pole_error_bound"].described)
+    norm: float | None = Field(None, description=DESIGN["norm"].described)
+    spectral_norm: float | None = Field(None, description=DESIGN["spectral_norm"].described)
+    eigenvector_condition: float | None = Field(None, description=DESIGN["eigenvector_condition"].described)
     rga: list[list[float]] | None = Field(None, description="RGA at s = 0; rows θ, ψ, columns V_p, V_y")
     pairing: list[list[str]] | None = None
     reason: str | None = None
@@ -115,6 +111,6 @@ class Split(Model):
     split: list[list[int]] = Field(description="positions from 0 of pitch's pair and of yaw's")
     poles: list[Complex]
     K: list[list[float]] = Field(description="V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y")
-    norm: float = Field(description="Frobenius norm of K")
-    pole_error: float = Field(description="largest distance of a pole from the one asked for, rad/s")
+    norm: float = Field(description=DESIGN["norm"].described)
+    pole_error: float = Field(description=DESIGN["pole_error"].measured)
     rga: list[list[float]] | None = Field(None, description="RGA at s = 0; rows θ, ψ, columns V_p, V_y")

@@ -6,15 +6,32 @@ against its model.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, create_model
+
+from heli2dof_core.figures import AXIS, DESIGN, MARGINS, MOTOR, SENSITIVITY, STEP, Figure
 
 
 class Model(BaseModel):
     """A reply's part: all numbers are finite, and nothing is said that is not described here."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+def told_by(known: Mapping[str, Figure]) -> type[Model]:
+    """A reply of figures, as the registry names and describes them; one that may be absent is left out then."""
+    own: dict[str, Any] = {}
+    for name, figure in known.items():
+        kind = bool if figure.notation == "flag" else float
+        words = figure.described
+        own[name] = (
+            (kind | None, Field(None, description=words))
+            if figure.absent
+            else (kind, Field(description=words))
+        )
+    return create_model("Figures", __base__=Model, **own)
 
 
 class Complex(Model):
@@ -62,15 +79,11 @@ class Gains(Model):
     B: list[list[float]] = Field(description="4×2, inputs V_p, V_y, SI")
     poles: list[Complex]
     closed_loop_poles: list[Complex]
-    pole_error: float | None = Field(
-        None, description="largest distance of a pole from the one asked for, rad/s"
-    )
-    pole_error_bound: float | None = Field(
-        None, description="how far rounding may have moved the poles told, and so their error"
-    )
-    norm: float = Field(description="Frobenius norm of K")
-    spectral_norm: float = Field(description="largest singular value of K")
-    eigenvector_condition: float | None = Field(None, description="κ₂ of the closed loop's eigenvectors")
+    pole_error: float | None = Field(None, description=DESIGN["pole_error"].described)
+    pole_error_bound: float | None = Field(None, description=DESIGN["pole_error_bound"].described)
+    norm: float = Field(description=DESIGN["norm"].described)
+    spectral_norm: float = Field(description=DESIGN["spectral_norm"].described)
+    eigenvector_condition: float | None = Field(None, description=DESIGN["eigenvector_condition"].described)
     controllability_indices: list[int] = Field(description="one per input")
     findings: list[Finding]
 
@@ -96,31 +109,12 @@ class Rga(Model):
     findings: list[Finding]
 
 
-class AxisMetrics(Model):
+class AxisMetrics(told_by(AXIS)):
     """Step metrics of one axis; s, %, rad, rad·s, rad·s². They belong to the response, not to its samples."""
 
-    rise_time: float | None = Field(None, description="10 % to 90 % of the step, s")
-    settling_time: float | None = Field(
-        None, description="into 2 % of the step for good, s; left out where not `settled`"
-    )
-    settled: bool = Field(description="whether it is within 2 % of the step when the window ends, for good")
-    overshoot: float = Field(description="beyond the reference, % of the step")
-    undershoot: float = Field(description="from the start away from the reference, % of the step")
-    peak: float = Field(description="angle farthest from the start, rad")
-    peak_time: float | None = Field(
-        None, description="s; left out where nothing overshoots, or the window ends on the peak"
-    )
-    steady_state_error: float = Field(description="at the end, rad")
-    iae: float = Field(description="∫ |e| dt, rad·s")
-    itae: float = Field(description="∫ t |e| dt, rad·s²")
 
-
-class MotorMetrics(Model):
+class MotorMetrics(told_by(MOTOR)):
     """Largest |voltage|, V, share of time at the limit, and effort ∫ (V − V_trim)² dt, V²·s."""
-
-    peak: float = Field(description="largest |voltage|, V")
-    saturated: float = Field(description="share of time at the limit, 0 to 1")
-    effort: float = Field(description="∫ (V − V_trim)² dt, V²·s")
 
 
 class Metrics(Model):
@@ -128,9 +122,7 @@ class Metrics(Model):
 
     theta: AxisMetrics | None = None
     psi: AxisMetrics | None = None
-    coupling_peak: float | None = Field(
-        None, description="largest deviation of the axis that is not stepped, rad"
-    )
+    coupling_peak: float | None = Field(None, description=STEP["coupling_peak"].described)
     V_p: MotorMetrics
     V_y: MotorMetrics
 
@@ -171,13 +163,8 @@ class BothModels(Model):
     nonlinear: Step
 
 
-class Margins(Model):
+class Margins(told_by(MARGINS)):
     """Margins at one motor's input: factors, rad, s; left out where unlimited."""
-
-    gain_margin: float | None = Field(None, description="factor above 1")
-    gain_reduction_margin: float | None = Field(None, description="factor below 1")
-    phase_margin: float | None = Field(None, description="rad")
-    delay_margin: float | None = Field(None, description="s")
 
 
 class LoopMargins(Model):
@@ -204,18 +191,8 @@ class OpenLoops(Model):
     stable: bool
 
 
-class Sensitivity(Model):
+class Sensitivity(told_by(SENSITIVITY)):
     """Sensitivity peak and disk margin at both motors at once, rad/s; what the disk margin guarantees."""
-
-    peak: float = Field(description="M_S, largest singular value of S(jω); never below 1")
-    peak_frequency: float | None = Field(
-        None, description="rad/s; left out where it is approached at infinity alone"
-    )
-    disk_margin: float = Field(description="α, skew 0")
-    disk_frequency: float | None = Field(None, description="rad/s; left out likewise")
-    gain_low: float = Field(description="lowest factor on both gains that is borne")
-    gain_high: float | None = Field(None, description="highest factor; left out where unlimited")
-    phase: float = Field(description="change at both motors that is borne, ±rad")
 
 
 class AxisSteps(Model):

@@ -28,9 +28,10 @@ from heli2dof_core import (
 from heli2dof_core.components import COMPONENT_INFO
 from heli2dof_core.controllability import controllability_indices
 from heli2dof_core.evaluate import Step
+from heli2dof_core.figures import Margins
 from heli2dof_core.findings import merged
 from heli2dof_core.interaction import dominance_over_frequency
-from heli2dof_core.margins import Margins, loop_margins, open_loop_response
+from heli2dof_core.margins import loop_margins, open_loop_response
 from heli2dof_core.metrics import StepMetrics
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.scenario import LIMIT_INFO, Limits

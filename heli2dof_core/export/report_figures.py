@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from math import degrees, floor, log10
+from math import floor, log10
 
 import numpy as np
 
 from ..evaluate import Report, Step
-from ..margins import Margins
-from ..metrics import NOT_SETTLED, AxisMetrics
+from ..figures import AXIS, MARGINS, MOTOR, RESPONSE, SENSITIVITY, STEP, AxisMetrics, Figure, Margins
+from ..metrics import NOT_SETTLED
 from ..scenario import Model
-from ..signals import AXES, OUTPUTS, Floats
+from ..signals import AXES, INPUTS, OUTPUTS, Floats
 from .markup import paragraph, table
 
 DASH = "–"
@@ -34,7 +34,9 @@ def significant(value: float | None, digits: int = 4) -> str:
     if size and (size >= 1e6 or size < 1e-4):
         mantissa, exponent = f"{value:.{max(0, digits - 2)}e}".split("e")
         return f"{mantissa}e{int(exponent)}".replace("-", "−")
-    whole = floor(log10(size)) + 1 if size >= 1 else 1
+    leading = floor(log10(size)) if size else 0
+    # so that a small figure is not rounded to a zero
+    whole = leading + 1 if leading >= 0 else 1 if leading == -1 else leading + 2
     return fixed(value, max(0, digits - whole))
 
 
@@ -43,11 +45,6 @@ def seconds(value: float | None) -> str:
     if value is None:
         return DASH
     return f"{fixed(1e3 * value, 1 if value < 0.01 else 0)} ms" if value < 0.1 else f"{fixed(value)} s"
-
-
-def angle(value: float | None, decimals: int = 1) -> str:
-    """An angle given in rad, in degrees."""
-    return DASH if value is None else f"{fixed(degrees(value), decimals)}°"
 
 
 def percent(share: float) -> str:
@@ -60,6 +57,17 @@ def decibel(ratio: float | None) -> str:
     return DASH if ratio is None or ratio <= 0 else f"{fixed(20 * log10(ratio), 1)} dB"
 
 
+def told(figure: Figure, value: float | None) -> str:
+    """A value as the figure says that it is written; its unit after it, where none stands at the row's head."""
+    if figure.notation in ("seconds", "decibel"):
+        return seconds(value) if figure.notation == "seconds" else decibel(value)
+    if value is None:
+        return DASH
+    text = (significant if figure.notation == "significant" else fixed)(figure.scale * value, figure.digits)
+    unit = "" if figure.in_head else figure.shown or figure.unit
+    return f"{text}{'' if unit in ('', '°') else ' '}{unit}"
+
+
 @dataclass(frozen=True)
 class Row:
     """One figure of an axis' step by one model; `text` gets the step, its axis' metrics and the trim voltages."""
@@ -68,42 +76,37 @@ class Row:
     text: Callable[[Step, AxisMetrics, Floats], str]
 
 
-def _angle_time(value: float) -> str:
-    return significant(degrees(value), 3)
+def _response(name: str) -> Row:
+    """The row of an axis' figure, or of its step's."""
+    if name in STEP:
+        return Row(STEP[name].titled, lambda step, _, __: told(STEP[name], getattr(step.metrics, name)))
+
+    def text(_: Step, own: AxisMetrics, __: Floats) -> str:
+        if name == "settling_time" and not own.settled:
+            return NOT_SETTLED
+        return told(AXIS[name], getattr(own, name))
+
+    return Row(AXIS[name].titled, text)
 
 
-def _coupling(step: Step) -> str:
-    return angle(step.metrics.coupling_peak, 2)
+def _motor(motor: int, name: str) -> Row:
+    """The row of a motor's figure; its peak by the linear model is that of its samples with the trim."""
+    symbol, figure = INPUTS[motor].name, MOTOR[name]
 
-
-def _peak(motor: int) -> Callable[[Step, AxisMetrics, Floats], str]:
-    def told(step: Step, _: AxisMetrics, trim: Floats) -> str:
-        name, response = ("V_p", "V_y")[motor], step.response
+    def text(step: Step, _: AxisMetrics, trim: Floats) -> str:
+        own, response = step.metrics.motors[symbol], step.response
+        if name != "peak":
+            return told(figure, getattr(own, name))
         if response.model == "linear":
-            return f"{fixed(float(np.max(np.abs(response.voltages[motor] + trim[motor]))), 1)} V"
-        own = step.metrics.motors[name]
-        return f"limit {percent(own.saturated)}" if own.saturated > 0 else f"{fixed(own.peak, 1)} V"
+            return told(figure, float(np.max(np.abs(response.voltages[motor] + trim[motor]))))
+        return f"limit {percent(own.saturated)}" if own.saturated > 0 else told(figure, own.peak)
 
-    return told
-
-
-def _effort(motor: str) -> Callable[[Step, AxisMetrics, Floats], str]:
-    return lambda step, _, __: significant(step.metrics.motors[motor].effort, 3)
+    return Row(f"{symbol} {figure.titled}", text)
 
 
 ROWS = (
-    Row("Rise time", lambda _, m, __: seconds(m.rise_time)),
-    Row("Settling time", lambda _, m, __: seconds(m.settling_time) if m.settled else NOT_SETTLED),
-    Row("Overshoot", lambda _, m, __: f"{fixed(m.overshoot, 1)} %"),
-    Row("Undershoot", lambda _, m, __: f"{fixed(m.undershoot, 1)} %"),
-    Row("Error at the end", lambda _, m, __: angle(m.steady_state_error, 2)),
-    Row("Other axis moves", lambda step, _, __: _coupling(step)),
-    Row("IAE, °s", lambda _, m, __: _angle_time(m.iae)),
-    Row("ITAE, °s²", lambda _, m, __: _angle_time(m.itae)),
-    Row("V_p peak", _peak(0)),
-    Row("V_p effort, V²s", _effort("V_p")),
-    Row("V_y peak", _peak(1)),
-    Row("V_y effort, V²s", _effort("V_y")),
+    *map(_response, RESPONSE),
+    *(_motor(motor, name) for motor in range(2) for name, figure in MOTOR.items() if figure.title),
 )
 """Rows of the page's table, in its order; the linear model's motors have no limits."""
 
@@ -138,18 +141,23 @@ def _margins(report: Report) -> Iterator[str]:
     def gain_and_phase(m: Margins) -> str:
         if m.gain_margin is None and m.phase_margin is None:
             return DASH
-        return f"{'∞' if m.gain_margin is None else decibel(m.gain_margin)} · {angle(m.phase_margin, 0)}"
+        gain = "∞" if m.gain_margin is None else told(MARGINS["gain_margin"], m.gain_margin)
+        return f"{gain} · {told(MARGINS['phase_margin'], m.phase_margin)}"
 
+    delay = MARGINS["delay_margin"]
     rows = [
         ("Gain · phase margin", *(gain_and_phase(m) for m in report.margins)),
-        ("Delay margin", *(seconds(m.delay_margin) for m in report.margins)),
+        (delay.title, *(told(delay, m.delay_margin) for m in report.margins)),
     ]
     yield table(("", "pitch motor", "yaw motor"), rows, "Margins at each motor, the other loop closed")
     s = report.sensitivity
     low, high = s.gain_range
-    phase = angle(s.phase, 0)
-    peak = fixed(s.peak) if s.peak < 1.005 else f"{fixed(s.peak)} at {significant(s.peak_frequency, 3)} rad/s"
+    of = SENSITIVITY
+    peak = told(of["peak"], s.peak)
+    if s.peak >= 1.005:
+        peak = f"{peak} at {told(of['peak_frequency'], s.peak_frequency)}"
     yield paragraph(
-        f"Both motors at once. Disk margin: {fixed(s.disk_margin)}: × {fixed(low)} to "
-        f"{'∞' if high is None else fixed(high)}, ± {phase}. Sensitivity peak: {peak}."
+        f"Both motors at once. {of['disk_margin'].title}: {told(of['disk_margin'], s.disk_margin)}: "
+        f"× {told(of['gain_low'], low)} to {'∞' if high is None else told(of['gain_high'], high)}, "
+        f"± {told(of['phase'], s.phase)}. {of['peak'].title}: {peak}."
     )

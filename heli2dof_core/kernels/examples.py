@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from ..figures import AXIS_METRICS
 from ..signals import Floats, fixed
 from .layout import (
     ALPHA,
-    AXIS_METRICS,
     BOUND,
     CONSTANTS,
     COURSE,

@@ -3,7 +3,7 @@
 A piece is a polynomial of degree 4 over x = 0 … 1 in the form of the integrator's continuous output,
 p₀ + x (p₁ + z (p₂ + x (p₃ + z p₄))) with z = 1 − x. Its Bernstein ordinates bound it, which is all that most pieces
 need; extrema and crossings are located on the others. Source of the bounds: Farouki, Comput. Aided Geom. Design
-29 (2012) 379. The definitions stand in `metrics`.
+29 (2012) 379. The definitions stand in the registry of figures.
 """
 
 from __future__ import annotations
@@ -24,27 +24,20 @@ from .layout import (
     DEVIATION,
     EFFORT,
     FROM,
-    IAE,
-    ITAE,
     MOMENT,
-    OVERSHOOT,
-    PEAK,
-    PEAK_TIME,
     PEAK_VOLTAGE,
-    RISE_TIME,
     RISEN,
-    SETTLED,
-    SETTLING_TIME,
     SHARE,
     SINCE,
-    STEADY_STATE_ERROR,
     STEPPED,
     TOP,
     TOP_AT,
-    UNDERSHOOT,
     WITHIN,
 )
 
+RISE_TIME, SETTLING_TIME, OVERSHOOT, UNDERSHOOT, PEAK, PEAK_TIME, STEADY_STATE_ERROR, IAE, ITAE = range(9)
+SETTLED = 9
+"""Columns of an axis' row: the attributes of `AxisMetrics` in the registry of figures, in their order."""
 LOW, HIGH = 0.1, 0.9
 FOUND = 1e-12
 """Last step of Newton's method, or width of its bracket, as a share of a piece: a step leaves but its square."""

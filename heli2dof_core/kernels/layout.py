@@ -41,9 +41,7 @@ STRETCH = (AUGMENTED + 2, NODES + 1)
 LADDER = (80, AUGMENTED, AUGMENTED)
 """Shape of the powers of the linear loop's step, each the square of the one before."""
 
-# Columns of an axis' metrics, of a motor's, of its margins, and of what both motors bear
-RISE_TIME, SETTLING_TIME, OVERSHOOT, UNDERSHOOT, PEAK, PEAK_TIME, STEADY_STATE_ERROR, IAE, ITAE = range(9)
-SETTLED, AXIS_METRICS = 9, 10
+# Columns of a motor's metrics (an axis': `kernels.figures`), of its margins, and of what both motors bear
 PEAK_VOLTAGE, EFFORT, MOTOR_METRICS = range(3)
 BAND = 0.02
 """How far from its reference an axis may be that has settled, as a share of its step."""

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..engine import engine
+from ..figures import AXIS_METRICS
 from ..kernels.layout import (
     AUGMENTED,
-    AXIS_METRICS,
     CONSTANTS,
     COURSE,
     LADDER,

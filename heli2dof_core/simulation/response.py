@@ -8,9 +8,9 @@ from typing import Literal
 
 import numpy as np
 
+from ..figures import AXIS_METRICS
 from ..findings import Finding
 from ..kernels.layout import (
-    AXIS_METRICS,
     COURSE,
     HELD,
     MOTOR_METRICS,

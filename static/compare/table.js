@@ -2,109 +2,97 @@
  * The table of the methods: a row for each, its figures, the best of each column, and "Use", which makes it the
  * design's own.
  */
-import { decibel, degrees, fixed, seconds, significant } from '../text/index.js';
-import { best, bodyOf, FULL_RANK, hardest, keyOf, nameOf, partOf, scenarioOf, worseMargins } from '../model/index.js';
+import {
+  AXIS,
+  best,
+  bodyOf,
+  DESIGN,
+  FULL_RANK,
+  hardest,
+  keyOf,
+  MARGINS,
+  MOTOR,
+  nameOf,
+  partOf,
+  scenarioOf,
+  signOf,
+  textOf,
+  worseMargins,
+} from '../model/index.js';
 import { compareMethods } from '../net/index.js';
-import { h, Lazy, setAttr, setText, symbol } from '../ui/index.js';
+import { h, Lazy, printed, setAttr, setText } from '../ui/index.js';
 import { motorText } from '../panels/index.js';
 import { rowDetail } from './detail.js';
 
 /** @typedef {'theta'|'psi'} Axis */
 const ROUNDING = 1e-9; // below it all pole errors are equally good
-const norm = (/** @type {string} */ sub) => h('span', { class: 'sym' }, '‖', h('i', {}, 'K'), '‖', h('sub', {}, sub));
 const step = (/** @type {any} */ row, /** @type {Axis} */ axis) =>
   row.stable ? row.axis_metrics?.[axis]?.[axis] : undefined;
-const percents = (/** @type {number|undefined} */ v) => (v === undefined ? '–' : `${fixed(v, 1)} %`);
 const voltage = (/** @type {any} */ row, /** @type {'V_p'|'V_y'} */ name) => hardest(row.axis_metrics)[name];
 
 /** @param {any} row */
 function marginText(row) {
   const worse = worseMargins(row.margins);
   return worse
-    ? `${Number.isFinite(worse.gain) ? decibel(worse.gain) : '∞'} · ` +
-        `${Number.isFinite(worse.phase) ? degrees(worse.phase, 0) : '∞'}`
+    ? `${Number.isFinite(worse.gain) ? textOf(MARGINS.gain, worse.gain) : '∞'} · ` +
+        `${Number.isFinite(worse.phase) ? textOf(MARGINS.phase, worse.phase) : '∞'}`
     : '–';
 }
 
 /**
  * `cost` is least for the best row; `cross` says whether the loops are paired crosswise.
+ * @typedef {import('../model/figures.js').Figure} Known
  * @typedef {{id: string, group?: Axis, name: () => (Node|string)[], title: string, text: (row: any) => string, cost?:
  *   (row: any, cross: boolean) => number|undefined, warn?: (row: any) => boolean}} Column
- * @type {Column[]}
  */
+
+/**
+ * What the registry says of a figure.
+ * @param {string} id
+ * @param {Known} f
+ * @param {(row: any) => any} of
+ * @returns {Column}
+ */
+const column = (id, f, of = (r) => r[f.name]) => ({
+  id,
+  name: () => [f.short ?? ''],
+  title: f.hint ?? '',
+  text: (r) => textOf(f, of(r)),
+  cost: (r) => (f.better === 'none' || of(r) === undefined ? undefined : signOf(f) * of(r)),
+});
+
+/** A figure of the state feedback, under its symbol. @param {string} id @param {Known} f @returns {Column} */
+const designColumn = (id, f) => ({ ...column(id, f), name: () => [f.symbol ? printed(f.symbol) : (f.short ?? '')] });
+
+/** @param {Axis} axis @param {'rise'|'overshoot'|'undershoot'} key @returns {Column} */
+const axisColumn = (axis, key) => ({
+  ...column(`${key}-${axis}`, AXIS[key], (r) => step(r, axis)?.[AXIS[key].name]),
+  group: axis,
+  title: `${AXIS[key].hint}, nonlinear rig`,
+});
+
+/** @type {Column[]} */
 const COLUMNS = [
+  designColumn('norm', DESIGN.norm),
+  designColumn('spectral', DESIGN.spectral),
   {
-    id: 'norm',
-    name: () => [norm('F')],
-    title: 'Frobenius norm of K: the size of all its gains',
-    text: (r) => significant(r.norm, 4),
-    cost: (r) => r.norm,
-  },
-  {
-    id: 'spectral',
-    name: () => [norm('2')],
-    title: 'spectral norm of K: the most it can amplify a state',
-    text: (r) => significant(r.spectral_norm, 4),
-    cost: (r) => r.spectral_norm,
-  },
-  {
-    id: 'error',
-    name: () => ['Pole error'],
-    title: 'farthest distance of a computed pole from the placed one, rad/s',
-    text: (r) =>
-      r.pole_error === undefined
-        ? 'own poles'
-        : r.pole_error === 0
-          ? '0'
-          : r.pole_error.toExponential(0).replace('-', '\u2212'),
+    ...designColumn('error', DESIGN.error),
+    text: (r) => (r.pole_error === undefined ? 'own poles' : textOf(DESIGN.error, r.pole_error)),
     cost: (r) => (r.pole_error === undefined ? undefined : Math.max(r.pole_error, ROUNDING)),
   },
+  designColumn('kappa', DESIGN.kappa),
   {
-    id: 'kappa',
-    name: () => [symbol('κ', '2'), '(', symbol('X'), ')'],
-    title: 'condition number of the eigenvectors of A − BK: how sensitive the poles are, at best 1',
-    text: (r) => significant(r.eigenvector_condition, 3),
-    cost: (r) => r.eigenvector_condition,
-  },
-  {
-    id: 'lambda',
-    name: () => [symbol('λ', '11')],
-    title: 'relative gain at s = 0, dimensionless: at 1 the diagonal loops do not feel each other',
-    text: (r) => fixed(r.rga?.[0][0], 3),
+    ...designColumn('lambda', DESIGN.lambda),
+    text: (r) => textOf(DESIGN.lambda, r.rga?.[0][0]),
     cost: (r, cross) => (r.rga ? Math.abs(r.rga[0][cross ? 1 : 0] - 1) : undefined),
   },
-  .../** @type {Axis[]} */ (['theta', 'psi']).flatMap((axis) => [
-    {
-      id: `rise-${axis}`,
-      group: axis,
-      name: () => ['Rise'],
-      title: '10 to 90 % of this axis’ step, nonlinear rig',
-      text: (/** @type {any} */ r) => seconds(step(r, axis)?.rise_time),
-      cost: (/** @type {any} */ r) => step(r, axis)?.rise_time,
-    },
-    {
-      id: `overshoot-${axis}`,
-      group: axis,
-      name: () => ['Over\u00adshoot'],
-      title: 'beyond the reference of this axis’ step, nonlinear rig',
-      text: (/** @type {any} */ r) => percents(step(r, axis)?.overshoot),
-      cost: (/** @type {any} */ r) => step(r, axis)?.overshoot,
-    },
-    {
-      id: `undershoot-${axis}`,
-      group: axis,
-      name: () => ['Under\u00adshoot'],
-      title: 'from the start away from the reference of this axis’ step, nonlinear rig',
-      text: (/** @type {any} */ r) => percents(step(r, axis)?.undershoot),
-      cost: (/** @type {any} */ r) => step(r, axis)?.undershoot,
-    },
-  ]),
+  .../** @type {Axis[]} */ (['theta', 'psi']).flatMap((axis) =>
+    /** @type {const} */ (['rise', 'overshoot', 'undershoot']).map((key) => axisColumn(axis, key)),
+  ),
   .../** @type {('V_p'|'V_y')[]} */ (['V_p', 'V_y']).map((name) => ({
     id: name,
-    name: () => [symbol('V', name[2]), ' peak'],
-    title:
-      `${name === 'V_p' ? 'pitch' : 'yaw'} motor over both steps, trim included; or the longer share of time ` +
-      'at its limit',
+    name: () => [printed(name), ` ${MOTOR.peak.short}`],
+    title: `${name === 'V_p' ? 'pitch' : 'yaw'} ${MOTOR.peak.hint}; or the longer share of time at its limit`,
     text: (/** @type {any} */ r) => motorText({ [name]: voltage(r, name) ?? {} }, name),
     cost: (/** @type {any} */ r) => {
       const m = voltage(r, name);
@@ -115,7 +103,7 @@ const COLUMNS = [
   {
     id: 'margin',
     name: () => ['Gain · phase margin'],
-    title: 'the smaller of both motors’, everything else closed',
+    title: MARGINS.gain.hint ?? '',
     text: marginText,
     cost: (r) => {
       const worse = worseMargins(r.margins);
@@ -136,7 +124,8 @@ const marginTitle = (row) =>
   Object.entries(row.margins ?? {})
     .map(
       ([motor, m]) =>
-        `${motor}: ${m.gain_margin === undefined ? '∞' : decibel(m.gain_margin)} · ${degrees(m.phase_margin, 0)}`,
+        `${motor}: ${m.gain_margin === undefined ? '∞' : textOf(MARGINS.gain, m.gain_margin)} · ` +
+        textOf(MARGINS.phase, m.phase_margin),
     )
     .join('\n');
 

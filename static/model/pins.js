@@ -3,8 +3,10 @@
  * @typedef {import('../types.js').Reply} Reply
  * @typedef {import('../types.js').Pin} Pin
  */
+import { t } from '../text/index.js';
 import { best, hardest, worseMargins } from './compare_math.js';
-import { decibel, degrees, fixed, seconds, significant, t } from '../text/index.js';
+import { signOf, textOf, valueIn } from './figure_texts.js';
+import { AXIS, DESIGN, MARGINS, MOTOR, RESPONSE, SENSITIVITY } from './figures.js';
 
 export const COLORS = 6;
 
@@ -15,145 +17,84 @@ export const letterOf = (index) =>
 /** @param {number} index */
 export const colorOf = (index) => `pin-${index % COLORS}`;
 
-const metric = (/** @type {string} */ axis, /** @type {string} */ name) => (/** @type {Reply} */ r) =>
-  r.stable ? r.axis_steps?.[/** @type {'theta'|'psi'} */ (axis)]?.nonlinear.metrics?.[axis]?.[name] : undefined;
-/** Endless where it has not settled within the window. */
-const settling = (/** @type {string} */ axis) => (/** @type {Reply} */ r) =>
-  metric(axis, 'settled')(r) === false ? Infinity : metric(axis, 'settling_time')(r);
-const other = (/** @type {'theta'|'psi'} */ axis) => (/** @type {Reply} */ r) =>
-  r.stable ? r.axis_steps?.[axis]?.nonlinear.metrics?.coupling_peak : undefined;
+/** The figures of an axis' step, of a loop that is stable. @param {Reply} r @param {'theta'|'psi'} axis */
+const metrics = (r, axis) => (r.stable ? r.axis_steps?.[axis]?.nonlinear.metrics : undefined);
 const peaks = (/** @type {Reply} */ r) =>
   hardest(Object.fromEntries(Object.entries(r.axis_steps ?? {}).map(([axis, pair]) => [axis, pair.nonlinear.metrics])));
-const size = (/** @type {(r: Reply) => number|undefined} */ of) => (/** @type {Reply} */ r) => {
-  const v = of(r);
-  return v === undefined ? undefined : Math.abs(v);
-};
-const percents = (/** @type {number|undefined} */ v) => (v === undefined ? '–' : `${fixed(v, 1)} %`);
-const volts = (/** @type {number|undefined} */ v) => (v === undefined ? '–' : `${fixed(v, 1)} V`);
-const gain = (/** @type {number|undefined} */ v) => (v === Infinity ? '∞' : decibel(v));
-
 /**
  * `of` gives the figure, `text` shows it, `shift` shows a difference, `sign` is 1 where less is better and −1 where
  * more is.
- * @typedef {{id: string, axis?: 'theta'|'psi', name: string, sub?: string, title: string, sign: 1|-1, of: (r: Reply) =>
- *   number|undefined, text: (v: number|undefined) => string, shift?: (d: number, v: number) => string}} Figure
- * @type {Figure[]}
+ * @typedef {{id: string, axis?: 'theta'|'psi', name: string, symbol?: string, title: string, sign: 1|-1, of: (r: Reply)
+ *   => number|undefined, text: (v: number|undefined) => string, shift?: (d: number, v: number) => string}} Figure
+ * @typedef {import('./figures.js').Figure} Known
  */
+
+/**
+ * What the registry says of a figure.
+ * @param {string} id
+ * @param {Known} f
+ * @param {(r: Reply) => number|undefined} of
+ * @returns {Figure}
+ */
+const column = (id, f, of) => ({
+  id,
+  name: f.short ?? '',
+  title: f.hint ?? '',
+  sign: signOf(f),
+  of: f.signed ? (/** @type {Reply} */ r) => size(of(r)) : of,
+  text: (/** @type {number|undefined} */ v) => textOf(f, v),
+});
+const size = (/** @type {number|undefined} */ v) => (v === undefined ? undefined : Math.abs(v));
+
+const MODEL = ', nonlinear rig'; // named where both models are timed
+
+/** @param {'theta'|'psi'} axis @param {string} key @param {Known} f @returns {Figure} */
+const ofAxis = (axis, key, f) => {
+  const own = column(`${key}-${axis}`, f, (r) => valueIn(metrics(r, axis), axis, key, f));
+  return { ...own, axis, title: own.title + (f.notation === 'seconds' ? MODEL : '') };
+};
+
+/**
+ * A time that is endless where the axis has not settled within the window.
+ * @param {'theta'|'psi'} axis
+ * @param {Figure} own
+ * @returns {Figure}
+ */
+const endless = (axis, own) => ({
+  ...own,
+  of: (r) => (metrics(r, axis)?.[axis]?.settled === false ? Infinity : own.of(r)),
+  text: (v) => (v === Infinity ? t('not settled') : own.text(v)),
+});
+
+/** @param {'V_p'|'V_y'} motor @param {string} name */
+const ofMotor = (motor, name) => ({
+  ...column(motor, MOTOR.peak, (r) => peaks(r)[motor]?.peak),
+  symbol: motor,
+  title: `peak of the ${name} ${MOTOR.peak.hint}`,
+});
+
+const gain = column('gain', MARGINS.gain, (r) => worseMargins(r.margins)?.gain);
+
+/** @type {Figure[]} */
 export const FIGURES = [
-  {
-    id: 'norm',
-    name: '‖K‖',
-    sub: 'F',
-    title: 'Frobenius norm of K: the size of all its gains',
-    sign: 1,
-    of: (r) => r.gains.norm,
-    text: (v) => significant(v, 4),
-  },
-  .../** @type {('theta'|'psi')[]} */ (['theta', 'psi']).flatMap(
-    (axis) =>
-      /** @type {Figure[]} */ ([
-        {
-          id: `rise-${axis}`,
-          axis,
-          name: 'Rise',
-          title: '10 to 90 % of this axis’ step, nonlinear rig',
-          sign: 1,
-          of: metric(axis, 'rise_time'),
-          text: seconds,
-        },
-        {
-          id: `settling-${axis}`,
-          axis,
-          name: 'Settling',
-          title: 'to within 2 % of this axis’ step, nonlinear rig',
-          sign: 1,
-          of: settling(axis),
-          text: (v) => (v === Infinity ? t('not settled') : seconds(v)),
-        },
-        {
-          id: `overshoot-${axis}`,
-          axis,
-          name: 'Over\u00adshoot',
-          title: 'beyond the reference of this axis’ step',
-          sign: 1,
-          of: metric(axis, 'overshoot'),
-          text: percents,
-        },
-        {
-          id: `undershoot-${axis}`,
-          axis,
-          name: 'Under\u00adshoot',
-          title: 'from the start away from the reference of this axis’ step',
-          sign: 1,
-          of: metric(axis, 'undershoot'),
-          text: percents,
-        },
-        {
-          id: `error-${axis}`,
-          axis,
-          name: 'Error',
-          title: 'size of the error at the end',
-          sign: 1,
-          of: size(metric(axis, 'steady_state_error')),
-          text: (v) => degrees(v, 2),
-        },
-        {
-          id: `coupling-${axis}`,
-          axis,
-          name: 'Other axis',
-          title: 'largest deviation of the axis that is not stepped',
-          sign: 1,
-          of: other(axis),
-          text: (v) => degrees(v, 2),
-        },
-      ]),
+  { ...column('norm', DESIGN.norm, (r) => r.gains.norm), symbol: DESIGN.norm.symbol },
+  .../** @type {('theta'|'psi')[]} */ (['theta', 'psi']).flatMap((axis) =>
+    Object.entries(RESPONSE)
+      .filter(([, f]) => f.short && f.better !== 'none')
+      .map(([key, f]) => (f === AXIS.settling ? endless(axis, ofAxis(axis, key, f)) : ofAxis(axis, key, f))),
   ),
+  ofMotor('V_p', 'pitch'),
+  ofMotor('V_y', 'yaw'),
   {
-    id: 'V_p',
-    name: 'V',
-    sub: 'p',
-    title: 'peak of the pitch motor over both steps, trim included',
-    sign: 1,
-    of: (r) => peaks(r).V_p?.peak,
-    text: volts,
+    ...gain,
+    text: (v) => (v === Infinity ? '∞' : gain.text(v)),
+    shift: (d, v) => gain.text(v / (v - d)),
   },
-  {
-    id: 'V_y',
-    name: 'V',
-    sub: 'y',
-    title: 'peak of the yaw motor over both steps, trim included',
-    sign: 1,
-    of: (r) => peaks(r).V_y?.peak,
-    text: volts,
-  },
-  {
-    id: 'gain',
-    name: 'Gain margin',
-    title: 'the smaller of both motors’, everything else closed',
-    sign: -1,
-    of: (r) => worseMargins(r.margins)?.gain,
-    text: gain,
-    shift: (d, v) => decibel(v / (v - d)),
-  },
-  {
-    id: 'phase',
-    name: 'Phase margin',
-    title: 'the smaller of both motors’, everything else closed',
-    sign: -1,
-    of: (r) => {
-      const p = worseMargins(r.margins)?.phase;
-      return Number.isFinite(p) ? p : undefined;
-    },
-    text: (v) => degrees(v, 0),
-  },
-  {
-    id: 'disk',
-    name: 'Disk margin',
-    title: 'both motors at once',
-    sign: -1,
-    of: (r) => r.sensitivity?.disk_margin,
-    text: (v) => fixed(v, 2),
-  },
+  column('phase', MARGINS.phase, (r) => {
+    const p = worseMargins(r.margins)?.phase;
+    return Number.isFinite(p) ? p : undefined;
+  }),
+  column('disk', SENSITIVITY.disk, (r) => r.sensitivity?.disk_margin),
 ];
 
 /**

@@ -5,7 +5,9 @@
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {import('../types.js').Requirements} Requirements
  */
-import { fixed, say, seconds, t } from '../text/index.js';
+import { say, t } from '../text/index.js';
+import { textOf } from './figure_texts.js';
+import { AXIS } from './figures.js';
 import { character } from './poles.js';
 
 const SLACK = 1 + 1e-9; // a pole on the border itself is allowed
@@ -102,8 +104,11 @@ export function verdictOf(reply, axis, r) {
   if (!isAsked(r) || !own) return null;
   const [settling, overshoot] = [misses(own.settling_time, r.settling), misses(own.overshoot, r.overshoot)];
   const words = [
-    settling && (own.settling_time === undefined ? t('not settled') : say`settles in ${seconds(own.settling_time)}`),
-    overshoot && say`overshoots by ${fixed(own.overshoot, 1)} %`,
+    settling &&
+      (own.settling_time === undefined
+        ? t('not settled')
+        : say`settles in ${textOf(AXIS.settling, own.settling_time)}`),
+    overshoot && say`overshoots by ${textOf(AXIS.overshoot, own.overshoot)}`,
   ];
   return {
     met: !settling && !overshoot,

@@ -185,7 +185,8 @@ export class LimitsPart {
 
   /**
    * @param {Design} design
-   * @param {{hasStops: boolean, own: boolean}} rig whether pitch has stops, and the method integral action without a T_i
+   * @param {{hasStops: boolean, own: boolean}} rig  whether pitch has stops, and whether the method brings integral
+   *   action, which has no T_i
    */
   render({ scenario, outer, loops }, { hasStops, own }) {
     const { saturation, anti_windup, travel_stops, trim_feedforward } = { ...STANDARD, ...scenario };

@@ -4,7 +4,7 @@
  */
 import { complex } from '../text/index.js';
 import { differenceTable, FIGURES, nameOf } from '../model/index.js';
-import { h, setAttr, setText, symbol } from '../ui/index.js';
+import { h, printed, setAttr, setText } from '../ui/index.js';
 import { badge } from './pin_bar.js';
 
 /** @typedef {import('../types.js').Pin} Pin @typedef {import('../types.js').Design} Design */
@@ -23,11 +23,7 @@ const described = (design) =>
 
 /** @param {import('../model/pins.js').Figure} f */
 const heading = (f) =>
-  f.sub
-    ? f.name === '‖K‖'
-      ? h('span', { class: 'sym' }, '‖', h('i', {}, 'K'), '‖', h('sub', {}, f.sub))
-      : h('span', {}, symbol(f.name, f.sub), ' peak')
-    : f.name;
+  f.symbol?.startsWith('V_') ? h('span', {}, printed(f.symbol), ` ${f.name}`) : f.symbol ? printed(f.symbol) : f.name;
 
 /** A figure and its difference, written in place while a pole moves. */
 class Cell {

@@ -4,7 +4,7 @@ const MINUS = '\u2212';
 export const DEGREE = 180 / Math.PI;
 
 /** @param {string} text */
-const typographic = (text) => text.replace('-', MINUS);
+const typographic = (text) => text.replaceAll('-', MINUS);
 
 /** Fixed decimals with a true minus; never "−0.00". @param {number|undefined} v @param {number} [decimals] */
 export function fixed(v, decimals = 2) {

@@ -1,7 +1,7 @@
 /** What other rooms may import of ui/. */
 export { copyText, saveFile } from './clipboard.js';
 export { copyButton } from './copy_menu.js';
-export { byId, h, setAttr, setText, svg, symbol } from './dom.js';
+export { byId, h, printed, setAttr, setText, svg, symbol } from './dom.js';
 export { Choice, NumberField } from './fields.js';
 export { isolated } from './isolated.js';
 export { Lazy } from './lazy.js';
