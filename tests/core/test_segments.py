@@ -6,6 +6,7 @@ import numpy as np
 
 from heli2dof_core.recordings.recording import Recording
 from heli2dof_core.recordings.segments import rough_starts
+from heli2dof_core.recordings.time_axis import GAP, stretches
 
 
 def test_rough_starts_are_the_parabolas_own_and_know_nothing_of_the_next_segment():
@@ -30,3 +31,10 @@ def test_rough_starts_look_at_the_beginning_alone():
     angles[32:] += np.random.default_rng(1).normal(size=(168, 2))
     found = rough_starts(Recording(t, angles, np.zeros((200, 2))), np.array([[0, 200]]))
     np.testing.assert_allclose(found, [[0.3, 0.1, -0.2, 0.4]], atol=1e-9)
+
+
+def test_a_gap_is_longer_than_so_many_sample_times_and_parts_the_rows():
+    t = np.arange(6.0)
+    longer = np.where(t > 2, t + GAP - 1, t)
+    assert stretches(longer).tolist() == [[0, 6]]  # it is no longer than that
+    assert stretches(longer + 1e-6 * (t > 2)).tolist() == [[0, 3], [3, 6]]
