@@ -1,14 +1,16 @@
 /**
  * The socket on which the windows of one session tell one another what is shown and how time runs. A page sends nothing
- * while nobody else listens;
- * of what is shown, the newest waits until the server has taken the last. Each window plays by itself: the server's
- * clock says how long ago a snapshot was taken.
+ * while nobody else listens; of what is shown, the newest waits until the server has taken the last. Each window plays
+ * by itself: the server's clock says how long ago a snapshot was taken.
  * @typedef {import('./clock.js').Snapshot} Snapshot
  * @typedef {{others: number, leads: boolean, count: number}} Windows  count: of the panel's messages so far
  */
 import { backoff, decodeFrame, encodeFrame } from '../net/index.js';
 
 const PINGS = 4; // at first, to find the shortest way
+const LONG_TRIP = 0.05; // seconds: by half of it two windows may differ
+const MORE_PINGS = 24; // where none was shorter
+const SOON_MS = 250;
 const PING_MS = 20_000;
 const FIRST_RETRY_MS = 500;
 const LAST_RETRY_MS = 10_000;
@@ -35,6 +37,7 @@ export class Hub {
    * @param {(edits: Record<string, any>, count: number) => void} how.onEdits what was set at the panel, for the window
    *   that leads
    * @param {(windows: Windows) => void} how.onWindows  also after every new connection
+   * @param {(error: number) => void} [how.onClock]  how well the server's clock is known by now, ± seconds
    * @param {() => number} [how.now]  seconds
    */
   constructor({
@@ -44,6 +47,7 @@ export class Hub {
     onTransport,
     onEdits,
     onWindows,
+    onClock = () => {},
     now = () => performance.now() / 1000,
   }) {
     this.open = open;
@@ -52,6 +56,7 @@ export class Hub {
     this.onTransport = onTransport;
     this.onEdits = onEdits;
     this.onWindows = onWindows;
+    this.onClock = onClock;
     this.now = now;
     this.#connect();
   }
@@ -140,8 +145,11 @@ export class Hub {
     const waiting = this.#later;
     this.#later = [];
     for (const act of waiting) act();
-    if (this.#pings < PINGS) this.#ping();
-    else this.#timer = setTimeout(() => this.#ping(), PING_MS);
+    this.onClock(this.#clock.trip / 2);
+    if (this.#pings < PINGS) return this.#ping();
+    const soon = this.#clock.trip > LONG_TRIP && this.#pings < MORE_PINGS;
+    this.#timer = setTimeout(() => this.#ping(), soon ? SOON_MS : PING_MS);
+    return undefined;
   }
 
   /** Does what needs the server's time, as soon as that is known. @param {(offset: number) => void} act */
@@ -168,4 +176,9 @@ export class Hub {
     }
     return undefined;
   }
+}
+
+/** Tells tests and scripts how well this window knows the server's clock. @param {number} error ± seconds */
+export function publishClock(error) {
+  document.documentElement.dataset.clockError = error.toFixed(4);
 }

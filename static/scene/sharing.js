@@ -6,7 +6,7 @@
  */
 import { evaluationOf, motionOf } from '../model/index.js';
 import { hubAddress } from '../net/index.js';
-import { Hub } from './hub.js';
+import { Hub, publishClock } from './hub.js';
 import { edited, shownOf, steer } from './panel.js';
 import { InStep } from './step.js';
 
@@ -27,6 +27,7 @@ export class SceneSharing {
       onTransport: (snapshot, elapsed) => this.step.follow(snapshot, elapsed),
       onEdits: (edits, count) => this.#edit(edits, count),
       onWindows: (windows) => this.#windows(windows),
+      onClock: publishClock,
     });
     store.addEventListener(
       'design',

@@ -7,7 +7,7 @@ import { degrees, fixed } from '../text/index.js';
 import { designOf, evaluationOf, motionOf } from '../model/index.js';
 import { Live, ofSession } from '../net/index.js';
 import { h, setText } from '../ui/index.js';
-import { Hub } from './hub.js';
+import { Hub, publishClock } from './hub.js';
 import { ScenePlayer } from './player.js';
 import { edited, shownOf, steer, trajectoryIn } from './panel.js';
 import { InStep } from './step.js';
@@ -64,6 +64,7 @@ class SceneWindow {
       onTransport: (snapshot, elapsed) => this.step.follow(snapshot, elapsed),
       onEdits: (edits, count) => this.#edit(edits, count),
       onWindows: (windows) => this.#windows(windows),
+      onClock: publishClock,
     });
     const dark = matchMedia('(prefers-color-scheme: dark)');
     const tell = () => this.player.setTheme(dark.matches);

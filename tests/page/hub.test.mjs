@@ -35,13 +35,14 @@ class FakeSocket {
 }
 
 /** A hub, its socket, and a clock that stands. */
-function hub({ always = false } = {}) {
+function hub({ always = false, onClock } = {}) {
   const socket = new FakeSocket();
   const heard = [];
   const time = { now: 100 };
   const it = new Hub({
     open: () => socket,
     always,
+    onClock,
     now: () => time.now,
     onShown: (shown) => heard.push(['shown', shown]),
     onTransport: (snapshot, elapsed) => heard.push(['transport', snapshot, elapsed]),
@@ -102,6 +103,28 @@ test('the shortest way to the server tells its clock best', () => {
   socket.say({ type: 'clock', sent: 100.02, now: 5009 }); // held up on its way
   it.run(RUN);
   assert.ok(Math.abs(socket.texts('transport')[0].at - 5003) < 1e-9);
+});
+
+test('while every way to the server was long, its clock is asked soon again, and then seldom', (t) => {
+  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const errors = [];
+  const { socket, time } = hub({ always: true, onClock: (error) => errors.push(error) });
+  const asked = () => socket.texts('clock').length;
+  const answer = (trip) => {
+    const { sent } = socket.texts('clock').at(-1);
+    time.now = sent + trip;
+    socket.say({ type: 'clock', sent, now: 5000 + sent + trip / 2 });
+  };
+  for (let k = 0; k < 4; k++) answer(0.3);
+  assert.equal(asked(), 4);
+  t.mock.timers.tick(250);
+  assert.equal(asked(), 5);
+  answer(0.02);
+  assert.ok(Math.abs(errors.at(-1) - 0.01) < 1e-9);
+  t.mock.timers.tick(19_999);
+  assert.equal(asked(), 5);
+  t.mock.timers.tick(1);
+  assert.equal(asked(), 6);
 });
 
 const DESIGN = {
