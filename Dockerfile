@@ -11,7 +11,7 @@ COPY static static
 # Bytecode and compiled kernels are made here, since the server may not write at run time; the kernels for
 # any processor of the kind. The packages' own tests and what only compilers and editors read stay out.
 ENV NUMBA_CACHE_DIR=/opt/heli2dof/kernels NUMBA_CPU_NAME=generic
-RUN /opt/heli2dof/bin/pip install --no-cache-dir --disable-pip-version-check -c constraints.txt . \
+RUN /opt/heli2dof/bin/pip install --no-cache-dir --disable-pip-version-check -c constraints.txt '.[matlab]' \
  && /opt/heli2dof/bin/pip uninstall --yes pip \
  && find /opt/heli2dof/lib -type d -name tests -prune -exec rm -rf {} + \
  && find /opt/heli2dof/lib -name '*.py[ix]' -delete -o -name '*.pxd' -delete -o -name '*.h' -delete -o -name '*.a' -delete \

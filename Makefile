@@ -104,7 +104,7 @@ $(BIN)/pip:
 $(VENV)/.installed: $(SOURCES) $(PACKAGING) | $(BIN)/pip
 	@echo "Installing heli2dof into $(VENV); the first time takes two minutes."
 	@$(BIN)/pip install --quiet --disable-pip-version-check \
-	  $(if $(filter $(PACKAGING),$?),-c constraints.txt,--no-deps --force-reinstall) .
+	  $(if $(filter $(PACKAGING),$?),-c constraints.txt,--no-deps --force-reinstall) '.[matlab]'
 	@$(if $(filter $(PACKAGING),$?),echo "Compiling the kernels; this is done once."; $(BIN)/python -P -c 'from heli2dof_core.engine import warm_up; warm_up()')
 	@touch $@
 

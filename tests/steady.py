@@ -55,7 +55,8 @@ def run(name: str, arguments: list[str], count: int, **environment: str) -> int:
         (line for line in reversed(lines) if re.search(r"\d+ (passed|failed|error)", line)), "nothing ran"
     )
     print(f"{name}: {last.strip('= ')}, {time.perf_counter() - began:.0f} s", flush=True)
-    failed = [line for line in lines if line.startswith(("✕ ", "  test-results/"))]
+    told = [k for k, line in enumerate(lines) if line.startswith("✕ ")]
+    failed = lines[told[0] : -1] if told else []
     print(
         "\n".join(failed) or (done.stdout + done.stderr if done.returncode else ""),
         end="\n" if failed else "",

@@ -8,16 +8,19 @@ from __future__ import annotations
 import io
 import shutil
 import subprocess
+import warnings
 from datetime import datetime, timedelta
+from pathlib import Path
 
 import h5py
 import numpy as np
 import openpyxl
+import pandas as pd
 import pytest
 from scipy.io import savemat
 
 from heli2dof_core.errors import RecordingError
-from heli2dof_core.recordings.files import read_table
+from heli2dof_core.recordings.files import matlab_tables, read_table
 from heli2dof_core.recordings.guess import guess_columns
 from tests.core.recorded_run import DEGREES, FRAME, RUN, T, is_the_run, rows_of
 
@@ -264,3 +267,53 @@ def by_pandas(frame):
 )
 def test_spreadsheets_are_read(data):
     is_the_run(read_table(data, "run.xlsx"), 2e-6)
+
+
+def as_matlab(path: Path, version: str, content: dict[str, object]) -> bytes:
+    """A .mat with MATLAB's own tables, as mat-io writes them."""
+    with (
+        warnings.catch_warnings()
+    ):  # of an option of pandas, and of units that MATLAB's durations do not have
+        warnings.simplefilter("ignore")
+        from matio import save_to_mat
+
+        save_to_mat(str(path), content, version=version)
+    return path.read_bytes()
+
+
+FRAME_OF_ANGLES = pd.DataFrame(
+    {own: RUN[role] for own, role in (("pitch", "theta"), ("yaw", "psi"), ("Vp", "V_p"), ("Vy", "V_y"))}
+)
+
+
+@pytest.mark.parametrize("version", ["v7", "v7.3"])
+@pytest.mark.parametrize(
+    "clock", [pd.to_timedelta(T, unit="s"), pd.Timestamp("2026-03-01") + pd.to_timedelta(T, unit="s")]
+)
+def test_matlabs_timetables_are_read(tmp_path: Path, version: str, clock: pd.Index):
+    content = {"run": FRAME_OF_ANGLES.set_index(clock), "note": "of a rig"}
+    table = read_table(as_matlab(tmp_path / "run.mat", version, content), "run.mat")
+    assert table.names == ("run.Time", "run.pitch", "run.yaw", "run.Vp", "run.Vy")
+    np.testing.assert_allclose(table.values[:, 0] - table.values[0, 0], T - T[0], atol=2e-3)
+    for name, column in zip(("theta", "psi", "V_p", "V_y"), table.values.T[1:], strict=True):
+        np.testing.assert_allclose(column, RUN[name])
+
+
+def test_matlabs_tables_are_read_beside_other_variables(tmp_path: Path):
+    content = {"run": FRAME_OF_ANGLES.assign(time=T), "gain": np.eye(2)}
+    is_the_run(read_table(as_matlab(tmp_path / "run.mat", "v7", content), "run.mat"))
+
+
+def test_where_no_mat_io_reads_them_they_are_named_with_a_way_out(tmp_path: Path, monkeypatch):
+    data = as_matlab(tmp_path / "run.mat", "v7", {"run": FRAME_OF_ANGLES, "t": T, "theta": RUN["theta"]})
+    monkeypatch.setattr(matlab_tables, "find_spec", lambda name: None)
+    (finding,) = read_table(data, "run.mat").findings
+    assert "run (MATLAB's table; pip install 'heli2dof[matlab]' reads it)" in finding.message
+
+
+def test_a_reader_that_ends_takes_nobody_along(tmp_path: Path, monkeypatch):
+    data = as_matlab(tmp_path / "run.mat", "v7", {"run": FRAME_OF_ANGLES, "t": T, "theta": RUN["theta"]})
+    monkeypatch.setattr(matlab_tables, "_PROGRAM", "import os; os.abort()")
+    table = read_table(data, "run.mat")
+    assert table.names == ("t", "theta")
+    assert "run (MATLAB's table)" in table.findings[0].message

@@ -11,6 +11,7 @@ import numpy as np
 from ...errors import Heli2DofError
 from ..recording import Table
 from .limits import DEEPEST, MOST_VARIABLES, Wanted, check_unpacked, refused
+from .matlab_tables import with_tables
 from .variables import Unreadable, table_of_variables
 
 MARK = b"\x89HDF\r\n\x1a\n"
@@ -37,7 +38,7 @@ def read_hdf5(data: bytes, name: str, wanted: Wanted) -> Table:
             name,
             "Save it again, in MATLAB with save(…, '-v7').",
         ) from error
-    return table_of_variables(content, "HDF5 file")
+    return table_of_variables(with_tables(content, data, wanted), "HDF5 file")
 
 
 class _Reader:

@@ -19,6 +19,7 @@ import numpy as np
 from ...errors import Heli2DofError, RecordingError
 from ..recording import Table
 from .limits import DEEPEST, MOST_VARIABLES, Wanted, check_unpacked, refused
+from .matlab_tables import with_tables
 from .variables import Unreadable, table_of_variables
 
 _MATRIX, _COMPRESSED = 14, 15
@@ -54,7 +55,7 @@ def read_mat(data: bytes, name: str, wanted: Wanted) -> Table:
         raise
     except (struct.error, ValueError, IndexError, OverflowError) as error:
         raise refused("the .mat file is damaged or of an unknown version", name, _WAY_OUT) from error
-    return table_of_variables(values, ".mat file")
+    return table_of_variables(with_tables(values, data, wanted), ".mat file")
 
 
 def _damaged() -> RecordingError:
