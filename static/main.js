@@ -5,7 +5,7 @@
  */
 import { languageOf, loadWords, say, translatePage } from './text/index.js';
 import { requestOf, Store } from './model/index.js';
-import { getMethods, getPresets, Live } from './net/index.js';
+import { backoff, getMethods, getPresets, Live } from './net/index.js';
 import { byId, isolated, Projector, recall, remember, Stats, Turns, watched } from './ui/index.js';
 import { Address, LockedControls, PinKeeper } from './link/index.js';
 import { Plots } from './plots/index.js';
@@ -162,11 +162,30 @@ function report(error) {
   );
 }
 
+const RETRIES = 24; // four minutes
+
+/**
+ * Rooms that are fetched after the first view: where the server has gone away meanwhile, again and again.
+ * @template T
+ * @param {() => Promise<T>} load
+ * @returns {Promise<T>}
+ */
+async function fetched(load) {
+  for (let attempt = 0; ; attempt++) {
+    try {
+      return await load();
+    } catch (error) {
+      if (attempt === RETRIES) throw error;
+      await new Promise((again) => setTimeout(again, backoff(attempt, 500, 10_000)));
+    }
+  }
+}
+
 /** @type {Promise<import('./tour/index.js').Tour>|null} */ let tours = null;
 
 /** The five hints, loaded when they are wanted. @param {HTMLElement} [from] the button that asks */
 async function tour(from) {
-  tours ??= import('./tour/index.js').then(({ Tour }) => new Tour(byId('tour')));
+  tours ??= fetched(() => import('./tour/index.js')).then(({ Tour }) => new Tour(byId('tour')));
   (await tours).start(from);
 }
 
@@ -177,11 +196,9 @@ function welcome() {
 
 /** Panels that the first view does not need, fetched when it is there. */
 async function furtherDown() {
-  const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await Promise.all([
-    import('./compare/index.js'),
-    import('./recordings/index.js'),
-    import('./paper/index.js'),
-  ]);
+  const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await fetched(() =>
+    Promise.all([import('./compare/index.js'), import('./recordings/index.js'), import('./paper/index.js')]),
+  );
   const further = [
     new ComparePanel(byId('compare'), store),
     new RecordingsPanel(byId('recordings'), store),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import socket
 
 import pytest
-from playwright.sync_api import Browser, Frame, Page, expect
+from playwright.sync_api import Browser, Frame, Page, Route, expect
 
 from tests.browser import (
     EMPTY,
@@ -269,6 +269,21 @@ def test_the_main_loop_needs_no_scrolling(chromium: Browser, app: App, size: tup
             assert box["x"] >= 0 and box["x"] + box["width"] <= size[0], testid
             assert box["y"] >= 0 and box["y"] + box["height"] <= size[1], testid
         assert page.evaluate("() => document.scrollingElement.scrollWidth - innerWidth") <= 0
+
+
+def test_rooms_that_did_not_come_are_fetched_again(chromium: Browser, app: App):
+    with visited(chromium, EMPTY, SEEN) as visit:
+        tries: list[str] = []
+
+        def first_lost(route: Route) -> None:
+            tries.append(route.request.url)
+            route.abort() if len(tries) == 1 else route.continue_()
+
+        visit.page.route("**/static/compare/index.js", first_lost)
+        goto(visit.page, app.url)
+        expect(visit.page.get_by_test_id("recording-sample")).to_be_attached()
+        assert len(tries) == 2
+        visit.forgive("net::ERR_FAILED")
 
 
 def test_lost_server_is_told_edits_continue_and_are_sent_when_it_returns(chromium: Browser):
