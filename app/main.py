@@ -17,6 +17,7 @@ from .edge import policies
 from .edge.connections import Connections
 from .edge.limits import SocketCounts, read_in_small_parts
 from .edge.middleware import with_middleware
+from .jobs.compute import Compute
 from .ops.cached_files import CachedFiles
 from .ops.metrics import Metrics
 from .ops.settings import Settings
@@ -33,7 +34,6 @@ from .routes import (
     recordings,
     robustness,
 )
-from .work.compute import Compute
 
 _DESCRIPTION = (
     "Pole placement for a two-degree-of-freedom laboratory helicopter. SI units: radians, volts, seconds. "

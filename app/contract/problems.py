@@ -15,8 +15,8 @@ from starlette.exceptions import HTTPException
 
 from heli2dof_core import Heli2DofError
 
+from ..jobs.fair_queue import BusyError, OverdueError
 from ..ops.logs import request_id
-from ..work.fair_queue import BusyError, OverdueError
 from .encoding import json_bytes
 
 _log = logging.getLogger(__name__)

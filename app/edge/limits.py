@@ -16,8 +16,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from heli2dof_core.recordings.files import MOST_BYTES
 
 from ..contract.problems import problem, problem_response
+from ..jobs.compute import Caller, current_caller
 from ..ops.settings import Settings
-from ..work.compute import Caller, current_caller
 
 _POLICY, _TRY_LATER = 1008, 1013
 _READ_BYTES = 16 * 1024

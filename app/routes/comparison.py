@@ -12,7 +12,7 @@ from ..contract.encoding import json_response
 from ..contract.models import described
 from ..contract.placement_requests import PlaceRequest
 from ..contract.requests import CompareRequest, DesignRequest
-from ..work.compute import Compute
+from ..jobs.compute import Compute
 
 
 def build_router(compute: Compute) -> APIRouter:

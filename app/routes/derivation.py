@@ -12,7 +12,7 @@ from ..contract.encoding import json_bytes, json_response
 from ..contract.models import Symbolic, described
 from ..contract.paper_models import Paper, Walkthrough
 from ..contract.requests import DesignRequest
-from ..work.compute import Compute
+from ..jobs.compute import Compute
 
 
 def build_router(compute: Compute) -> APIRouter:

@@ -9,7 +9,7 @@ from heli2dof_core import close_loop, evaluate, place, simulate, suggest_pi
 from ..contract import models, replies
 from ..contract.encoding import json_response
 from ..contract.requests import DesignRequest, EvaluateRequest, ResponseRequest
-from ..work.compute import Compute
+from ..jobs.compute import Compute
 
 
 def build_router(compute: Compute) -> APIRouter:

@@ -11,7 +11,7 @@ from heli2dof_core.checks import require_known
 from ..contract.exports import FORMATS
 from ..contract.models import described
 from ..contract.requests import StepRequest
-from ..work.compute import Compute
+from ..jobs.compute import Compute
 
 # The characters of RFC 3986 alone: none of them ends a line, a comment or an attribute of the files.
 _LINK = r"^https?://[A-Za-z0-9\-._~:/?#\[\]@!$&'()*+,;=%]+$"

@@ -7,8 +7,8 @@ from fastapi import APIRouter, Request, Response
 from ..contract.encoding import json_response
 from ..contract.problems import problem, problem_response
 from ..edge.connections import Connections
+from ..jobs.compute import Compute
 from ..ops.metrics import Metrics
-from ..work.compute import Compute
 
 
 def build_router(compute: Compute, connections: Connections, metrics: Metrics | None) -> APIRouter:

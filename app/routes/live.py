@@ -19,8 +19,8 @@ from ..contract.problems import TEXT_START, problem_of
 from ..contract.replies import report_reply
 from ..contract.requests import LiveRequest
 from ..edge.connections import connection_of
+from ..jobs.compute import Compute
 from ..ops.metrics import Metrics
-from ..work.compute import Compute
 
 _log = logging.getLogger(__name__)
 QUICK_STEPS = 4000

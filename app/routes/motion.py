@@ -15,9 +15,9 @@ from heli2dof_core.scenario import Model
 
 from ..contract.models import described
 from ..contract.requests import StepRequest
+from ..jobs.compute import Compute
 from ..scene.motion import MotionFormat, motion_file
 from ..scene.poses import Motion
-from ..work.compute import Compute
 
 Kind = Annotated[MotionFormat, Query(alias="format")]
 MOST_WAITING = 8

@@ -34,9 +34,9 @@ from ..contract.recording_models import (
     preview_reply,
     progress_reply,
 )
+from ..jobs.compute import Compute, check_cancelled, current_caller
+from ..jobs.recording_store import RecordingStore
 from ..ops.settings import Settings
-from ..work.compute import Compute, check_cancelled, current_caller
-from ..work.recording_store import RecordingStore
 from .progress_socket import Send, serve_with_progress
 
 _KERNEL_POLLS = 180

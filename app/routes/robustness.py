@@ -12,8 +12,8 @@ from heli2dof_core.robustness import Cloud, cloud, cloud_in_parts
 from ..contract.encoding import json_bytes
 from ..contract.models import described
 from ..contract.robustness_requests import RobustnessReply, RobustnessRequest, cloud_reply
+from ..jobs.compute import Compute, check_cancelled
 from ..ops.metrics import Metrics
-from ..work.compute import Compute, check_cancelled
 from .progress_socket import Send, serve_with_progress
 
 

@@ -12,7 +12,7 @@ import pytest
 from numba.core.caching import UserProvidedCacheLocator
 
 import heli2dof_core
-from app.work.kernel_compiler import compiler
+from app.jobs.kernel_compiler import compiler
 from heli2dof_core.engine import engine
 from tests.children import python
 
@@ -29,7 +29,7 @@ def test_it_compiles_the_package_that_serves_and_not_one_in_the_working_director
 
 STARTS = """
 import logging, sys
-from app.work.kernel_compiler import COMPILE, KernelCompiler
+from app.jobs.kernel_compiler import COMPILE, KernelCompiler
 from heli2dof_core.engine import engine
 logging.basicConfig(level="INFO", format="%(message)s", stream=sys.stdout)
 compilers = []

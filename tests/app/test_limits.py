@@ -14,10 +14,10 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from app.edge.limits import Buckets, Limits, SocketCounts, address_of
+from app.jobs.compute import Compute
+from app.jobs.fair_queue import BusyError, FairQueue, Job
+from app.jobs.recording_store import RecordingStore
 from app.ops.settings import Settings
-from app.work.compute import Compute
-from app.work.fair_queue import BusyError, FairQueue, Job
-from app.work.recording_store import RecordingStore
 from heli2dof_core.errors import RecordingError
 from heli2dof_core.recordings.recording import Table
 from tests.loops import run

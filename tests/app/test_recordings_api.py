@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.contract.recording_models import IdentificationReply, OverlayReply, Preview
-from app.work.recording_store import RecordingStore
+from app.jobs.recording_store import RecordingStore
 from heli2dof_core.errors import RecordingError
 from heli2dof_core.recordings.recording import Table
 from tests.app.test_rest import post

@@ -1,1 +1,0 @@
-"""Where the core computes: threads, their queue, the compiler of the kernels, what is kept of recordings."""
