@@ -38,8 +38,8 @@ check: style static-types types floors ## style, types, floors
 style: $(VENV)/.tools node_modules/.installed ## Ruff for Python; Prettier and ESLint for JavaScript, the page's rooms among it
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
-	@$(BIN)/npx prettier --log-level warn --check $(JAVASCRIPT)
-	@$(BIN)/npx eslint $(JAVASCRIPT)
+	@$(BIN)/npx prettier --cache --log-level warn --check $(JAVASCRIPT)
+	@$(BIN)/npx eslint --cache --cache-location node_modules/.cache/eslint/ $(JAVASCRIPT)
 
 format: $(VENV)/.tools node_modules/.installed ## bring all into Ruff's and Prettier's form
 	@$(BIN)/ruff format .

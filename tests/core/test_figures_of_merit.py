@@ -97,6 +97,7 @@ def test_linear_figures_are_those_of_the_modes():
     assert worst < 1e-6
 
 
+@pytest.mark.slow
 def test_fast_poles_do_not_blur_the_slow_ones():
     """To −10⁵ beside −1, windows from 10 ms to 600 s."""
     for poles in ([-1e5, -5e4, -1.0, -2.0], [-3e3 + 4e3j, -3e3 - 4e3j, -1.0, -30.0]):

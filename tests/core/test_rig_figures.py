@@ -16,6 +16,7 @@ CLOSE = 1e-6
 """A share of the step, or of the figure itself."""
 
 
+@pytest.mark.slow
 def test_figures_are_scipys():
     """A sample of the bench's, all kinds in turn: saturating, free and digital."""
     worst, given_up = worst_of(random_rigs(36, seed=41))

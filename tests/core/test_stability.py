@@ -103,6 +103,7 @@ def exact_relative_gain(design):
         return float(inverse[0, 0] * inverse[1, 1] / mpmath.det(inverse))
 
 
+@pytest.mark.slow
 def test_no_verdict_is_rounding():
     """300 loops near the axis: stable only if they are so exactly, at 60 digits, as far as A, B and K are known."""
     rng, stable, on_axis = np.random.default_rng(5), 0, 0

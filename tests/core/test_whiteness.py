@@ -40,6 +40,7 @@ def test_without_starting_states_it_is_the_textbooks():
         assert own.probability == pytest.approx(stats.chi2.sf(Q * n / (n + 2), LAGS), rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("count", "length"), [(8, 400), (12, 250), (30, 80)])
 def test_white_noise_is_rarely_said_to_be_correlated(count, length):
     """At 5 % and at 0.1 %; left out of account, the starting states make 7, 15 and 65 % of the 5 %."""
