@@ -106,7 +106,7 @@ class Compute:
 
     The first derivation imports SymPy and takes a second or two; `start` runs it in the background,
     so that the page is served meanwhile, and `run` waits for it. It does not wait for the compiled
-    kernels, which come later (see `kernels`).
+    kernels, which come later (see `kernel_compiler`).
 
     Args:
         threads: for quick work.
