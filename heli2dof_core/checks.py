@@ -43,7 +43,7 @@ def require_known(name: str, known: Mapping[str, T], what: str) -> T:
     return known[name]
 
 
-def require_one_of(value: str, choices: object, path: str) -> None:
+def require_one_of(value: object, choices: object, path: str) -> None:
     """Raises InvalidInputError unless `value` is one of the `Literal` type `choices`."""
     if value not in get_args(choices):
         raise InvalidInputError(

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field, fields
-from typing import Any
+from dataclasses import asdict, dataclass
+from typing import Annotated
 
-from .checks import require_within
-
-
-def _part(meaning: str, unit: str, printed: str) -> Any:
-    return field(metadata={"meaning": meaning, "unit": unit, "printed": printed})
+from .quantities import Quantity, quantities_of, require_valid
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,21 +16,26 @@ class Components:
         InvalidInputError: a value is not a positive finite number.
     """
 
-    R_p: float = _part("armature resistance of the pitch motor", "Ω", "R_m,p")
-    R_y: float = _part("armature resistance of the yaw motor", "Ω", "R_m,y")
-    K_tp: float = _part("torque constant of the pitch motor", "N·m/A", "K_t,p")
-    K_ty: float = _part("torque constant of the yaw motor", "N·m/A", "K_t,y")
-    K_fp: float = _part("thrust per volt of the pitch propeller", "N/V", "K_f,p")
-    K_fy: float = _part("thrust per volt of the yaw propeller", "N/V", "K_f,y")
-    r_p: float = _part("distance of the pitch propeller from the pivot", "m", "r_p")
-    r_y: float = _part("distance of the yaw propeller from the pivot", "m", "r_y")
-    m_p: float = _part("mass of the pitch motor", "kg", "m_m,p")
-    m_y: float = _part("mass of the yaw motor", "kg", "m_m,y")
-    m_shield: float = _part("mass of one propeller's shield", "kg", "m_shield")
+    R_p: Annotated[float, Quantity("armature resistance of the pitch motor", "Ω", 1e-9, 1e6, symbol="R_m,p")]
+    R_y: Annotated[float, Quantity("armature resistance of the yaw motor", "Ω", 1e-9, 1e6, symbol="R_m,y")]
+    K_tp: Annotated[float, Quantity("torque constant of the pitch motor", "N·m/A", 1e-9, 1e6, symbol="K_t,p")]
+    K_ty: Annotated[float, Quantity("torque constant of the yaw motor", "N·m/A", 1e-9, 1e6, symbol="K_t,y")]
+    K_fp: Annotated[
+        float, Quantity("thrust per volt of the pitch propeller", "N/V", 1e-9, 1e6, symbol="K_f,p")
+    ]
+    K_fy: Annotated[float, Quantity("thrust per volt of the yaw propeller", "N/V", 1e-9, 1e6, symbol="K_f,y")]
+    r_p: Annotated[
+        float, Quantity("distance of the pitch propeller from the pivot", "m", 1e-9, 1e6, symbol="r_p")
+    ]
+    r_y: Annotated[
+        float, Quantity("distance of the yaw propeller from the pivot", "m", 1e-9, 1e6, symbol="r_y")
+    ]
+    m_p: Annotated[float, Quantity("mass of the pitch motor", "kg", 1e-9, 1e6, symbol="m_m,p")]
+    m_y: Annotated[float, Quantity("mass of the yaw motor", "kg", 1e-9, 1e6, symbol="m_m,y")]
+    m_shield: Annotated[float, Quantity("mass of one propeller's shield", "kg", 1e-9, 1e6, symbol="m_shield")]
 
     def __post_init__(self) -> None:
-        for f in fields(self):
-            require_within(getattr(self, f.name), f"components.{f.name}", f.metadata["unit"], 1e-9, 1e6)
+        require_valid(self)
 
     @property
     def thrust(self) -> dict[str, float]:
@@ -61,5 +62,5 @@ class Components:
         return asdict(self)
 
 
-COMPONENT_INFO: dict[str, dict[str, Any]] = {f.name: dict(f.metadata) for f in fields(Components)}
-"""Per component: meaning, unit and the paper's symbol."""
+COMPONENT_INFO: dict[str, Quantity] = {name: f.quantity for name, f in quantities_of(Components).items()}
+"""Per component what it is: meaning, unit, range, the paper's symbol."""

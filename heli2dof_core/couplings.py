@@ -7,11 +7,11 @@ are free (theory: Patel & Munro 1982), and the RGA tells the members apart.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Annotated, Literal
 
-from .checks import require_one_of, require_within
 from .errors import InvalidInputError, StructureUnavailableError, UncontrollableError
 from .parameters import Parameters
+from .quantities import Quantity, documented, require_valid
 
 Coupling = Literal["triangular", "input-diagonal", "axis-decoupled"]
 Lead = Literal["pitch", "yaw"]
@@ -20,6 +20,7 @@ NEGLIGIBLE = 1e-9
 """γ or a thrust constant counts as 0 below this share of the terms it is made of."""
 
 
+@documented
 @dataclass(frozen=True)
 class Structure:
     """Coupling of the closed loop, and for the triangular one the axis that leads.
@@ -28,15 +29,23 @@ class Structure:
     with pitch leading). ``input-diagonal``: diagonal in z = B₂⁻¹[θ, ψ] (standard Luenberger).
     ``axis-decoupled``: θ and ψ do not feel each other.
 
-    Attributes:
-        coupling, lead: which structure.
-        shift: c of the basis' shift q₁ → q₁ + c q₂ (yaw leading: q₂ → q₂ + c q₁); None takes the one
-            that gives the structure its name: K_py/K_pp, K_yp/K_yy, or 0 where it is input-diagonal.
+    Without a shift the basis has the one that gives the structure its name: K_py/K_pp, K_yp/K_yy, or 0 where it is
+    input-diagonal.
     """
 
-    coupling: Coupling = "triangular"
-    lead: Lead = "pitch"
-    shift: float | None = None
+    coupling: Annotated[Coupling, Quantity("structure of the closed loop")] = "triangular"
+    lead: Annotated[Lead, Quantity("axis that leads where the coupling is triangular")] = "pitch"
+    shift: Annotated[
+        float | None,
+        Quantity(
+            "shift c of Luenberger's basis, q₁ → q₁ + c q₂ (yaw leading: q₂ → q₂ + c q₁)",
+            "",
+            -1e6,
+            1e6,
+            absent="the structure's own where left out",
+            symbol="c",
+        ),
+    ] = None
 
     @property
     def family(self) -> Structure:
@@ -44,19 +53,16 @@ class Structure:
         return Structure(self.coupling, self.lead)
 
     def __post_init__(self) -> None:
-        require_one_of(self.coupling, Coupling, "coupling")
-        require_one_of(self.lead, Lead, "lead")
+        require_valid(self)
         if self.coupling != "triangular":  # the lead says nothing there; one value keeps caches small
             object.__setattr__(self, "lead", "pitch")
-        if self.shift is not None:
-            require_within(self.shift, "shift", "", -1e6, 1e6)
-            if self.coupling == "axis-decoupled":
-                raise InvalidInputError(
-                    "the axis-decoupled structure is not in Luenberger's basis, so it has no shift",
-                    field="shift",
-                    value=self.shift,
-                    hint="Leave the shift out, or choose triangular or input-diagonal.",
-                )
+        if self.shift is not None and self.coupling == "axis-decoupled":
+            raise InvalidInputError(
+                "the axis-decoupled structure is not in Luenberger's basis, so it has no shift",
+                field="shift",
+                value=self.shift,
+                hint="Leave the shift out, or choose triangular or input-diagonal.",
+            )
 
 
 def require_controllable(parameters: Parameters) -> None:
@@ -79,7 +85,7 @@ def require_structure(parameters: Parameters, structure: Structure) -> None:
     if abs(own) <= NEGLIGIBLE * max(abs(p.K_pp), abs(p.K_py), abs(p.K_yp), abs(p.K_yy)):
         raise StructureUnavailableError(
             f"triangular with {structure.lead} leading needs {name} ≠ 0: the basis' shift divides by it",
-            field="lead",
+            field="structure.lead",
             value=structure.lead,
             hint="Let the other axis lead, choose another coupling, or give the shift.",
         )

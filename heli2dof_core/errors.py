@@ -14,13 +14,17 @@ A design that is legal but unwise raises nothing; it carries findings (see `find
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 
 class Heli2DofError(ValueError):
     """Base of every error that the core raises on purpose.
 
     Attributes:
         code: stable machine-readable name of the kind of error.
-        field: path of the offending input, such as ``parameters.J_p``; empty if there is no one.
+        field: path of the offending input, by the names of the core's fields: ``J_p`` of `Parameters`,
+            ``parameters.J_p`` of a `Spec`; empty if there is no one.
         value: the offending value, as given.
         hint: what to do instead, in one sentence.
     """
@@ -32,6 +36,13 @@ class Heli2DofError(ValueError):
         self.field = field
         self.value = value
         self.hint = hint
+
+    def name_field(self, field: str) -> None:
+        """Calls the offending input by another path, in the message too."""
+        message = str(self)
+        if self.field and message.startswith(f"{self.field} "):
+            self.args = (field + message[len(self.field) :],)
+        self.field = field
 
 
 class InvalidInputError(Heli2DofError):
@@ -74,3 +85,13 @@ class CancelledError(Heli2DofError):
     """The work was called off by whoever asked for it."""
 
     code = "cancelled"
+
+
+@contextmanager
+def within_field(path: str) -> Iterator[None]:
+    """Whatever is refused in here is called by its path below this one."""
+    try:
+        yield
+    except Heli2DofError as error:
+        error.name_field(f"{path}.{error.field}" if error.field else path)
+        raise

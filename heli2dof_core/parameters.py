@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Annotated
 
-from .checks import require_within
 from .components import Components
 from .errors import InvalidInputError
+from .quantities import Quantity, quantities_of, require_valid
 
 _LARGEST = 1e6
-
-
-def _parameter(meaning: str, unit: str, low: float, *, default: float | None = None) -> Any:
-    metadata = {"meaning": meaning, "unit": unit, "low": low, "high": _LARGEST}
-    return field(metadata=metadata) if default is None else field(default=default, metadata=metadata)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,26 +25,29 @@ class Parameters:
         InvalidInputError: a value is not a finite number or out of its range.
     """
 
-    K_pp: float = _parameter("thrust torque about pitch per volt of the pitch motor", "N·m/V", -_LARGEST)
-    K_py: float = _parameter("thrust torque about pitch per volt of the yaw motor", "N·m/V", -_LARGEST)
-    K_yp: float = _parameter("thrust torque about yaw per volt of the pitch motor", "N·m/V", -_LARGEST)
-    K_yy: float = _parameter("thrust torque about yaw per volt of the yaw motor", "N·m/V", -_LARGEST)
-    J_p: float = _parameter("moment of inertia about the pitch axis", "kg·m²", 1e-9)
-    J_y: float = _parameter("moment of inertia about the yaw axis", "kg·m²", 1e-9)
-    m: float = _parameter("moving mass", "kg", 0.0)
-    l: float = _parameter("distance of the centre of mass from the pivot", "m", 0.0)  # noqa: E741
-    B_p: float = _parameter("viscous damping about pitch", "N·m·s/rad", 0.0)
-    B_y: float = _parameter("viscous damping about yaw", "N·m·s/rad", 0.0)
-    K_s: float = _parameter("pitch stiffness", "N·m/rad", 0.0, default=0.0)
-    g: float = _parameter("gravitational acceleration", "m/s²", 0.0, default=9.81)
+    K_pp: Annotated[
+        float, Quantity("thrust torque about pitch per volt of the pitch motor", "N·m/V", -_LARGEST, _LARGEST)
+    ]
+    K_py: Annotated[
+        float, Quantity("thrust torque about pitch per volt of the yaw motor", "N·m/V", -_LARGEST, _LARGEST)
+    ]
+    K_yp: Annotated[
+        float, Quantity("thrust torque about yaw per volt of the pitch motor", "N·m/V", -_LARGEST, _LARGEST)
+    ]
+    K_yy: Annotated[
+        float, Quantity("thrust torque about yaw per volt of the yaw motor", "N·m/V", -_LARGEST, _LARGEST)
+    ]
+    J_p: Annotated[float, Quantity("moment of inertia about the pitch axis", "kg·m²", 1e-9, _LARGEST)]
+    J_y: Annotated[float, Quantity("moment of inertia about the yaw axis", "kg·m²", 1e-9, _LARGEST)]
+    m: Annotated[float, Quantity("moving mass", "kg", 0.0, _LARGEST)]
+    l: Annotated[float, Quantity("distance of the centre of mass from the pivot", "m", 0.0, _LARGEST)]  # noqa: E741
+    B_p: Annotated[float, Quantity("viscous damping about pitch", "N·m·s/rad", 0.0, _LARGEST)]
+    B_y: Annotated[float, Quantity("viscous damping about yaw", "N·m·s/rad", 0.0, _LARGEST)]
+    K_s: Annotated[float, Quantity("pitch stiffness", "N·m/rad", 0.0, _LARGEST)] = 0.0
+    g: Annotated[float, Quantity("gravitational acceleration", "m/s²", 0.0, _LARGEST)] = 9.81
 
     def __post_init__(self) -> None:
-        for info in fields(self):
-            value, about = getattr(self, info.name), info.metadata
-            number = require_within(
-                value, f"parameters.{info.name}", about["unit"], about["low"], about["high"]
-            )
-            object.__setattr__(self, info.name, number)
+        require_valid(self)
 
     @property
     def alpha(self) -> float:
@@ -83,7 +81,7 @@ class Parameters:
             if name not in PARAMETER_INFO:
                 raise InvalidInputError(
                     f"there is no parameter {name!r}",
-                    field=f"parameters.{name}",
+                    field=name,
                     value=changes[name],
                     hint="Known are " + ", ".join(PARAMETER_INFO) + ".",
                 )
@@ -94,5 +92,5 @@ class Parameters:
         return dict(vars(self))
 
 
-PARAMETER_INFO: dict[str, dict[str, Any]] = {f.name: dict(f.metadata) for f in fields(Parameters)}
-"""Per parameter: meaning, unit, the lowest and the highest value allowed."""
+PARAMETER_INFO: dict[str, Quantity] = {name: f.quantity for name, f in quantities_of(Parameters).items()}
+"""Per parameter what it is: meaning, unit, range."""

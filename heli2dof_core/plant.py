@@ -120,6 +120,6 @@ def plant(parameters: Parameters, theta_0: float = 0.0) -> Plant:
         UncontrollableError: the motors cannot hold the rig, as their torques are parallel.
     """
     require_controllable(parameters)
-    angle = require_within(theta_0, "operating_point.theta", "rad", -STEEPEST, STEEPEST)
+    angle = require_within(theta_0, "theta_0", "rad", -STEEPEST, STEEPEST)
     A, B, trim = linear_matrices()(*parameters.as_dict().values(), angle)
     return Plant(parameters, angle, fixed(A), fixed(B), fixed(trim))

@@ -48,7 +48,7 @@ class Preset(Shown):
     def tables(self) -> tuple[Table, ...]:
         """Its parameters."""
         values = self.parameters.as_dict()
-        rows = ((n, number(values[n], 6), i["unit"], i["meaning"]) for n, i in PARAMETER_INFO.items())
+        rows = ((n, number(values[n], 6), i.unit, i.meaning) for n, i in PARAMETER_INFO.items())
         return (Table.of(self.source, ("parameter", "value", "unit", "meaning"), rows),)
 
 

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from types import MappingProxyType, SimpleNamespace
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
-from .checks import require_one_of, require_within
+from .checks import require_within
 from .compiled import linear_matrices
 from .engine import engine
 from .errors import InvalidInputError
@@ -19,6 +19,7 @@ from .kernels.layout import POLYNOMIAL_WORKSPACE, POLYNOMIALS, WORKSPACE
 from .loop import Loop, close_loop
 from .parameters import PARAMETER_INFO, Parameters
 from .plant import rig_constants
+from .quantities import Quantity, documented, require_valid
 from .signals import Complexes, Floats
 from .simulation.nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
 from .spec import Spec
@@ -26,6 +27,8 @@ from .tables import Shown, Table, number
 
 Distribution = Literal["uniform", "normal"]
 MOST_SAMPLES = 20_000
+MOST_SPREAD = 0.95
+"""Largest relative uncertainty of a parameter."""
 CHUNK = 250
 """Rigs before the first report of progress; each next part is twice as large."""
 SLICE = 50
@@ -39,32 +42,30 @@ RTOL = 1e-5
 _DEFAULT = MappingProxyType({name: 0.1 for name in PARAMETER_INFO if name != "g"})
 
 
+@documented
 @dataclass(frozen=True)
 class Uncertainty:
     """How far the rigs differ from the nominal one.
 
-    Attributes:
-        spread: per parameter its relative uncertainty: half width (uniform) or standard deviation
-            (normal, cut at three of them).
-        distribution, samples, seed: of the random rigs.
+    `spread` is per parameter its relative uncertainty: half width (uniform) or standard deviation (normal, cut at
+    three of them).
     """
 
     spread: Mapping[str, float] = field(default_factory=lambda: _DEFAULT)
-    distribution: Distribution = "uniform"
-    samples: int = 200
-    seed: int = 0
+    distribution: Annotated[Distribution, Quantity("of the parameters")] = "uniform"
+    samples: Annotated[int, Quantity("how many rigs", "", 1, MOST_SAMPLES)] = 200
+    seed: Annotated[int, Quantity("of the random rigs", "", 0, 2**32 - 1)] = 0
 
     def __post_init__(self) -> None:
-        require_one_of(self.distribution, Distribution, "distribution")
-        require_within(self.samples, "samples", "", 1, MOST_SAMPLES)
+        require_valid(self)
         for name, share in self.spread.items():
             if name not in PARAMETER_INFO:
                 raise InvalidInputError(
                     f"there is no parameter {name!r}",
-                    field=f"uncertainty.{name}",
+                    field=f"spread.{name}",
                     hint="Known are " + ", ".join(PARAMETER_INFO) + ".",
                 )
-            require_within(share, f"uncertainty.{name}", "", 0.0, 0.95)
+            require_within(share, f"spread.{name}", "", 0.0, MOST_SPREAD)
 
 
 @dataclass(frozen=True, repr=False)

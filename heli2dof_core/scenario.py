@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
-from .checks import require_one_of, require_within
 from .errors import InvalidInputError
+from .quantities import Quantity, documented, require_valid
 from .signals import Floats
 
 Outer = Literal["pi", "none"]
@@ -25,165 +25,168 @@ LONGEST = 600.0
 """Longest simulation, s."""
 
 
+@documented
 @dataclass(frozen=True)
 class PIGains:
-    """PI(s) = kp (1 + 1/(ti s)): kp in V/rad, ti in s (Section IV of the paper)."""
+    """PI(s) = kp (1 + 1/(ti s)) (Section IV of the paper)."""
 
-    kp: float
-    ti: float
+    kp: Annotated[float, Quantity("proportional gain", "V/rad", -1e6, 1e6, symbol="k_p")]
+    ti: Annotated[float, Quantity("integral time", "s", 1e-6, 1e6, symbol="T_i")]
+
+    def __post_init__(self) -> None:
+        require_valid(self)
 
 
+@documented
 @dataclass(frozen=True)
 class OuterLoop:
     """What drives v: two PI loops (Fig. 3), or the constant Ĝ(0)⁻¹ r of the inner loop alone (Fig. 2).
 
-    Attributes:
-        outer: ``pi`` or ``none``.
-        pitch, yaw: gains of the PI controllers of the pitch and the yaw error.
-        pairing: ``diagonal``, or ``cross``: pitch error to the yaw motor and the other way round,
-            each loop's gain times the sign of its ĝᵢⱼ(0).
-        decoupler: put the static decoupler Ĝ(0)⁻¹ diag(|ĝ|) between the PI controllers and v.
+    `pitch` and `yaw` are the PI controllers of the pitch and the yaw error. With the cross pairing the pitch error
+    drives the yaw motor and the other way round, each loop's gain times the sign of its ĝᵢⱼ(0).
     """
 
-    outer: Outer = "pi"
+    outer: Annotated[Outer, Quantity("pi: two PI loops (Fig. 3); none: inner loop alone (Fig. 2)")] = "pi"
     pitch: PIGains = PIGains(30.0, 0.1)
     yaw: PIGains = PIGains(30.0, 0.1)
-    pairing: Pairing = "diagonal"
-    decoupler: bool = False
+    pairing: Annotated[Pairing, Quantity("which error drives which motor")] = "diagonal"
+    decoupler: Annotated[
+        bool, Quantity("static decoupler Ĝ(0)⁻¹ diag(|ĝ|) between the PI controllers and the motors")
+    ] = False
 
     def __post_init__(self) -> None:
-        require_one_of(self.outer, Outer, "outer")
-        require_one_of(self.pairing, Pairing, "pairing")
-        for axis, gains in (("pitch", self.pitch), ("yaw", self.yaw)):
-            require_within(gains.kp, f"loops.{axis}.kp", "V/rad", -1e6, 1e6)
-            require_within(gains.ti, f"loops.{axis}.ti", "s", 1e-6, 1e6)
+        require_valid(self)
 
 
-LIMIT_INFO: dict[str, dict[str, Any]] = {
-    "V_p": {
-        "meaning": "largest voltage of the pitch motor, either way",
-        "unit": "V",
-        "low": 1e-3,
-        "high": 1e6,
-    },
-    "V_y": {"meaning": "largest voltage of the yaw motor, either way", "unit": "V", "low": 1e-3, "high": 1e6},
-    "theta": {"meaning": "pitch travel to either side of level", "unit": "rad", "low": 1e-3, "high": 3.2},
-}
-"""Per limit: meaning, unit, the lowest and the highest value allowed."""
-
-
+@documented
 @dataclass(frozen=True)
 class Limits:
-    """Limits of the rig: |V_p|, |V_y| in V; pitch travel ±theta in rad, None where it is free."""
+    """Limits of the rig."""
 
-    V_p: float
-    V_y: float
-    theta: float | None = None
+    V_p: Annotated[float, Quantity("largest voltage of the pitch motor, either way", "V", 1e-3, 1e6)]
+    V_y: Annotated[float, Quantity("largest voltage of the yaw motor, either way", "V", 1e-3, 1e6)]
+    theta: Annotated[
+        float | None,
+        Quantity("pitch travel to either side of level", "rad", 1e-3, 3.2, absent="none where it is free"),
+    ] = None
 
     def __post_init__(self) -> None:
-        for name, info in LIMIT_INFO.items():
-            value = getattr(self, name)
-            if value is not None or name != "theta":
-                require_within(value, f"limits.{name}", info["unit"], info["low"], info["high"])
+        require_valid(self)
 
 
+@documented
 @dataclass(frozen=True)
 class Digital:
     """How the rig's own controller differs from the continuous one of the theory.
 
-    Attributes:
-        sample_time: between two samples; the voltages are held, s.
-        delay: the voltages reach the motors one sample after the one that they were computed from; the first
-            ones too, so that until then the motors have the trim.
-        encoders: counts per revolution of pitch and yaw; 0 measures exactly.
-        rates: ``filtered`` from the angles (second order, 2π·20 rad/s, ζ 0.85), or ``true``.
-        noise: standard deviation of white noise on the measured angles, rad.
-        seed: of the noise.
+    With `delay` the first voltages, too, come one sample late: until then the motors have the trim.
     """
 
-    sample_time: float = 0.002
-    delay: bool = False
-    encoders: tuple[int, int] = (4096, 8192)
-    rates: Rates = "filtered"
-    noise: float = 0.0
-    seed: int = 0
+    sample_time: Annotated[
+        float, Quantity("time between two samples; voltages are held between them", "s", 1e-4, 1.0)
+    ] = 0.002
+    delay: Annotated[
+        bool, Quantity("voltages reach the motors one sample after the one that they were computed from")
+    ] = False
+    encoders: Annotated[
+        tuple[int, int],
+        Quantity(
+            "counts per revolution of pitch's and yaw's encoder; 0 measures exactly",
+            parts={
+                "theta": Quantity(
+                    "of pitch's encoder; 0 measures exactly", "counts per revolution", 0, 10**7
+                ),
+                "psi": Quantity("of yaw's encoder; 0 measures exactly", "counts per revolution", 0, 10**7),
+            },
+        ),
+    ] = (4096, 8192)
+    rates: Annotated[
+        Rates, Quantity("filtered: from the angles, second order, 2π·20 rad/s, damping 0.85; true: exact")
+    ] = "filtered"
+    noise: Annotated[
+        float, Quantity("standard deviation of white noise on the measured angles", "rad", 0.0, 1.0)
+    ] = 0.0
+    seed: Annotated[int, Quantity("of the noise", "", 0, 2**32 - 1)] = 0
 
     def __post_init__(self) -> None:
-        require_within(self.sample_time, "scenario.digital.sample_time", "s", 1e-4, 1.0)
-        require_one_of(self.rates, Rates, "scenario.digital.rates")
-        require_within(self.noise, "scenario.digital.noise", "rad", 0.0, 1.0)
-        for counts, axis in zip(self.encoders, ("theta", "psi"), strict=True):
-            require_within(counts, f"scenario.digital.encoders.{axis}", "counts", 0, 10**7)
+        require_valid(self)
 
 
+@documented
 @dataclass(frozen=True)
 class Disturbance:
-    """Volts that act on the motors besides the controller's, beyond the limits, from `time` (s) on.
+    """Volts that act on the motors besides the controller's, beyond the limits.
 
     A digital controller's rig feels them from its next sample.
     """
 
-    V_p: float = 0.0
-    V_y: float = 0.0
-    time: float = 0.0
+    V_p: Annotated[float, Quantity("added to the pitch motor's voltage", "V", -1e3, 1e3)] = 0.0
+    V_y: Annotated[float, Quantity("added to the yaw motor's voltage", "V", -1e3, 1e3)] = 0.0
+    time: Annotated[float, Quantity("when they begin to act", "s", 0.0, LONGEST)] = 0.0
 
     def __post_init__(self) -> None:
-        for value, name in ((self.V_p, "V_p"), (self.V_y, "V_y")):
-            require_within(value, f"scenario.disturbance.{name}", "V", -1e3, 1e3)
-        require_within(self.time, "scenario.disturbance.time", "s", 0.0, LONGEST)
+        require_valid(self)
 
 
+_REST = "at rest at the operating point (θ₀, 0) where left out"
+
+
+@documented
 @dataclass(frozen=True)
 class Scenario:
-    """One experiment: references step at t = 0 from the initial state. Angles in rad, absolute.
+    """One experiment: references step at t = 0 from the initial state. Angles are absolute.
 
-    Attributes:
-        theta, psi: references; None stays at rest at the operating point (θ₀, 0).
-        duration, samples: t = linspace(0, duration, samples), s.
-        initial: θ, ψ, θ̇, ψ̇ at t = 0; an angle None is at rest at the operating point.
-        saturation: voltages are limited to `Limits`.
-        anti_windup: what the PI integrators do at a limit.
-        tracking_time: of back-calculation, s: how fast the integrals follow what the limits leave; None
-            is each loop's integral time.
-        travel_stops: pitch is stopped at ±`Limits.theta`, without rebound.
-        trim_feedforward: the constant trim voltages are added, so that the rig starts at rest.
-        rtol: tolerance of the adaptive integration, relative and (in rad, rad/s) absolute.
-        digital: the nonlinear rig's controller is a digital one; None is continuous.
-        disturbance: of the nonlinear rig's motors.
+    `digital` makes the nonlinear rig's controller a digital one, None a continuous one; `disturbance` acts on the
+    nonlinear rig's motors. t = linspace(0, duration, samples).
     """
 
-    theta: float | None = None
-    psi: float | None = None
-    duration: float = 5.0
-    samples: int = 501
-    initial: tuple[float | None, float | None, float, float] = field(default=(None, None, 0.0, 0.0))
-    saturation: bool = True
-    anti_windup: AntiWindup = "clamping"
-    tracking_time: float | None = None
-    travel_stops: bool = True
-    trim_feedforward: bool = True
-    rtol: float = 1e-8
+    theta: Annotated[float | None, Quantity("pitch reference", "rad", -100.0, 100.0, absent=_REST)] = None
+    psi: Annotated[float | None, Quantity("yaw reference", "rad", -100.0, 100.0, absent=_REST)] = None
+    duration: Annotated[float, Quantity("length of the experiment", "s", 1e-3, LONGEST)] = 5.0
+    samples: Annotated[int, Quantity("number of times, both ends among them", "", 2, MOST_SAMPLES)] = 501
+    initial: Annotated[
+        tuple[float | None, float | None, float, float],
+        Quantity(
+            "θ, ψ, θ̇, ψ̇ at t = 0, rad and rad/s; an angle None is " + _REST.removesuffix(" where left out"),
+            parts={
+                "theta": Quantity("pitch at t = 0", "rad", -100.0, 100.0, absent=_REST),
+                "psi": Quantity("yaw at t = 0", "rad", -100.0, 100.0, absent=_REST),
+                "theta_dot": Quantity("rate of pitch at t = 0", "rad/s", -100.0, 100.0),
+                "psi_dot": Quantity("rate of yaw at t = 0", "rad/s", -100.0, 100.0),
+            },
+        ),
+    ] = (None, None, 0.0, 0.0)
+    saturation: Annotated[bool, Quantity("the voltages are limited")] = True
+    anti_windup: Annotated[AntiWindup, Quantity("what the PI integrators do at a limit")] = "clamping"
+    tracking_time: Annotated[
+        float | None,
+        Quantity(
+            "of back-calculation: how fast the integrals follow what the limits leave",
+            "s",
+            1e-4,
+            1e4,
+            absent="each loop's integral time where left out",
+        ),
+    ] = None
+    travel_stops: Annotated[bool, Quantity("pitch is stopped at its limit, without rebound")] = True
+    trim_feedforward: Annotated[
+        bool, Quantity("the trim voltages are added, so that the rig starts at rest")
+    ] = True
+    rtol: Annotated[
+        float,
+        Quantity(
+            "tolerance of the nonlinear integration, relative and (rad, rad/s) absolute", "", 1e-12, 1e-2
+        ),
+    ] = 1e-8
     digital: Digital | None = None
     disturbance: Disturbance | None = None
 
     def __post_init__(self) -> None:
-        names = ("scenario.reference.theta", "scenario.reference.psi")
-        for value, name in zip((self.theta, self.psi), names, strict=True):
-            if value is not None:
-                require_within(value, name, "rad", -100.0, 100.0)
-        for value, name in zip(self.initial, ("theta", "psi", "theta_dot", "psi_dot"), strict=True):
-            if value is not None:
-                require_within(value, f"scenario.initial.{name}", "SI", -100.0, 100.0)
-        require_within(self.duration, "scenario.duration", "s", 1e-3, LONGEST)
-        require_within(self.samples, "scenario.samples", "", 2, MOST_SAMPLES)
-        require_one_of(self.anti_windup, AntiWindup, "scenario.anti_windup")
-        if self.tracking_time is not None:
-            require_within(self.tracking_time, "scenario.tracking_time", "s", 1e-4, 1e4)
-        require_within(self.rtol, "scenario.rtol", "", 1e-12, 1e-2)
+        require_valid(self)
         if self.digital is not None and self.duration / self.digital.sample_time > MOST_SAMPLE_TIMES:
             raise InvalidInputError(
                 f"{self.duration / self.digital.sample_time:.0f} samples of the controller are too many",
-                field="scenario.digital.sample_time",
+                field="digital.sample_time",
                 value=self.digital.sample_time,
                 hint=f"At most {MOST_SAMPLE_TIMES} fit in the duration.",
             )

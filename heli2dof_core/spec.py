@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from typing import Annotated, Any, TypeVar
 
 from .couplings import Coupling, Lead, Structure
 from .design import FULL_RANK
-from .errors import InvalidInputError
+from .errors import InvalidInputError, within_field
 from .parameters import Parameters
 from .placement.method import Weights
+from .plant import STEEPEST
 from .poles import PoleSet
 from .presets import DEFAULT, Preset
 from .presets import preset as preset_named
+from .quantities import Quantity
 from .scenario import Limits, Outer, OuterLoop, Pairing, PIGains, Scenario
 from .tables import Shown, poles
 
@@ -34,7 +36,9 @@ class Spec(Shown):
 
     parameters: Parameters
     limits: Limits
-    theta_0: float
+    theta_0: Annotated[
+        float, Quantity("pitch angle θ₀ at which the rig rests and is linearized", "rad", -STEEPEST, STEEPEST)
+    ]
     poles: PoleSet
     structure: Structure
     outer: OuterLoop
@@ -77,7 +81,7 @@ class Spec(Shown):
 
         >>> spec = Spec.from_preset()
         >>> spec.changed(pitch=(10, 0.5), reference=(0.2, None)).outer.pitch
-        PIGains(kp=10, ti=0.5)
+        PIGains(kp=10.0, ti=0.5)
 
         Args:
             poles: pitch's pair, then yaw's, rad/s.
@@ -102,7 +106,10 @@ class Spec(Shown):
             return {name: value for name, value in values.items() if value is not None}
 
         def gains(pi: PIGains | tuple[float, float] | None, axis: str) -> PIGains | None:
-            return pi if pi is None or isinstance(pi, PIGains) else PIGains(*_two(pi, axis, "(kp, ti)"))
+            if pi is None or isinstance(pi, PIGains):
+                return pi
+            with within_field(f"outer.{axis}"):
+                return PIGains(*_two(pi, "(kp, ti)"))
 
         structure = given(coupling=coupling, lead=lead)
         loops = given(
@@ -114,17 +121,27 @@ class Spec(Shown):
         )
         scenario = given(duration=duration)
         if reference is not None:
-            scenario |= zip(("theta", "psi"), _two(reference, "reference", "(theta, psi)"), strict=True)
+            with within_field("reference"):
+                scenario |= zip(("theta", "psi"), _two(reference, "(theta, psi)"), strict=True)
+
+        def part(name: str, changes: dict[str, Any]) -> Any:
+            with within_field(name):
+                return replace(getattr(self, name), **changes) if changes else None
+
+        rig = None
+        if parameters is not None:
+            with within_field("parameters"):
+                rig = self.parameters.replaced(parameters)
         return replace(
             self,
             **given(
                 poles=poles if poles is None or isinstance(poles, PoleSet) else PoleSet(poles),
                 method=method,
-                structure=replace(self.structure, **structure, shift=None) if structure else None,
-                parameters=None if parameters is None else self.parameters.replaced(parameters),
+                structure=part("structure", {**structure, "shift": None} if structure else {}),
+                parameters=rig,
                 theta_0=theta_0,
-                outer=replace(self.outer, **loops) if loops else None,
-                scenario=replace(self.scenario, **scenario) if scenario else None,
+                outer=part("outer", loops),
+                scenario=part("scenario", scenario),
             ),
         )
 
@@ -133,10 +150,8 @@ class Spec(Shown):
         return f"{self.method}, {self.structure.coupling}; poles {poles(self.poles.values)} rad/s; {self.outer.outer}"
 
 
-def _two(values: Sequence[T], field: str, what: str) -> Sequence[T]:
+def _two(values: Sequence[T], what: str) -> Sequence[T]:
     """Both values, or InvalidInputError."""
     if len(values) != 2:
-        raise InvalidInputError(
-            f"{field} is {tuple(values)!r}", field=field, hint=f"Give two values, {what}."
-        )
+        raise InvalidInputError(f"{tuple(values)!r} are not two values", hint=f"Give two, {what}.")
     return values

@@ -76,7 +76,7 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
         if static == 0:
             raise InvalidInputError(
                 f"no PI values exist for {AXES[axis]}: at rest the motor that its loop drives does not move it",
-                field="loops",
+                field="outer",
                 hint="Try the other pairing, or another coupling.",
             )
         if outer.pairing == "cross" or outer.decoupler:
@@ -98,7 +98,7 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
     if best is None:
         raise InvalidInputError(
             "no PI values were found that keep the whole loop stable",
-            field="loops",
+            field="outer",
             hint="Try the cross pairing, the decoupler or another coupling.",
         )
     return Suggestion(best.outer, best)

@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import IO, Any, TypeVar, get_args
 
 import click
 
+from heli2dof_core.quantities import Field
+from heli2dof_core.recordings.recording import ANGLES, ROLES
+from heli2dof_core.scenario import Model
+
+from ..contract.places import COLUMNS as COLUMNS_PLACE
+from ..contract.places import LIMITS, LOOP, OUTER, PARAMETERS, POINT, REFERENCE, STRUCTURE, Place
+from ..contract.places import SCENARIO as SCENARIO_PLACE
 from .values import Assignment, Choice, Name, Numbers, Poles, Split, Words
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -56,18 +64,6 @@ def _methods() -> Iterable[str]:
     return METHODS
 
 
-def _parameters() -> Iterable[str]:
-    from heli2dof_core.parameters import PARAMETER_INFO
-
-    return PARAMETER_INFO
-
-
-def _limits() -> Iterable[str]:
-    from heli2dof_core.scenario import LIMIT_INFO
-
-    return LIMIT_INFO
-
-
 def _words(module: str, name: str) -> Callable[[], Iterable[str]]:
     def words() -> Iterable[str]:
         from importlib import import_module
@@ -77,95 +73,77 @@ def _words(module: str, name: str) -> Callable[[], Iterable[str]]:
     return words
 
 
+def _of(place: Place, flags: Mapping[str, str] = MappingProxyType({}), whose: str = "") -> Iterator[Option]:
+    """An option per quantity that stands at this place; `whose` they are goes before their description."""
+    for name, known in place.fields().items():
+        flag = flags.get(name, f"--{name.replace('_', '-')}")
+        about = f"{whose}{known.quantity.described}."
+        yield Option(
+            f"{flag}/--no-{flag.removeprefix('--')}" if known.kind is bool else flag,
+            f"{place.path}.{name}".removeprefix("."),
+            _kind(known),
+            f"{about[:1].upper()}{about[1:]}",
+        )
+
+
+def _kind(known: Field) -> click.ParamType | None:
+    if known.choices:
+        return Name(lambda: known.choices)
+    return {bool: None, int: click.INT, float: click.FLOAT}[known.kind]
+
+
 DESIGN = (
     Option("--preset", "preset", Name(_presets), "The rig, by the name of its preset."),
     Option(
-        "--parameter", "parameters", Assignment(_parameters), "A parameter of the rig, SI units; repeatable."
+        "--parameter",
+        "parameters",
+        Assignment(PARAMETERS.fields),
+        "A parameter of the rig, SI units; repeatable.",
     ),
-    Option("--limit", "limits", Assignment(_limits), "V_p, V_y (V) or theta (rad); repeatable."),
-    Option("--operating-point", "operating_point.theta", click.FLOAT, "Pitch angle θ₀ of the model, rad."),
+    Option("--limit", "limits", Assignment(LIMITS.fields), "V_p, V_y (V) or theta (rad); repeatable."),
+    *_of(POINT, {"theta": "--operating-point"}),
     Option("--poles", "poles", Poles(), "Pitch's pair, then yaw's, rad/s: -12,-10,-3±4j."),
     Option("--method", "method", Name(_methods), "Placement method."),
-    Option("--coupling", "coupling", Name(_words("couplings", "Coupling")), "Structure of the closed loop."),
-    Option("--lead", "lead", Name(_words("couplings", "Lead")), "Axis that leads where it is triangular."),
+    *_of(STRUCTURE),
     Option("--split", "split", Split(), "Poles of pitch's and of yaw's pair: 1,3/2,4."),
-    Option("--shift", "shift", click.FLOAT, "Shift c of Luenberger's basis."),
 )
 LOOPS = (
-    Option(
-        "--outer", "outer", Name(_words("scenario", "Outer")), "pi: two PI loops; none: the inner loop alone."
-    ),
-    Option("--pairing", "pairing", Name(_words("scenario", "Pairing")), "Of errors and motors."),
-    Option("--decoupler/--no-decoupler", "decoupler", None, "Static decoupler behind the PI loops."),
-    Option("--kp-pitch", "loops.pitch.kp", click.FLOAT, "Gain of the pitch error's PI, V/rad."),
-    Option("--ti-pitch", "loops.pitch.ti", click.FLOAT, "Its integral time, s."),
-    Option("--kp-yaw", "loops.yaw.kp", click.FLOAT, "Gain of the yaw error's PI, V/rad."),
-    Option("--ti-yaw", "loops.yaw.ti", click.FLOAT, "Its integral time, s."),
-)
-SCENARIO = (
-    Option("--theta", "scenario.reference.theta", click.FLOAT, "Pitch reference after t = 0, rad, absolute."),
-    Option("--psi", "scenario.reference.psi", click.FLOAT, "Yaw reference, rad."),
-    Option("--duration", "scenario.duration", click.FLOAT, "s."),
-    Option("--samples", "scenario.samples", click.INT, "t = linspace(0, duration, samples)."),
-    Option(
-        "--anti-windup",
-        "scenario.anti_windup",
-        Name(_words("scenario", "AntiWindup")),
-        "What the integrators do at a limit.",
-    ),
-    Option("--saturation/--no-saturation", "scenario.saturation", None, "Limit the voltages."),
-    Option("--travel-stops/--no-travel-stops", "scenario.travel_stops", None, "Stop the pitch at its limit."),
-    Option(
-        "--trim-feedforward/--no-trim-feedforward",
-        "scenario.trim_feedforward",
-        None,
-        "Add the trim, so that the rig starts at rest.",
+    *_of(OUTER),
+    *(
+        option
+        for axis, place in LOOP.items()
+        for option in _of(place, {name: f"--{name}-{axis}" for name in place.fields()}, f"{axis} loop's ")
     ),
 )
-MODEL = Option("--model", "scenario.model", Name(_words("scenario", "Model")), "nonlinear, or linear.")
+SCENARIO = (*_of(REFERENCE), *_of(SCENARIO_PLACE))
+MODEL = Option("--model", "scenario.model", Name(lambda: get_args(Model)), "nonlinear, or linear.")
 FREQUENCIES = Option("--frequencies", "frequencies", Numbers(), "Where |RGA(jω)| is wanted, rad/s: 0,1,10.")
 
-_ANGLES = ("theta", "psi", "theta_ref", "psi_ref")
 COLUMNS = (
     Option(
         "--column",
         "columns",
-        Choice(lambda: ("time", "theta", "psi", "V_p", "V_y", "theta_ref", "psi_ref")),
+        Choice(lambda: ROLES),
         "Which column is what: theta=Pitch; by the names by default; repeatable.",
     ),
-    Option(
-        "--time-unit",
-        "columns.time_unit",
-        Name(_words("recording_units", "TimeUnit")),
-        "Of the time: s, ms, us …",
-    ),
-    Option(
-        "--unit", "columns.unit", Name(_words("recording_units", "AngleUnit")), "Of the angles: rad or deg."
-    ),
-    Option("--unit-of", "columns.units", Choice(lambda: _ANGLES), "Of one angle: psi=deg; repeatable."),
-    Option(
-        "--voltage-unit", "columns.voltage_unit", Name(_words("recording_units", "VoltageUnit")), "V or mV."
-    ),
-    Option(
-        "--sign", "columns.signs", Assignment(lambda: _ANGLES[:2]), "Of an encoder: theta=-1; repeatable."
-    ),
+    *_of(COLUMNS_PLACE),
+    Option("--unit-of", "columns.units", Choice(lambda: ANGLES), "Of one angle: psi=deg; repeatable."),
+    Option("--sign", "columns.signs", Assignment(lambda: ANGLES[:2]), "Of an encoder: theta=-1; repeatable."),
     Option(
         "--offset",
         "columns.offsets",
-        Assignment(lambda: _ANGLES[:2]),
+        Assignment(lambda: ANGLES[:2]),
         "Added to an angle, in its unit: theta=-40.5.",
     ),
-    Option("--sample-time", "columns.sample_time", click.FLOAT, "s, where no column is the time."),
-    Option("--decimate", "columns.decimate", click.INT, "Keep one of so many rows, voltages averaged."),
 )
 SEPARATOR = Option(
     "--separator",
     "separator",
-    Name(_words("recording_files.text", "Separator")),
+    Name(_words("recordings.files.text", "Separator")),
     "Of text; judged by default.",
 )
 DECIMAL = Option(
-    "--decimal", "decimal", Name(_words("recording_files.text", "Decimal")), "Of text: point or comma."
+    "--decimal", "decimal", Name(_words("recordings.files.text", "Decimal")), "Of text: point or comma."
 )
 DRIVER = Option(
     "--driver", "driver", Name(lambda: ("segments", "voltages", "references")), "What drives the model."

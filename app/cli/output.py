@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .fields import flag_of
-
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -79,6 +77,8 @@ def refusals(as_json: bool) -> Iterator[None]:
 
 
 def _in_words(problem: dict[str, Any]) -> str:
+    from .fields import flag_of
+
     field, detail = problem.get("field", ""), problem["detail"]
     flag = flag_of(field)
     where = f"{flag} ({field}): " if flag else f"{field}: " if field else ""

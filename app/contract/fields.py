@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import MISSING
 from itertools import permutations
 from typing import Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, create_model
 
+from heli2dof_core.poles import LARGEST
 from heli2dof_core.presets import PRESETS
-from heli2dof_core.scenario import LONGEST
+from heli2dof_core.quantities import Field as Quantified
+
+from .places import Place
 
 
 class Strict(BaseModel):
@@ -17,26 +21,45 @@ class Strict(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
 
-def within(low: float, high: float) -> Any:
-    """A range for the schema alone: the core checks it too, and its message names the unit."""
-    return Field(json_schema_extra={"minimum": low, "maximum": high})
-
-
-def optional(low: float, high: float) -> Any:
-    """A number within a range, or none."""
-    number: Any = Annotated[float, within(low, high)]
-    return number | None
-
-
 def _whole(value: Any) -> Any:
     """2.0 is an integer in JSON Schema's sense, and so here."""
     return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
 Whole = Annotated[int, BeforeValidator(_whole)]
+
+
+def asked(*places: Place) -> type[Strict]:
+    """The base of a request's object: the quantities that stand there, with their ranges, defaults and words.
+
+    Ranges are for the schema alone: the core checks them too, and its messages name the unit.
+    """
+    own: dict[str, Any] = {}
+    for place in places:
+        for name, known in place.fields().items():
+            required = known.default is MISSING
+            proposed = place.proposed(name) or required
+            kind = _kind(known)
+            none = proposed or known.default is None
+            default = None if proposed else known.default
+            own[name] = (kind | None if none else kind, Field(default=default, description=described(known)))
+    return create_model("Asked", __base__=Strict, **own)
+
+
+def described(known: Quantified) -> str:
+    """What a schema says of a quantity."""
+    return known.quantity.described
+
+
+def _kind(known: Quantified) -> Any:
+    about = known.quantity
+    if about.low is None:
+        return known.kind
+    bounds = Field(json_schema_extra={"minimum": about.low, "maximum": about.high})
+    return Annotated[Whole if known.kind is int else float, bounds]
+
+
 PresetName = Annotated[str, Field(json_schema_extra={"enum": [*PRESETS]})]
-Seconds = Annotated[float, within(1e-3, LONGEST)]
-Angle = Annotated[float, within(-100.0, 100.0)]
 
 
 def _complex(value: Any) -> complex:
@@ -54,7 +77,7 @@ def _complex(value: Any) -> complex:
         raise ValueError("a pole's parts must be finite numbers") from error
 
 
-_NUMBER = {"type": "number", "minimum": -1e5, "maximum": 1e5}
+_NUMBER = {"type": "number", "minimum": -LARGEST, "maximum": LARGEST}
 Pole = Annotated[
     complex,
     BeforeValidator(_complex),

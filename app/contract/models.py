@@ -13,6 +13,8 @@ from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from heli2dof_core.figures import AXIS, DESIGN, MARGINS, MOTOR, SENSITIVITY, STEP, Figure
 
+from .places import LIMITS, LOOP, OUTER, SCENARIO, STRUCTURE, Place
+
 
 class Model(BaseModel):
     """A reply's part: all numbers are finite, and nothing is said that is not described here."""
@@ -32,6 +34,21 @@ def told_by(known: Mapping[str, Figure]) -> type[Model]:
             else (kind, Field(description=words))
         )
     return create_model("Figures", __base__=Model, **own)
+
+
+def proposed(*places: Place) -> type[Model]:
+    """A reply of the quantities that a preset proposes; one that may be absent is left out then."""
+    own: dict[str, Any] = {}
+    for place in places:
+        for name, known in place.fields().items():
+            if place.proposed(name):
+                about = known.quantity
+                own[name] = (
+                    (known.kind | None, Field(None, description=about.described))
+                    if about.absent
+                    else (known.kind, Field(description=about.described))
+                )
+    return create_model("Quantities", __base__=Model, **own)
 
 
 class Complex(Model):
@@ -202,12 +219,8 @@ class AxisSteps(Model):
     psi: BothModels | None = None
 
 
-class Limits(Model):
+class Limits(proposed(LIMITS)):
     """Voltage limits, V, and pitch travel, rad, where it is not free."""
-
-    V_p: float = Field(description="of |V_p|, V")
-    V_y: float = Field(description="of |V_y|, V")
-    theta: float | None = Field(None, description="pitch travel ±theta, rad")
 
 
 class Evaluation(Model):
@@ -228,11 +241,8 @@ class Evaluation(Model):
     findings: list[Finding]
 
 
-class PI(Model):
-    """kp in V/rad, ti in s."""
-
-    kp: float = Field(description="V/rad")
-    ti: float = Field(description="s")
+class PI(proposed(LOOP["pitch"])):
+    """PI(s) = kp (1 + 1/(ti s)) of one axis."""
 
 
 class Loops(Model):
@@ -268,15 +278,13 @@ class ComponentInfo(Model):
     printed: str
 
 
-class Scenario(Model):
+class Scenario(proposed(SCENARIO)):
     """A preset's own experiment."""
 
     reference: Angles
-    duration: float = Field(description="s")
-    samples: int = Field(description="t = linspace(0, duration, samples)")
 
 
-class Preset(Model):
+class Preset(proposed(STRUCTURE, OUTER)):
     """A rig with its source and everything that a design may change."""
 
     name: str
@@ -292,11 +300,6 @@ class Preset(Model):
     encoders: dict[str, int] = Field(description="counts per revolution")
     operating_point: dict[str, float] = Field(description="theta, rad")
     poles: list[Complex]
-    coupling: str
-    lead: str
-    outer: str
-    pairing: str
-    decoupler: bool
     loops: Loops
     scenario: Scenario
 

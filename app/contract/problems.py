@@ -18,6 +18,7 @@ from heli2dof_core import Heli2DofError
 from ..jobs.fair_queue import BusyError, OverdueError
 from ..ops.logs import request_id
 from .encoding import json_bytes
+from .places import path_of
 
 _log = logging.getLogger(__name__)
 
@@ -67,6 +68,7 @@ def problem_of(error: Exception) -> dict[str, Any]:  # noqa: PLR0911
     """The problem object of whatever a request may raise."""
     match error:
         case Heli2DofError():
+            error.name_field(path_of(error.field))
             return problem(
                 422, f"{error}.", error.code, field=error.field, value=error.value, hint=error.hint
             )

@@ -7,26 +7,25 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
+from heli2dof_core.errors import within_field
 from heli2dof_core.recordings.files import MOST_FILES
 from heli2dof_core.recordings.guess import guess_columns
 from heli2dof_core.recordings.identification import IDENTIFIABLE, Identification, Progress
 from heli2dof_core.recordings.overlay import Overlay
 from heli2dof_core.recordings.recording import (
-    MOST_DECIMATED,
     ROLES,
     AngleUnit,
     Columns,
     Recording,
     Table,
-    TimeUnit,
-    VoltageUnit,
 )
 from heli2dof_core.recordings.time_axis import likely_unit
 from heli2dof_core.recordings.units import SECONDS
 from heli2dof_core.signals import Floats
 
-from .fields import Strict, Whole, within
+from .fields import Strict, Whole, asked
 from .models import Finding, Model
+from .places import COLUMNS
 from .requests import DesignRequest, StepRequest
 
 PREVIEWED = 5
@@ -59,7 +58,7 @@ class AngleUnits(Strict):
     psi_ref: AngleUnit | None = Field(default=None, description="of yaw's reference")
 
 
-class Mapping(Strict):
+class Mapping(asked(COLUMNS)):
     """Which column is what, and how its angles become ours."""
 
     time: str | None = None
@@ -69,39 +68,21 @@ class Mapping(Strict):
     V_y: str | None = None
     theta_ref: str | None = None
     psi_ref: str | None = None
-    time_unit: TimeUnit | None = Field(
-        default=None, description="of the column of time; by default what the file states, or s"
-    )
-    unit: AngleUnit = Field(default="rad", description="of the file's angles")
     units: AngleUnits = AngleUnits()
-    voltage_unit: VoltageUnit = Field(default="V", description="of both voltages")
     signs: Signs = Signs()
     offsets: Offsets = Offsets()
-    sample_time: Annotated[float, within(1e-5, 10.0)] | None = Field(
-        default=None, description="s, where no column is the time"
-    )
-    decimate: Whole = Field(
-        default=1,
-        ge=1,
-        le=MOST_DECIMATED,
-        description="of so many rows one is kept, and the voltages between are averaged",
-    )
 
     def to_columns(self) -> Columns:
         """The core's mapping."""
         names = {role: name for role in ROLES if (name := getattr(self, role)) is not None}
-        signs, offsets = (self.signs.theta, self.signs.psi), (self.offsets.theta, self.offsets.psi)
-        return Columns(
-            names,
-            self.unit,
-            signs,
-            offsets,
-            self.sample_time,
-            self.time_unit,
-            self.units.model_dump(exclude_none=True),
-            self.voltage_unit,
-            self.decimate,
-        )
+        with within_field(COLUMNS.attribute):
+            return Columns(
+                names,
+                **COLUMNS.given(self),
+                signs=(self.signs.theta, self.signs.psi),
+                offsets=(self.offsets.theta, self.offsets.psi),
+                units=self.units.model_dump(exclude_none=True),
+            )
 
 
 class JoinRequest(Strict):

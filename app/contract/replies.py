@@ -5,7 +5,7 @@ What does not exist is left out; the models that describe these replies are in `
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
@@ -34,11 +34,14 @@ from heli2dof_core.interaction import dominance_over_frequency
 from heli2dof_core.margins import loop_margins, open_loop_response
 from heli2dof_core.metrics import StepMetrics
 from heli2dof_core.parameters import PARAMETER_INFO
-from heli2dof_core.scenario import LIMIT_INFO, Limits
+from heli2dof_core.quantities import Quantity
+from heli2dof_core.scenario import OuterLoop
 from heli2dof_core.sensitivity import Sensitivity
 from heli2dof_core.signals import AXES, INPUTS, INTEGRALS, OUTPUTS, STATES, Floats
 from heli2dof_core.tuning import Suggestion
 from heli2dof_core.walkthrough import walk_through
+
+from .places import LIMITS, LOOP, OUTER, REFERENCE, SCENARIO, STRUCTURE
 
 if TYPE_CHECKING:  # it would import SymPy before the first page
     from heli2dof_core.symbolic.render import SymbolicReport
@@ -184,7 +187,7 @@ def report_reply(report: Report, spec: Spec) -> Reply:
         },
         "margins": margins_reply(report.margins),
         **sensitivity_reply(report.sensitivity),
-        "limits": _limits(spec.limits),
+        "limits": LIMITS.proposal(spec.limits),
         "findings": findings_reply(report.findings),
     }
 
@@ -193,22 +196,17 @@ def suggestion_reply(suggestion: Suggestion) -> Reply:
     """PI values, the whole loop's poles with them, and the rule in words."""
     outer = suggestion.outer
     return {
-        "loops": {"pitch": asdict(outer.pitch), "yaw": asdict(outer.yaw)},
+        "loops": _loops(outer),
         "loop_poles": poles_reply(suggestion.loop.poles),
         "stable": suggestion.loop.stable,
         "rule": suggestion.rule,
     }
 
 
-def _ranges(infos: dict[str, dict[str, Any]]) -> Reply:
+def _ranges(quantities: Mapping[str, Quantity]) -> Reply:
     return {
-        name: {
-            "meaning": info["meaning"],
-            "unit": info["unit"],
-            "minimum": info["low"],
-            "maximum": info["high"],
-        }
-        for name, info in infos.items()
+        name: {"meaning": q.meaning, "unit": q.unit, "minimum": q.low, "maximum": q.high}
+        for name, q in quantities.items()
     }
 
 
@@ -223,24 +221,24 @@ def preset_reply(preset: Preset) -> Reply:
         "parameters": preset.parameters.as_dict(),
         "parameter_info": _ranges(PARAMETER_INFO),
         "components": {} if preset.components is None else preset.components.as_dict(),
-        "component_info": COMPONENT_INFO,
-        "limits": _limits(preset.limits),
-        "limit_info": _ranges(LIMIT_INFO),
+        "component_info": {
+            name: {"meaning": q.meaning, "unit": q.unit, "printed": q.symbol}
+            for name, q in COMPONENT_INFO.items()
+        },
+        "limits": LIMITS.proposal(preset.limits),
+        "limit_info": _ranges({name: known.quantity for name, known in LIMITS.fields().items()}),
         "encoders": {"theta": preset.encoders[0], "psi": preset.encoders[1]},
         "operating_point": {"theta": preset.theta_0},
         "poles": poles_reply(preset.poles.values),
-        "coupling": preset.structure.coupling,
-        "lead": preset.structure.lead,
-        "outer": preset.outer.outer,
-        "pairing": preset.outer.pairing,
-        "decoupler": preset.outer.decoupler,
-        "loops": {"pitch": asdict(preset.outer.pitch), "yaw": asdict(preset.outer.yaw)},
-        "scenario": {
-            "reference": present({"theta": scenario.theta, "psi": scenario.psi}),
-            "duration": scenario.duration,
-            "samples": scenario.samples,
-        },
+        **STRUCTURE.proposal(preset.structure),
+        **OUTER.proposal(preset.outer),
+        "loops": _loops(preset.outer),
+        "scenario": {"reference": REFERENCE.proposal(scenario), **SCENARIO.proposal(scenario)},
     }
+
+
+def _loops(outer: OuterLoop) -> Reply:
+    return {axis: place.proposal(getattr(outer, axis)) for axis, place in LOOP.items()}
 
 
 def symbolic_reply(report: SymbolicReport) -> Reply:
@@ -285,10 +283,6 @@ def sensitivity_reply(sensitivity: Sensitivity | None) -> Reply:
             {**vars(sensitivity), "gain_low": low, "gain_high": high, "phase": sensitivity.phase}
         )
     }
-
-
-def _limits(limits: Limits) -> Reply:
-    return present(vars(limits))
 
 
 def _voltages(values: Floats) -> Reply:

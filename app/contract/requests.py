@@ -6,86 +6,51 @@ Every field is optional: what is left out comes from the preset. Unknown fields 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from typing import Annotated, Any
 
 from pydantic import BaseModel, Field, create_model
 
-from heli2dof_core import OuterLoop, PIGains, PoleSet, Preset, Spec, Structure, preset
+from heli2dof_core import PoleSet, Preset, Spec, preset
 from heli2dof_core.checks import require_known
-from heli2dof_core.couplings import Coupling, Lead
 from heli2dof_core.design import FULL_RANK
-from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.placement.method import Weights
 from heli2dof_core.placement.registry import METHODS
-from heli2dof_core.plant import STEEPEST
 from heli2dof_core.presets import DEFAULT
-from heli2dof_core.scenario import (
-    LONGEST,
-    MOST_SAMPLES,
-    AntiWindup,
-    Digital,
-    Disturbance,
-    Limits,
-    Model,
-    Outer,
-    Pairing,
-    Rates,
-    Scenario,
-)
+from heli2dof_core.scenario import Digital, Disturbance, Model, Scenario
 from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
 from heli2dof_core.weights import bryson_weights
 
-from .fields import (
-    Angle,
-    Pole,
-    PositiveWeight,
-    PresetName,
-    Seconds,
-    Split,
-    Strict,
-    Weight,
-    Whole,
-    optional,
-    within,
-)
-
-ParameterChanges = create_model(
-    "ParameterChanges",
-    __base__=Strict,
-    **{  # pyright: ignore[reportArgumentType, reportCallIssue]
-        name: (
-            optional(info["low"], info["high"]),
-            Field(default=None, description=f"{info['meaning']}, {info['unit']}"),
-        )
-        for name, info in PARAMETER_INFO.items()
-    },
+from .fields import Pole, PositiveWeight, PresetName, Split, Strict, Weight, Whole, asked
+from .places import (
+    DIGITAL,
+    DISTURBANCE,
+    ENCODERS,
+    INITIAL,
+    LIMITS,
+    LOOP,
+    OUTER,
+    PARAMETERS,
+    POINT,
+    REFERENCE,
+    SCENARIO,
+    STRUCTURE,
 )
 
 
-class LimitChanges(Strict):
+class ParameterChanges(asked(PARAMETERS)):
+    """Parameters that differ from the preset's."""
+
+
+class LimitChanges(asked(LIMITS)):
     """Limits that differ from the preset's."""
 
-    V_p: Annotated[float, within(1e-3, 1e6)] | None = Field(default=None, description="limit of |V_p|, V")
-    V_y: Annotated[float, within(1e-3, 1e6)] | None = Field(default=None, description="limit of |V_y|, V")
-    theta: Annotated[float, within(1e-3, 3.2)] | None = Field(
-        default=None, description="pitch travel ±theta, rad; null where it is free"
-    )
 
-
-class OperatingPoint(Strict):
+class OperatingPoint(asked(POINT)):
     """Where the rig rests and the model is linearized."""
 
-    theta: Annotated[float, within(-STEEPEST, STEEPEST)] = Field(
-        default=0.0, description="pitch angle θ₀, rad"
-    )
 
-
-class LoopChanges(Strict):
+class LoopChanges(asked(LOOP["pitch"])):
     """PI(s) = kp (1 + 1/(ti s)) of one axis."""
-
-    kp: Annotated[float, within(-1e6, 1e6)] | None = Field(default=None, description="V/rad")
-    ti: Annotated[float, within(1e-6, 1e6)] | None = Field(default=None, description="s")
 
 
 class LoopsChanges(Strict):
@@ -130,11 +95,11 @@ class WeightChanges(Strict):
         )
 
 
-class DesignRequest(Strict):
+class DesignRequest(asked(STRUCTURE, OUTER)):
     """A design: what differs from the preset."""
 
     preset: PresetName = Field(default=DEFAULT, description="name of a preset, see GET /api/v1/presets")
-    parameters: ParameterChanges = ParameterChanges()  # pyright: ignore[reportInvalidTypeForm]
+    parameters: ParameterChanges = ParameterChanges()
     limits: LimitChanges = LimitChanges()
     operating_point: OperatingPoint | None = None
     poles: list[Pole] | None = Field(
@@ -143,26 +108,13 @@ class DesignRequest(Strict):
     method: str = Field(
         default=FULL_RANK, description="see GET /api/v1/methods", json_schema_extra={"enum": [*METHODS]}
     )
-    coupling: Coupling | None = None
-    lead: Lead | None = Field(default=None, description="axis that leads where the coupling is triangular")
     split: Split | None = Field(
         default=None,
         min_length=2,
         max_length=2,
         description="which poles, by position from 0, form pitch's pair and which yaw's",
     )
-    shift: Annotated[float, within(-1e6, 1e6)] | None = Field(
-        default=None,
-        description="shift c of Luenberger's basis, q₁ → q₁ + c q₂ (yaw leading: q₂ → q₂ + c q₁)",
-    )
     weights: WeightChanges = WeightChanges()
-    outer: Outer | None = Field(
-        default=None, description="pi: two PI loops (Fig. 3); none: inner loop alone (Fig. 2)"
-    )
-    pairing: Pairing | None = None
-    decoupler: bool | None = Field(
-        default=None, description="static decoupler between the PI loops and the motors"
-    )
     loops: LoopsChanges = LoopsChanges()
 
     def to_spec(self) -> Spec:
@@ -173,16 +125,17 @@ class DesignRequest(Strict):
         """
         base = preset(self.preset)
         require_known(self.method, METHODS, "method")  # also where another is used
-        point = base.theta_0 if self.operating_point is None else self.operating_point.theta
+        loops = {
+            axis: place.changed(getattr(base.outer, axis), getattr(self.loops, axis))
+            for axis, place in LOOP.items()
+        }
         return Spec(
-            parameters=base.parameters.replaced(self.parameters.model_dump(exclude_none=True)),
-            limits=self._limits(base.limits),
-            theta_0=point,
+            parameters=PARAMETERS.changed(base.parameters, self.parameters),
+            limits=LIMITS.changed(base.limits, self.limits),
+            theta_0=self._theta_0(base),
             poles=self._poles(base),
-            structure=Structure(
-                self.coupling or base.structure.coupling, self.lead or base.structure.lead, self.shift
-            ),
-            outer=self._outer(base),
+            structure=STRUCTURE.changed(base.structure, self),
+            outer=OUTER.changed(base.outer, self, **loops),
             scenario=self._scenario(base),
             method=self.method,
             weights=self.weights.to_weights(bryson_weights(base.limits)),
@@ -191,30 +144,15 @@ class DesignRequest(Strict):
     def _scenario(self, base: Preset) -> Scenario:
         return base.scenario
 
+    def _theta_0(self, base: Preset) -> float:
+        given = {} if self.operating_point is None else POINT.given(self.operating_point)
+        return given.get("theta_0", base.theta_0)
+
     def _poles(self, base: Preset) -> PoleSet:
         values = base.poles.values if self.poles is None else self.poles
         if self.split is None:
             return base.poles if self.poles is None else PoleSet(values)
         return PoleSet.dealt(values, self.split)
-
-    def _limits(self, base: Limits) -> Limits:
-        given = self.limits.model_dump(exclude_unset=True)
-        changes = {name: value for name, value in given.items() if value is not None or name == "theta"}
-        return replace(base, **changes) if changes else base
-
-    def _outer(self, base: Preset) -> OuterLoop:
-        pi = {}
-        for axis in ("pitch", "yaw"):
-            own: PIGains = getattr(base.outer, axis)
-            changes: LoopChanges = getattr(self.loops, axis)
-            kp = own.kp if changes.kp is None else changes.kp
-            pi[axis] = PIGains(kp, own.ti if changes.ti is None else changes.ti)
-        return OuterLoop(
-            outer=self.outer or base.outer.outer,
-            pairing=self.pairing or base.outer.pairing,
-            decoupler=base.outer.decoupler if self.decoupler is None else self.decoupler,
-            **pi,
-        )
 
 
 class RgaRequest(DesignRequest):
@@ -233,75 +171,34 @@ class LoopsRequest(DesignRequest):
     )
 
 
-class Reference(Strict):
+class Reference(asked(REFERENCE)):
     """Reference angles after t = 0, absolute."""
 
-    theta: Angle | None = Field(default=None, description="rad")
-    psi: Angle | None = Field(default=None, description="rad")
+
+class Initial(asked(INITIAL)):
+    """State at t = 0; angles are absolute."""
 
 
-class Initial(Strict):
-    """State at t = 0; angles are absolute, and at rest where left out."""
-
-    theta: Angle | None = Field(default=None, description="rad")
-    psi: Angle | None = Field(default=None, description="rad")
-    theta_dot: Angle = Field(default=0.0, description="rad/s")
-    psi_dot: Angle = Field(default=0.0, description="rad/s")
-
-
-class EncoderCounts(Strict):
+class EncoderCounts(asked(ENCODERS)):
     """Counts per revolution; 0 measures exactly."""
 
-    theta: Whole = Field(default=4096, ge=0, le=10**7, description="of pitch")
-    psi: Whole = Field(default=8192, ge=0, le=10**7, description="of yaw")
 
-
-class DigitalController(Strict):
+class DigitalController(asked(DIGITAL)):
     """The rig's own controller: sampled, quantized, filtered, late, noisy."""
 
-    sample_time: Annotated[float, within(1e-4, 1.0)] = Field(
-        default=0.002, description="s; voltages are held between samples"
-    )
-    delay: bool = Field(
-        default=False, description="voltages reach the motors one sample late, after the trim"
-    )
     encoders: EncoderCounts | None = Field(default=None, description="the preset's where left out")
-    rates: Rates = Field(default="filtered", description="filtered: from the angles, 20 Hz, damping 0.85")
-    noise: Annotated[float, within(0.0, 1.0)] = Field(
-        default=0.0, description="standard deviation on the measured angles, rad"
-    )
-    seed: Whole = Field(default=0, ge=0, le=2**32 - 1, description="of the noise")
 
 
-class InputDisturbance(Strict):
+class InputDisturbance(asked(DISTURBANCE)):
     """Volts that act on the motors besides the controller's, from `time` on."""
 
-    V_p: Annotated[float, within(-1e3, 1e3)] = Field(0.0, description="pitch motor, V")
-    V_y: Annotated[float, within(-1e3, 1e3)] = Field(0.0, description="yaw motor, V")
-    time: Annotated[float, within(0.0, LONGEST)] = Field(default=0.0, description="s")
 
-
-class ScenarioChanges(Strict):
+class ScenarioChanges(asked(SCENARIO)):
     """An experiment: references step at t = 0; without a reference the preset's own is used."""
 
     model: Model = Field(default="nonlinear", description="ignored by evaluate, which computes both")
     reference: Reference | None = None
-    duration: Seconds | None = Field(default=None, description="s")
-    samples: Annotated[Whole, within(2, MOST_SAMPLES)] | None = Field(
-        default=None, description="t = linspace(0, duration, samples)"
-    )
     initial: Initial = Initial()
-    saturation: bool = True
-    anti_windup: AntiWindup = "clamping"
-    tracking_time: Annotated[float, within(1e-4, 1e4)] | None = Field(
-        default=None,
-        description="of back-calculation, s, 1e-4 to 1e4; each loop's integral time where left out",
-    )
-    travel_stops: bool = True
-    trim_feedforward: bool = True
-    rtol: Annotated[float, within(1e-12, 1e-2)] = Field(
-        default=1e-8, description="tolerance of the nonlinear integration"
-    )
     digital: DigitalController | None = Field(default=None, description="nonlinear model; null is continuous")
     disturbance: InputDisturbance | None = Field(default=None, description="nonlinear model")
 
@@ -311,31 +208,15 @@ class ScenarioChanges(Strict):
         Raises:
             Heli2DofError: a value is out of its range.
         """
-        theta, psi = base.theta, base.psi
+        others = INITIAL.given(self.initial)
         if self.reference is not None:
-            theta, psi = self.reference.theta, self.reference.psi
-        return Scenario(
-            theta=theta,
-            psi=psi,
-            duration=base.duration if self.duration is None else self.duration,
-            samples=base.samples if self.samples is None else self.samples,
-            initial=(self.initial.theta, self.initial.psi, self.initial.theta_dot, self.initial.psi_dot),
-            saturation=self.saturation,
-            anti_windup=self.anti_windup,
-            tracking_time=self.tracking_time,
-            travel_stops=self.travel_stops,
-            trim_feedforward=self.trim_feedforward,
-            rtol=self.rtol,
-            digital=self._digital(encoders),
-            disturbance=self.disturbance and Disturbance(**self.disturbance.model_dump()),
-        )
-
-    def _digital(self, encoders: tuple[int, int]) -> Digital | None:
-        if self.digital is None:
-            return None
-        given = self.digital
-        counts = encoders if given.encoders is None else (given.encoders.theta, given.encoders.psi)
-        return Digital(given.sample_time, given.delay, counts, given.rates, given.noise, given.seed)
+            others |= {"theta": None, "psi": None, **REFERENCE.given(self.reference)}
+        if self.digital is not None:
+            counts = {} if self.digital.encoders is None else ENCODERS.given(self.digital.encoders)
+            others["digital"] = DIGITAL.changed(Digital(encoders=encoders), self.digital, **counts)
+        if self.disturbance is not None:
+            others["disturbance"] = DISTURBANCE.changed(Disturbance(), self.disturbance)
+        return SCENARIO.changed(base, self, **others)
 
 
 class StepRequest(DesignRequest):

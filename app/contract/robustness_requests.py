@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
 from heli2dof_core.parameters import PARAMETER_INFO
-from heli2dof_core.robustness import Cloud, Distribution, Uncertainty
+from heli2dof_core.robustness import MOST_SPREAD, Cloud, Uncertainty
 
-from .fields import Whole, within
+from .fields import Whole, asked
 from .models import Complex, Model
+from .places import UNCERTAINTY
 from .replies import Reply, poles_reply
 from .requests import StepRequest
 
@@ -19,23 +19,22 @@ MOST_POLES = 2000
 """Rigs whose poles are sent; more make no other picture."""
 
 
-class RobustnessRequest(StepRequest):
+class RobustnessRequest(StepRequest, asked(UNCERTAINTY)):
     """A design, an experiment, and how far the rigs may differ from the nominal one."""
 
-    uncertainty: dict[str, Annotated[float, within(0.0, 0.95)]] | None = Field(
+    uncertainty: (
+        dict[str, Annotated[float, Field(json_schema_extra={"minimum": 0.0, "maximum": MOST_SPREAD})]] | None
+    ) = Field(
         default=None,
         max_length=len(PARAMETER_INFO),
         json_schema_extra={"propertyNames": {"enum": [*PARAMETER_INFO]}},
         description="relative, per parameter; by default 0.1 for all but g",
     )
-    distribution: Distribution = "uniform"
-    samples: Whole = Field(default=200, ge=1, le=20_000, description="how many rigs")
-    seed: Whole = Field(default=0, ge=0, le=2**32 - 1, description="of the random rigs")
 
     def to_uncertainty(self) -> Uncertainty:
         """The core's uncertainty."""
-        given: Mapping[str, Any] = {} if self.uncertainty is None else {"spread": self.uncertainty}
-        return Uncertainty(**given, distribution=self.distribution, samples=self.samples, seed=self.seed)
+        own = UNCERTAINTY.given(self)
+        return Uncertainty(**own) if self.uncertainty is None else Uncertainty(self.uncertainty, **own)
 
 
 class Envelope(Model):

@@ -22,8 +22,8 @@ def render(spec: Spec, link: str = "") -> str:
     what = "asked for" if design.aims else "chosen by the method"
     numbers = []
     for name, value in spec.parameters.as_dict().items():
-        unit = PARAMETER_INFO[name]["unit"].replace("·", "*").replace("²", "^2")
-        numbers.append(f"{name} = {value!r};  % {PARAMETER_INFO[name]['meaning']}, {unit}")
+        unit = PARAMETER_INFO[name].unit.replace("·", "*").replace("²", "^2")
+        numbers.append(f"{name} = {value!r};  % {PARAMETER_INFO[name].meaning}, {unit}")
     return "\n".join(
         [
             *(f"% {line}" for line in origin(spec, FORMAT.name, link)),

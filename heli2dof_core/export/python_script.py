@@ -22,7 +22,7 @@ def render(spec: Spec, link: str = "") -> str:
     poles = ", ".join(repr(p) if p.imag else repr(p.real) for p in wanted)
     what = "asked for" if design.aims else "chosen by the method"
     numbers = [
-        f"{name} = {value!r}  # {PARAMETER_INFO[name]['meaning']}, {PARAMETER_INFO[name]['unit']}"
+        f"{name} = {value!r}  # {PARAMETER_INFO[name].meaning}, {PARAMETER_INFO[name].unit}"
         for name, value in spec.parameters.as_dict().items()
     ]
     return "\n".join(

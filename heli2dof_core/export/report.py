@@ -59,7 +59,7 @@ def render(spec: Spec, link: str = "") -> str:
 
 def _rig(spec: Spec, report: Report) -> Iterator[str]:
     rows = [
-        (name, info["meaning"], number(value, 6), info["unit"])
+        (name, info.meaning, number(value, 6), info.unit)
         for (name, value), info in zip(
             spec.parameters.as_dict().items(), PARAMETER_INFO.values(), strict=True
         )

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from inspect import cleandoc
 from math import pi
 from typing import Literal, TypeVar, get_args, get_type_hints
+
+from ..docstrings import with_attributes
 
 Better = Literal["lower", "higher", "none"]
 Notation = Literal["fixed", "significant", "seconds", "decibel", "exponent", "flag"]
@@ -99,7 +100,5 @@ def figures_of(cls: type) -> dict[str, Figure]:
 
 
 def documented(cls: type[Class]) -> type[Class]:
-    """With its attributes in its docstring."""
-    lines = (f"    {name}: {figure.described}." for name, figure in figures_of(cls).items())
-    cls.__doc__ = "\n".join((cleandoc(cls.__doc__ or ""), "", "Attributes:", *lines))
-    return cls
+    """With its figures in its docstring."""
+    return with_attributes(cls, {name: figure.described for name, figure in figures_of(cls).items()})

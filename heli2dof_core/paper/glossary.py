@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
-from ..components import Components
+from ..components import COMPONENT_INFO
 from ..symbolic.names import NAMES
 from .equation import Chapter
 
@@ -33,9 +33,9 @@ class Term:
 def _components() -> list[Term]:
     """The parts of Eqs. 1 and 8, with the paper's indices."""
     terms = []
-    for part in fields(Components):
-        base, _, index = part.metadata["printed"].partition("_")
-        terms.append(Term(part.name, f"{base}_{{{index}}}", part.metadata["meaning"], part.metadata["unit"]))
+    for name, part in COMPONENT_INFO.items():
+        base, _, index = part.symbol.partition("_")
+        terms.append(Term(name, f"{base}_{{{index}}}", part.meaning, part.unit))
     return terms
 
 

@@ -125,7 +125,7 @@ def _concluded(
     estimates = []
     for i, name in enumerate(names):
         own, value = getattr(p, name), search.value(i, values)
-        unit, width = PARAMETER_INFO[name]["unit"], float(widths[i])
+        unit, width = PARAMETER_INFO[name].unit, float(widths[i])
         estimates.append(Estimate(name, unit, own, value, value - width, value + width, float(plain[i])))
     return Identification(
         estimates=tuple(estimates),

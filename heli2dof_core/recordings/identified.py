@@ -34,8 +34,7 @@ class Estimate:
     @property
     def allowed(self) -> float:
         """The value within the range that the parameter may have."""
-        info = PARAMETER_INFO[self.name]
-        return min(max(self.value, info["low"]), info["high"])
+        return PARAMETER_INFO[self.name].nearest(self.value)
 
 
 @dataclass(frozen=True)

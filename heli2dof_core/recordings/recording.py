@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from math import pi
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from ..checks import require_one_of, require_within
 from ..errors import RecordingError
 from ..findings import Finding
+from ..quantities import Quantity, documented, require_valid
 from ..signals import Floats
 from .time_axis import judged_time, stretches, timing_remarks
 from .units import (
@@ -32,6 +34,8 @@ ANGLES = ("theta", "psi", "theta_ref", "psi_ref")
 """The roles that are angles."""
 FEWEST_SAMPLES = 20
 MOST_DECIMATED = 1000
+MOST_OFFSET = 1e4
+"""Largest offset of an angle, in its unit."""
 LARGEST = {"rad": 1e3, "deg": 6e4, "V": 1e3, "mV": 1e6}
 """Largest angle and voltage that a recording may hold."""
 _TURN = 2 * pi
@@ -95,54 +99,50 @@ class Table:
         )
 
 
+@documented
 @dataclass(frozen=True)
 class Columns:
     """Which column is what, and how the rig's signs and units become ours.
 
     An angle of the file is multiplied by its sign, then its offset is added, then it is converted.
 
-    Attributes:
-        names: role → column; see `ROLES`.
-        unit: of the angles, references and offsets included.
-        signs: of the encoders of θ and ψ, ±1; references take them too.
-        offsets: added to θ and ψ, in their units: −40.5° where pitch counts from its lower stop.
-        sample_time: s, where there is no column of time.
-        time_unit: of the column of time; None: what the file states, or seconds.
-        units: role → unit, of angles whose unit is not `unit`; a reference takes its axis' unit.
-        voltage_unit: of both voltages.
-        decimate: every so many rows one is kept, and the voltages between are averaged.
+    `names` is role → column (see `ROLES`); `signs` are those of the encoders of θ and ψ, ±1, and references take them
+    too; `offsets` are added to θ and ψ, in their units: −40.5° where pitch counts from its lower stop; `units` is
+    role → unit of angles whose unit is not `unit`, and a reference takes its axis' unit.
     """
 
     names: dict[str, str]
-    unit: AngleUnit = "rad"
+    unit: Annotated[AngleUnit, Quantity("of the file's angles, references and offsets included")] = "rad"
     signs: tuple[int, int] = (1, 1)
     offsets: tuple[float, float] = (0.0, 0.0)
-    sample_time: float | None = None
-    time_unit: TimeUnit | None = None
+    sample_time: Annotated[
+        float | None, Quantity("time between two rows", "s", 1e-5, 10.0, absent="where no column is the time")
+    ] = None
+    time_unit: Annotated[
+        TimeUnit | None,
+        Quantity("of the column of time", absent="what the file states, or s, where left out"),
+    ] = None
     units: Mapping[str, AngleUnit] = field(default_factory=dict)
-    voltage_unit: VoltageUnit = "V"
-    decimate: int = 1
+    voltage_unit: Annotated[VoltageUnit, Quantity("of both voltages")] = "V"
+    decimate: Annotated[
+        int,
+        Quantity("of so many rows one is kept, and the voltages between are averaged", "", 1, MOST_DECIMATED),
+    ] = 1
 
     def __post_init__(self) -> None:
-        require_one_of(self.unit, AngleUnit, "columns.unit")
-        require_one_of(self.voltage_unit, VoltageUnit, "columns.voltage_unit")
-        if self.time_unit is not None:
-            require_one_of(self.time_unit, TimeUnit, "columns.time_unit")
+        require_valid(self)
         for role, unit in self.units.items():
-            require_one_of(unit, AngleUnit, f"columns.units.{role}")
+            require_one_of(unit, AngleUnit, f"units.{role}")
         for sign, axis in zip(self.signs, ("theta", "psi"), strict=True):
             if sign not in (1, -1):
                 raise RecordingError(
                     f"the sign of {axis} is {sign!r}, not 1 or -1",
-                    field=f"columns.signs.{axis}",
+                    field=f"signs.{axis}",
                     value=sign,
                     hint="Give 1, or -1 where the encoder counts the other way.",
                 )
         for offset, axis in zip(self.offsets, ("theta", "psi"), strict=True):
-            require_within(offset, f"columns.offsets.{axis}", self.unit_of(axis), -1e4, 1e4)
-        if self.sample_time is not None:
-            require_within(self.sample_time, "columns.sample_time", "s", 1e-5, 10.0)
-        require_within(self.decimate, "columns.decimate", "", 1, MOST_DECIMATED)
+            require_within(offset, f"offsets.{axis}", self.unit_of(axis), -MOST_OFFSET, MOST_OFFSET)
 
     def unit_of(self, role: str) -> AngleUnit:
         """The unit of an angle."""

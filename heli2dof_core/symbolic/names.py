@@ -45,7 +45,7 @@ def _latex(name: str) -> str:
 
 
 NAMES: tuple[Name, ...] = (
-    *(Name(n, _latex(n), i["meaning"], i["unit"]) for n, i in PARAMETER_INFO.items()),
+    *(Name(n, _latex(n), i.meaning, i.unit) for n, i in PARAMETER_INFO.items()),
     Name("theta", r"\theta", "pitch angle", "rad"),
     Name("psi", r"\psi", "yaw angle", "rad"),
     Name("theta_dot", r"\dot\theta", "pitch rate", "rad/s"),

@@ -127,4 +127,4 @@ def test_tracking_faster_than_the_samples_is_told(design):
 def test_a_tracking_time_that_is_none_is_refused_by_name(tracking):
     with pytest.raises(InvalidInputError) as caught:
         Scenario(tracking_time=tracking)
-    assert caught.value.field == "scenario.tracking_time"
+    assert caught.value.field == "tracking_time"

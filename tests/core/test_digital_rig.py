@@ -232,7 +232,7 @@ def test_slow_sampling_is_told_and_too_many_samples_are_refused(design):
     assert "slow_sampling" in {f.code for f in slow.findings}
     with pytest.raises(InvalidInputError) as caught:
         Scenario(duration=600.0, digital=Digital(sample_time=1e-3))
-    assert caught.value.field == "scenario.digital.sample_time"
+    assert caught.value.field == "digital.sample_time"
 
 
 @pytest.mark.parametrize("time", [0.0, 0.503, 1.0])

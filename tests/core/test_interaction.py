@@ -251,7 +251,7 @@ def test_thrust_constants_follow_from_the_components():
     assert rig.components is not None
     with pytest.raises(InvalidInputError) as caught:
         Components(**{**rig.components.as_dict(), "R_p": 0.0})
-    assert caught.value.field == "components.R_p"
+    assert caught.value.field == "R_p"
     heavier = replace(rig.components, m_p=0.5)
     moved = Parameters.from_components(heavier, J_p=0.04, J_y=0.04, m=1.4, B_p=0.8, B_y=0.3)
     assert moved.l > rig.parameters.l

@@ -56,9 +56,9 @@ def test_changes_are_what_they_say_and_nothing_else():
         ({"poles": [-1, -2, -3]}, "poles"),
         ({"poles": [-1, -2 + 1j, -3, -4]}, "poles.1"),
         ({"parameters": {"J_p": -1.0}}, "parameters.J_p"),
-        ({"pitch": (1.0, 0.0)}, "loops.pitch.ti"),
+        ({"pitch": (1.0, 0.0)}, "outer.pitch.ti"),
         ({"duration": -1.0}, "scenario.duration"),
-        ({"coupling": "loose"}, "coupling"),
+        ({"coupling": "loose"}, "structure.coupling"),
     ],
 )
 def test_a_wrong_change_names_its_field(change, field):

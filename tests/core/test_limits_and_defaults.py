@@ -31,9 +31,9 @@ def test_pitch_travels_half_a_turn_to_either_side_at_most():
     for theta in (1.1 * pi, 2 * pi, 0.0, -0.5):
         with pytest.raises(InvalidInputError) as caught:
             Limits(24.0, 15.0, theta)
-        assert caught.value.field == "limits.theta"
+        assert caught.value.field == "theta"
     for name in ("V_p", "V_y"):
         for volts in (0.0, -24.0, float("inf"), None):
             with pytest.raises(InvalidInputError) as caught:
                 Limits(**{"V_p": 24.0, "V_y": 15.0, name: volts})
-            assert caught.value.field == f"limits.{name}"
+            assert caught.value.field == name

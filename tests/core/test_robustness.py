@@ -92,8 +92,8 @@ def test_shares_tell_instability_and_limits():
 @pytest.mark.parametrize(
     ("change", "field"),
     [
-        ({"spread": {"mass": 0.1}}, "uncertainty.mass"),
-        ({"spread": {"m": 1.0}}, "uncertainty.m"),
+        ({"spread": {"mass": 0.1}}, "spread.mass"),
+        ({"spread": {"m": 1.0}}, "spread.m"),
         ({"samples": 0}, "samples"),
         ({"distribution": "flat"}, "distribution"),
     ],
