@@ -15,7 +15,7 @@ from .plant import STEEPEST
 from .poles import PoleSet
 from .presets import DEFAULT, Preset
 from .presets import preset as preset_named
-from .quantities import Quantity
+from .quantities import Quantity, require_valid
 from .scenario import Limits, Outer, OuterLoop, Pairing, PIGains, Scenario
 from .tables import Shown, poles
 
@@ -45,6 +45,9 @@ class Spec(Shown):
     scenario: Scenario
     method: str = FULL_RANK
     weights: Weights | None = None
+
+    def __post_init__(self) -> None:
+        require_valid(self)
 
     @classmethod
     def from_preset(cls, preset: Preset | str = DEFAULT, **changes: Any) -> Spec:

@@ -20,7 +20,7 @@
  * @typedef {{presets: Preset[], methods: {name: string}[]}} Known
  */
 import { differences, escaped, leafOf, polesLink, polesOf, setLeaf, unescaped } from './link_values.js';
-import { asking, designOf, LOCKS, NONE } from '../model/index.js';
+import { allowed, asking, designOf, LOCKS, NONE, QUANTITIES } from '../model/index.js';
 
 const VERSION = 1;
 /** Longer links are cut by some mail programs; pins that make it longer are left out. */
@@ -33,14 +33,6 @@ const SHORT = /** @type {const} */ ([
   ['scenario.duration', 'duration'],
   ['parameters.', 'set.'],
 ]);
-/** @type {Record<string, string[]>} */
-const CHOICES = {
-  coupling: ['triangular', 'input-diagonal', 'axis-decoupled'],
-  lead: ['pitch', 'yaw'],
-  outer: ['pi', 'none'],
-  pairing: ['diagonal', 'cross'],
-};
-
 /** @param {string} path */
 const shortened = (path) =>
   SHORT.reduce((key, [long, short]) => (key.startsWith(long) ? short + key.slice(long.length) : key), path);
@@ -109,7 +101,8 @@ export function linkOf(state, { presets }, place = null, most = MOST) {
 function objection(path, leaf, base, { methods }, preset) {
   const [top, key] = path.split('.');
   if (typeof leaf === 'number' && !Number.isFinite(leaf)) return 'not a finite number';
-  if (path in CHOICES) return CHOICES[path].includes(leaf) ? '' : `neither ${CHOICES[path].join(' nor ')}`;
+  const words = path.includes('.') ? undefined : QUANTITIES[path]?.words; // deeper ones are the server's to judge
+  if (words) return words.includes(leaf) ? '' : `neither ${words.join(' nor ')}`;
   if (path === 'method')
     return !methods.length || methods.some((m) => m.name === leaf) ? '' : 'no method of this server';
   if (top === 'parameters')
@@ -121,7 +114,9 @@ function objection(path, leaf, base, { methods }, preset) {
         ? ''
         : 'not a number';
   if (path === 'theta0')
-    return typeof leaf === 'number' && Math.abs(leaf) < Math.PI / 2 ? '' : 'not an angle below 90°';
+    return typeof leaf === 'number' && Math.abs(leaf) <= allowed('operating_point.theta').max
+      ? ''
+      : 'not an angle within ±85°';
   if (path === 'scenario.duration')
     return typeof leaf === 'number' && leaf > 0 && leaf <= 60 ? '' : 'not between 0 and 60 s';
   if (base !== undefined && base !== null && leaf !== undefined && leaf !== null && typeof base !== typeof leaf)

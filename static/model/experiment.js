@@ -10,24 +10,19 @@
  * @typedef {import('../types.js').Encoders} Encoders
  */
 import { DEGREE, fixed, significant } from '../text/index.js';
+import { standardOf } from './rig.js';
 
 /**
  * @type {{saturation: boolean, anti_windup: NonNullable<Scenario['anti_windup']>, travel_stops: boolean,
  *   trim_feedforward: boolean, rtol: number}}
  */
-export const STANDARD = {
-  saturation: true,
-  anti_windup: 'clamping',
-  travel_stops: true,
-  trim_feedforward: true,
-  rtol: 1e-5,
-};
+export const STANDARD = /** @type {any} */ ({ ...standardOf('scenario'), rtol: 1e-5 }); // as exact as a screen
 
 /**
  * The rig's own controller.
  * @type {{sample_time: number, delay: boolean, rates: 'filtered'|'true', noise: number, seed: number}}
  */
-export const DIGITAL = { sample_time: 0.002, delay: false, rates: 'filtered', noise: 0, seed: 0 };
+export const DIGITAL = /** @type {any} */ (standardOf('scenario.digital'));
 
 /** What the server's cloud of uncertain rigs does not know. */
 const NOT_IN_CLOUD = ['digital', 'disturbance'];

@@ -57,7 +57,18 @@ export {
   RANGES,
   verdictOf,
 } from './requirements.js';
-export { asProposed, changedWords, isChanged, proposedShown, quantities, valueOf, without, withValue } from './rig.js';
+export { QUANTITIES } from './quantities.js';
+export {
+  allowed,
+  asProposed,
+  changedWords,
+  isChanged,
+  proposedShown,
+  quantities,
+  valueOf,
+  without,
+  withValue,
+} from './rig.js';
 export { bodyOf, designOf, evaluationOf, initialState, presetOf, requestOf, scenarioOf, Store } from './store.js';
 export { niceStep, ticks } from './ticks.js';
 export { extent, indexAt, isVoltage, motionOf, rangeOf, SIGNALS, trace, tracesOf } from './traces.js';

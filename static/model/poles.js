@@ -3,8 +3,9 @@
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {import('../types.js').Poles} Poles
  */
+import { allowed } from './rig.js';
 
-export const LIMIT = 1e5;
+export const LIMIT = allowed('poles').max;
 
 /** @param {number} index 0…3 @returns {number} the other pole of its pair */
 export const partner = (index) => index ^ 1;

@@ -10,6 +10,25 @@
  *   boolean}} Quantity in the unit shown; `scale` leads to it from SI; free: may be absent
  */
 import { count, DEGREE } from '../text/index.js';
+import { QUANTITIES } from './quantities.js';
+
+/**
+ * The contract's range of a quantity in the unit shown: `scale` leads to it. Ends in degrees are cut to two decimals.
+ * @param {string} path in the contract
+ */
+export function allowed(path, scale = 1) {
+  const { min = -Infinity, max = Infinity } = QUANTITIES[path] ?? {};
+  const cut = (/** @type {number} */ v) => (scale === DEGREE ? Math.trunc(v * scale * 100) / 100 : v * scale);
+  return { min: cut(min), max: cut(max) };
+}
+
+/** What the quantities right below a path are unless someone says otherwise. @param {string} path */
+export const standardOf = (path) =>
+  Object.fromEntries(
+    Object.entries(QUANTITIES)
+      .filter(([own, quantity]) => own.replace(/\.\w+$/, '') === path && quantity?.standard !== undefined)
+      .map(([own, quantity]) => [own.slice(path.length + 1), quantity?.standard]),
+  );
 
 /** @param {Kind} kind @param {Record<string, import('../types.js').Range>} [infos] @returns {Quantity[]} */
 const listed = (kind, infos = {}) =>

@@ -1,6 +1,15 @@
 /** The parts of the experiment's options, each with its fields and what they change. */
 import { DEGREE, inField } from '../text/index.js';
-import { DIGITAL, STANDARD, withDigital, withDisturbance, withEncoder, withOption, withStart } from '../model/index.js';
+import {
+  allowed,
+  DIGITAL,
+  STANDARD,
+  withDigital,
+  withDisturbance,
+  withEncoder,
+  withOption,
+  withStart,
+} from '../model/index.js';
 import { Choice, h, NumberField, setText, symbol } from '../ui/index.js';
 
 /**
@@ -156,8 +165,7 @@ export class LimitsPart {
       label: 'tracking time of back-calculation in milliseconds, empty: the integral time',
       unit: 'ms',
       field: 'scenario.tracking_time',
-      min: 0.1,
-      max: 1e7,
+      ...allowed('scenario.tracking_time', 1000),
       scale: 1000,
       positive: true,
       optional: true,
@@ -222,8 +230,7 @@ export class DigitalPart {
       mark: h('span', { title: 'sample time: the voltages are held between two samples' }, 'every'),
       unit: 'ms',
       field: 'scenario.digital.sample_time',
-      min: 0.1,
-      max: 1000,
+      ...allowed('scenario.digital.sample_time', 1000),
       scale: 1000,
       positive: true,
       change: (s, v) => withDigital(s, { sample_time: v }),
@@ -248,8 +255,7 @@ export class DigitalPart {
         label: `${AXIS_NAMES[axis]} encoder, counts per revolution; 0 measures exactly, empty: this rig's`,
         mark: symbol(GREEK[axis]),
         field: `scenario.digital.encoders.${axis}`,
-        min: 0,
-        max: 1e7,
+        ...allowed(`scenario.digital.encoders.${axis}`),
         integer: true,
         optional: true,
         change: (s, v) => withEncoder(s, axis, v, this.counts()),
@@ -261,8 +267,7 @@ export class DigitalPart {
       mark: 'noise',
       unit: '°',
       field: 'scenario.digital.noise',
-      min: 0,
-      max: 57,
+      ...allowed('scenario.digital.noise', DEGREE),
       scale: DEGREE,
       change: (s, v) => withDigital(s, { noise: v }),
     });
@@ -271,8 +276,7 @@ export class DigitalPart {
       label: 'seed of the noise',
       mark: 'seed',
       field: 'scenario.digital.seed',
-      min: 0,
-      max: 2 ** 32 - 1,
+      ...allowed('scenario.digital.seed'),
       integer: true,
       change: (s, v) => withDigital(s, { seed: v }),
     });
@@ -334,8 +338,7 @@ export class DisturbancePart {
         mark: symbol('V', name[2]),
         unit: 'V',
         field: `scenario.disturbance.${name}`,
-        min: -1000,
-        max: 1000,
+        ...allowed(`scenario.disturbance.${name}`),
         change: (s, v) => withDisturbance(s, { [name]: v }),
       }),
     );
@@ -345,8 +348,7 @@ export class DisturbancePart {
       mark: 'from',
       unit: 's',
       field: 'scenario.disturbance.time',
-      min: 0,
-      max: 600,
+      ...allowed('scenario.disturbance.time'),
       change: (s, v) => withDisturbance(s, { time: v }),
     });
     this.node = h(

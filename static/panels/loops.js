@@ -1,7 +1,7 @@
 /**
  * The outer loops: on or off, their PI values, how they are paired; and the method that makes the inner loop's gain.
  */
-import { bodyOf, bringsIntegralAction, FULL_RANK, keyOf, nameOf, partOf, STRUCTURES } from '../model/index.js';
+import { allowed, bodyOf, bringsIntegralAction, FULL_RANK, keyOf, nameOf, partOf, STRUCTURES } from '../model/index.js';
 import { suggestLoops } from '../net/index.js';
 import { Choice, h, NumberField, setText, symbol } from '../ui/index.js';
 
@@ -140,9 +140,8 @@ export class LoopsPanel {
         unit,
         testid: `${key}-${axis}`,
         field: `loops.${axis}.${key}`,
-        min: key === 'kp' ? 0 : 1e-4,
-        max: 1e5,
-        positive: key === 'ti',
+        ...allowed(`loops.${axis}.${key}`),
+        ...(key === 'kp' ? { min: 0 } : { positive: true }), // a negative gain reverses a loop: the pairing does that
         slider,
         onInput: (v, stamp) =>
           this.store.edit((d) => ({ ...d, loops: { ...d.loops, [axis]: { ...d.loops[axis], [key]: v } } }), {

@@ -2,6 +2,7 @@
  * What is asked of the rig: where it rests, how far it steps and how long one watches; and what the plots' lines mean.
  */
 import { DEGREE } from '../text/index.js';
+import { allowed } from '../model/index.js';
 import { h, NumberField, symbol } from '../ui/index.js';
 
 /** @typedef {'theta'|'psi'} Axis */
@@ -36,8 +37,7 @@ export class ScenarioPanel {
       unit: '°',
       testid: 'theta0',
       field: 'operating_point.theta',
-      min: -80,
-      max: 80,
+      ...allowed('operating_point.theta', DEGREE),
       onInput: (v, stamp) => store.edit((d) => ({ ...d, theta0: v / DEGREE }), { gesture: 'theta0', stamp }),
       onCommit: () => store.commit(),
     });

@@ -1,5 +1,6 @@
 /** Which column of a recording is what, in which units, with which signs; how its text was split; its first rows. */
 import { significant } from '../text/index.js';
+import { allowed } from '../model/index.js';
 import { h, NumberField, setText, symbol } from '../ui/index.js';
 import { DECIMALS, ROLES, SEPARATORS, TIME_UNITS } from './recordings.js';
 
@@ -57,7 +58,7 @@ export class RecordingMapping {
         'Sample time where no column is the time',
         'sample time',
         's',
-        { min: 1e-5, max: 10 },
+        allowed('columns.sample_time'),
         columns.sample_time ?? NaN,
         (v) => this.feed.change({ sample_time: v || null }),
       )),
@@ -66,7 +67,7 @@ export class RecordingMapping {
         'Keep one of so many rows; voltages are averaged in between',
         'keep one row of',
         '',
-        { min: 1, max: 1000, integer: true },
+        { ...allowed('columns.decimate'), integer: true },
         columns.decimate,
         (v) => this.feed.change({ decimate: v }),
       ),

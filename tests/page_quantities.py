@@ -1,0 +1,72 @@
+"""The page's module of the quantities that a user gives: `python -m tests.page_quantities` makes it of the core's.
+
+As Prettier has it, so that it is checked like any other module; a test holds it to the core. Parameters and limits
+are not in it: each preset is served with theirs.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import MISSING
+
+from app.contract.places import LIMITS, PARAMETERS, Place, quantities
+from heli2dof_core.poles import LARGEST
+from heli2dof_core.quantities import Field
+from tests.children import ROOT
+
+PAGE = ROOT / "static" / "model" / "quantities.js"
+HEAD = """/**
+ * What a design and its experiment are made of, under their paths in the contract: units, ranges, words, and what
+ * they are unless someone says otherwise. Made of the core's dataclasses by `python -m tests.page_quantities`; not to
+ * be changed by hand.
+ *
+ * @typedef {object} Quantity
+ * @property {string} [unit]  SI
+ * @property {number} [min]
+ * @property {number} [max]
+ * @property {string[]} [words]  that it may be
+ * @property {number|boolean|string} [standard]  without: the preset's, or none
+ */
+
+/** @type {Partial<Record<string, Quantity>>} */
+export const QUANTITIES = {
+"""
+
+
+def module() -> str:
+    """The whole module."""
+    own = (item for item in quantities() if item[1] not in (PARAMETERS, LIMITS))
+    poles = f"  poles: {{ unit: 'rad/s', min: {_js(-LARGEST)}, max: {_js(LARGEST)} }},\n"
+    return "".join((HEAD, poles, *(_entry(*item) for item in own), "};\n"))
+
+
+def _entry(path: str, place: Place, known: Field) -> str:
+    key = path if re.fullmatch(r"\w+", path) else f"'{path}'"
+    said = ", ".join(f"{name}: {value}" for name, value in _said(path, place, known))
+    return f"  {key}: {{ {said} }},\n" if said else ""
+
+
+def _said(path: str, place: Place, known: Field) -> Iterator[tuple[str, str]]:
+    about = known.quantity
+    if about.unit:
+        yield "unit", f"'{about.unit}'"
+    if about.low is not None and about.high is not None:
+        yield "min", _js(about.low)
+        yield "max", _js(about.high)
+    if known.choices:
+        yield "words", f"[{', '.join(map(_js, known.choices))}]"
+    if not place.proposed(path.rpartition(".")[2]) and known.default not in (MISSING, None):
+        yield "standard", _js(known.default)
+
+
+def _js(value: str | float | bool) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f"'{value}'"
+    return re.sub(r"\.0$|(?<=e)\+?(-?)0*", r"\1", repr(value))
+
+
+if __name__ == "__main__":
+    PAGE.write_text(module(), encoding="utf-8")
