@@ -54,8 +54,7 @@ def compare(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     """Print the same poles through several methods, side by side."""
     from heli2dof_core import compare as compare_methods
 
-    from ..contract.comparison_replies import comparison_reply
-    from ..contract.requests import CompareRequest
+    from ..contract.comparison import CompareRequest, comparison_reply
 
     with refusals(as_json):
         request = CompareRequest.model_validate(body(base, values))
@@ -75,7 +74,7 @@ def robustness(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     """Print what one controller does on many rigs with uncertain parameters."""
     from heli2dof_core.robustness import cloud_in_parts
 
-    from ..contract.robustness_requests import RobustnessRequest, cloud_reply
+    from ..contract.robustness import RobustnessRequest, cloud_reply
 
     with refusals(as_json):
         request = RobustnessRequest.model_validate(body(base, values))

@@ -30,7 +30,7 @@ def symbolic(
         from heli2dof_core import InvalidInputError, Structure
         from heli2dof_core.symbolic.render import symbolic_report
 
-        from ..contract.replies import symbolic_reply
+        from ..contract.derivation import symbolic_reply
 
         structure = Structure(coupling or "triangular", lead or "pitch")  # pyright: ignore[reportArgumentType]
         report = symbolic_report(structure, shifted=shifted)
@@ -62,7 +62,7 @@ def paper(as_json: bool) -> None:
     from heli2dof_core.tables import Table, number
 
     if as_json:
-        from ..contract.paper_replies import paper_reply
+        from ..contract.paper_reply import paper_reply
 
         return print_json(paper_reply())
     rows = reproduce()

@@ -16,8 +16,7 @@ def gains(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     """Print K of u = −Kx + v and the poles that it gives."""
     from heli2dof_core import place
 
-    from ..contract.replies import gains_reply
-    from ..contract.requests import DesignRequest
+    from ..contract.design import DesignRequest, gains_reply
 
     with refusals(as_json):
         design = place(DesignRequest.model_validate(body(base, values)).to_spec())
@@ -34,8 +33,7 @@ def rga(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     from heli2dof_core import interaction, place
     from heli2dof_core.tables import Table, number
 
-    from ..contract.replies import rga_reply
-    from ..contract.requests import RgaRequest
+    from ..contract.frequency import RgaRequest, rga_reply
 
     with refusals(as_json):
         request = RgaRequest.model_validate(body(base, values))
@@ -60,8 +58,7 @@ def step(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     from heli2dof_core import close_loop, place, simulate
     from heli2dof_core.findings import merged
 
-    from ..contract.replies import states_reply, step_reply
-    from ..contract.requests import ResponseRequest
+    from ..contract.experiment import ResponseRequest, states_reply, step_reply
 
     with refusals(as_json):
         request = ResponseRequest.model_validate(body(base, values))

@@ -23,7 +23,7 @@ def export(
     name: str, output: Path | None, force: bool, as_json: bool, base: IO[str] | None, **values: Any
 ) -> None:
     """Write a design in FORMAT to a file, and print the file's name."""
-    from ..contract.requests import StepRequest
+    from ..contract.experiment import StepRequest
 
     chosen = FORMATS[name]
     with refusals(as_json):

@@ -30,7 +30,7 @@ def read(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **values:
     from heli2dof_core.tables import Table as Shown
     from heli2dof_core.tables import number
 
-    from ..contract.recording_models import preview_reply
+    from ..contract.recordings import preview_reply
 
     with refusals(as_json):
         table, columns, _ = _opened(files, base, values)
@@ -64,8 +64,7 @@ def overlay(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **valu
     from heli2dof_core.tables import Table as Shown
     from heli2dof_core.tables import number
 
-    from ..contract.overlays import overlaid
-    from ..contract.recording_models import OverlayRequest, overlay_reply
+    from ..contract.recordings import OverlayRequest, overlaid, overlay_reply
 
     with refusals(as_json):
         table, columns, request = _opened(files, base, values)
@@ -92,7 +91,7 @@ def identify(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **val
     from heli2dof_core import warm_up
     from heli2dof_core.recordings.recording import recording_of
 
-    from ..contract.recording_models import IdentifyRequest, identification_reply
+    from ..contract.recordings import IdentifyRequest, identification_reply
 
     with refusals(as_json):
         table, columns, request = _opened(files, base, values)
@@ -116,7 +115,7 @@ def _opened(
     from heli2dof_core.recordings.files import Dialect, read_files
     from heli2dof_core.recordings.guess import guess_columns
 
-    from ..contract.recording_models import Mapping
+    from ..contract.recordings import Mapping
 
     request = body(base, values)
     dialect = Dialect(request.pop("separator", None), request.pop("decimal", None))

@@ -12,7 +12,10 @@ from heli2dof_core.presets import PRESETS
 from heli2dof_core.version import package_version
 
 from .encoding import json_bytes
-from .replies import present, preset_reply, report_reply, states_reply
+from .evaluation import report_reply
+from .experiment import states_reply
+from .model import present
+from .presets import preset_reply
 
 
 def _json(spec: Spec, link: str = "") -> bytes:

@@ -7,11 +7,11 @@ from fastapi import APIRouter, Response
 from heli2dof_core import Structure, place
 from heli2dof_core.couplings import Coupling, Lead
 
-from ..contract import replies
+from ..contract.derivation import Symbolic, Walkthrough, symbolic_reply, walkthrough_reply
+from ..contract.design import DesignRequest
 from ..contract.encoding import json_bytes, json_response
-from ..contract.models import Symbolic, described
-from ..contract.paper_models import Paper, Walkthrough
-from ..contract.requests import DesignRequest
+from ..contract.model import described
+from ..contract.paper import Paper
 from ..jobs.compute import Compute
 
 
@@ -26,9 +26,7 @@ def build_router(compute: Compute) -> APIRouter:
         def work() -> bytes:
             from heli2dof_core.symbolic.render import symbolic_report
 
-            return json_bytes(
-                replies.symbolic_reply(symbolic_report(Structure(coupling, lead), shifted=shifted))
-            )
+            return json_bytes(symbolic_reply(symbolic_report(Structure(coupling, lead), shifted=shifted)))
 
         found = await compute.run_once(("symbolic", coupling, lead, shifted), work)
         return Response(found, media_type="application/json")
@@ -37,14 +35,12 @@ def build_router(compute: Compute) -> APIRouter:
         "/walkthrough", **described(Walkthrough, "The derivation in numbers, from constants to the RGA")
     )
     async def walkthrough(request: DesignRequest) -> Response:
-        return json_response(
-            await compute.run_slow(lambda: replies.walkthrough_reply(place(request.to_spec())))
-        )
+        return json_response(await compute.run_slow(lambda: walkthrough_reply(place(request.to_spec()))))
 
     @router.get("/paper", **described(Paper, "The paper, reproduced, and its errata proved"))
     async def paper() -> Response:
         def work() -> bytes:
-            from ..contract.paper_replies import paper_reply
+            from ..contract.paper_reply import paper_reply
 
             return json_bytes(paper_reply())
 

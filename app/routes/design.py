@@ -6,9 +6,11 @@ from fastapi import APIRouter, Response
 
 from heli2dof_core import close_loop, evaluate, place, simulate, suggest_pi
 
-from ..contract import models, replies
+from ..contract.design import DesignRequest, Gains, Suggestion, gains_reply, suggestion_reply
 from ..contract.encoding import json_response
-from ..contract.requests import DesignRequest, EvaluateRequest, ResponseRequest
+from ..contract.evaluation import EvaluateRequest, Evaluation, report_reply
+from ..contract.experiment import ResponseRequest, Step, states_reply, step_reply
+from ..contract.model import Reply, described
 from ..jobs.compute import Compute
 
 
@@ -16,35 +18,33 @@ def build_router(compute: Compute) -> APIRouter:
     """The routes gains, step, evaluate and suggest under /api/v1."""
     router = APIRouter(prefix="/api/v1", tags=["design"])
 
-    @router.post("/gains", **models.described(models.Gains, "K of u = −Kx + v and the poles that it gives"))
+    @router.post("/gains", **described(Gains, "K of u = −Kx + v and the poles that it gives"))
     async def gains(request: DesignRequest) -> Response:
-        return json_response(await compute.run(lambda: replies.gains_reply(place(request.to_spec()))))
+        return json_response(await compute.run(lambda: gains_reply(place(request.to_spec()))))
 
-    @router.post("/step", **models.described(models.Step, "Step response of the whole loop"))
+    @router.post("/step", **described(Step, "Step response of the whole loop"))
     async def step(request: ResponseRequest) -> Response:
-        def work() -> replies.Reply:
+        def work() -> Reply:
             spec = request.to_spec()
             loop = close_loop(place(spec), spec.outer)
             step = simulate(loop, spec, request.scenario.model)
-            return replies.step_reply(step, loop) | (replies.states_reply(step) if request.states else {})
+            return step_reply(step, loop) | (states_reply(step) if request.states else {})
 
         return json_response(await compute.run(work))
 
-    @router.post(
-        "/evaluate", **models.described(models.Evaluation, "Everything that a design changes, at once")
-    )
+    @router.post("/evaluate", **described(Evaluation, "Everything that a design changes, at once"))
     async def evaluate_(request: EvaluateRequest) -> Response:
-        def work() -> replies.Reply:
+        def work() -> Reply:
             spec = request.to_spec()
-            return replies.report_reply(evaluate(spec, each_axis=request.each_axis), spec)
+            return report_reply(evaluate(spec, each_axis=request.each_axis), spec)
 
         return json_response(await compute.run(work))
 
-    @router.post("/suggest", **models.described(models.Suggestion, "PI values that suit the placed poles"))
+    @router.post("/suggest", **described(Suggestion, "PI values that suit the placed poles"))
     async def suggest(request: DesignRequest) -> Response:
-        def work() -> replies.Reply:
+        def work() -> Reply:
             spec = request.to_spec()
-            return replies.suggestion_reply(suggest_pi(place(spec), spec.outer))
+            return suggestion_reply(suggest_pi(place(spec), spec.outer))
 
         return json_response(await compute.run(work))
 

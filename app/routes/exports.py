@@ -8,9 +8,9 @@ from fastapi import APIRouter, Path, Query, Response
 
 from heli2dof_core.checks import require_known
 
+from ..contract.experiment import StepRequest
 from ..contract.exports import FORMATS
-from ..contract.models import described
-from ..contract.requests import StepRequest
+from ..contract.model import described
 from ..jobs.compute import Compute
 
 # The characters of RFC 3986 alone: none of them ends a line, a comment or an attribute of the files.

@@ -6,9 +6,9 @@ from fastapi import APIRouter, Response
 
 from heli2dof_core import close_loop, interaction, place
 
-from ..contract import models, replies
 from ..contract.encoding import json_response
-from ..contract.requests import LoopsRequest, RgaRequest
+from ..contract.frequency import LoopsRequest, OpenLoops, Rga, RgaRequest, open_loops_reply, rga_reply
+from ..contract.model import Reply, described
 from ..jobs.compute import Compute
 
 
@@ -16,25 +16,23 @@ def build_router(compute: Compute) -> APIRouter:
     """The routes rga and loops under /api/v1."""
     router = APIRouter(prefix="/api/v1", tags=["design"])
 
-    @router.post(
-        "/rga", **models.described(models.Rga, "Relative gain array, pairing and Niederlinski index")
-    )
+    @router.post("/rga", **described(Rga, "Relative gain array, pairing and Niederlinski index"))
     async def rga(request: RgaRequest) -> Response:
-        def work() -> replies.Reply:
+        def work() -> Reply:
             spec = request.to_spec()
             design = place(spec)
-            return replies.rga_reply(design, interaction(design, spec.outer.pairing), request.frequencies)
+            return rga_reply(design, interaction(design, spec.outer.pairing), request.frequencies)
 
         return json_response(await compute.run(work))
 
     @router.post(
         "/loops",
-        **models.described(models.OpenLoops, "Frequency responses of the loops opened at each motor"),
+        **described(OpenLoops, "Frequency responses of the loops opened at each motor"),
     )
     async def loops(request: LoopsRequest) -> Response:
-        def work() -> replies.Reply:
+        def work() -> Reply:
             spec = request.to_spec()
-            return replies.open_loops_reply(close_loop(place(spec), spec.outer), request.frequencies)
+            return open_loops_reply(close_loop(place(spec), spec.outer), request.frequencies)
 
         return json_response(await compute.run(work))
 

@@ -15,9 +15,8 @@ from heli2dof_core import Heli2DofError, Spec, evaluate
 from heli2dof_core.design import FULL_RANK
 
 from ..contract.encoding import BINARY_SUBPROTOCOL, binary_frame, json_bytes
+from ..contract.evaluation import LiveRequest, report_reply
 from ..contract.problems import TEXT_START, problem_of
-from ..contract.replies import report_reply
-from ..contract.requests import LiveRequest
 from ..edge.connections import connection_of
 from ..jobs.compute import Compute
 from ..ops.metrics import Metrics

@@ -13,8 +13,8 @@ from heli2dof_core import Spec, close_loop, place, preset, simulate
 from heli2dof_core.geometry import RigName
 from heli2dof_core.scenario import Model
 
-from ..contract.models import described
-from ..contract.requests import StepRequest
+from ..contract.experiment import StepRequest
+from ..contract.model import described
 from ..jobs.compute import Compute
 from ..scene.motion import MotionFormat, motion_file
 from ..scene.poses import Motion

@@ -19,17 +19,16 @@ from heli2dof_core.recordings.samples import deviating_rig, named_columns, sampl
 from heli2dof_core.scenario import Digital
 
 from ..contract.encoding import json_bytes, json_response
-from ..contract.models import described
-from ..contract.overlays import overlaid
-from ..contract.recording_models import (
+from ..contract.model import Reply, described
+from ..contract.recordings import (
     IdentifyRequest,
     JoinRequest,
     OverlayReply,
     OverlayRequest,
     Preview,
-    Reply,
     SampleRequest,
     identification_reply,
+    overlaid,
     overlay_reply,
     preview_reply,
     progress_reply,

@@ -10,8 +10,8 @@ from fastapi import APIRouter, Response, WebSocket
 from heli2dof_core.robustness import Cloud, cloud, cloud_in_parts
 
 from ..contract.encoding import json_bytes
-from ..contract.models import described
-from ..contract.robustness_requests import RobustnessReply, RobustnessRequest, cloud_reply
+from ..contract.model import described
+from ..contract.robustness import RobustnessReply, RobustnessRequest, cloud_reply
 from ..jobs.compute import Compute, check_cancelled
 from ..ops.metrics import Metrics
 from .progress_socket import Send, serve_with_progress

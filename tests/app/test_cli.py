@@ -18,8 +18,9 @@ from app.cli import main
 from app.cli.fields import ALL, body, flag_of
 from app.cli.group import COMMANDS, heli2dof
 from app.cli.values import Poles
-from app.contract.recording_models import IdentifyRequest, OverlayRequest
-from app.contract.requests import RgaRequest, StepRequest
+from app.contract.experiment import StepRequest
+from app.contract.frequency import RgaRequest
+from app.contract.recordings import IdentifyRequest, OverlayRequest
 from tests.children import ROOT, environment, python
 from tests.patience import PATIENCE
 

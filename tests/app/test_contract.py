@@ -9,11 +9,11 @@ from pydantic import ValidationError
 
 from app.cli.fields import ALL, Option
 from app.cli.values import Assignment, Choice, Name
+from app.contract.experiment import StepRequest
 from app.contract.places import COLUMNS, UNCERTAINTY, path_of, quantities
 from app.contract.problems import problem_of
-from app.contract.recording_models import OverlayRequest
-from app.contract.requests import StepRequest
-from app.contract.robustness_requests import RobustnessRequest
+from app.contract.recordings import OverlayRequest
+from app.contract.robustness import RobustnessRequest
 from heli2dof_core import Heli2DofError
 from tests.page_quantities import PAGE, module
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.contract.requests import StepRequest
+from app.contract.experiment import StepRequest
 from heli2dof_core import PRESETS, Limits, OuterLoop, PIGains, Scenario, Spec, Structure
 from heli2dof_core.export.origin import request_of
 from heli2dof_core.placement.method import Weights

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from app.contract import models
+from app.contract.evaluation import Evaluation
 from app.contract.exports import FORMATS
 
 BODY = {"poles": [-9, -8, {"re": -3, "im": 4}, {"re": -3, "im": -4}], "scenario": {"reference": {"psi": 0.4}}}
@@ -32,7 +32,7 @@ def test_json_is_the_evaluate_reply_and_makes_itself_again(client):
     for model in ("linear", "nonlinear"):
         assert set(file["step"][model].pop("states")) == {"theta_dot", "psi_dot", "z_p", "z_y"}
     assert file == client.post("/api/v1/evaluate", json={**BODY, "each_axis": True}).json()
-    models.Evaluation.model_validate(file)
+    Evaluation.model_validate(file)
 
 
 def test_what_is_wrong_is_a_problem_that_names_its_field(client):

@@ -9,8 +9,8 @@ import struct
 import numpy as np
 import pytest
 
-from app.contract import models
 from app.contract.encoding import ARRAY_KEY, BINARY_SUBPROTOCOL, binary_frame
+from app.contract.evaluation import Evaluation
 from app.routes.live import Mailbox
 from tests.loops import run
 from tests.patience import until
@@ -20,7 +20,7 @@ def test_answers_carry_the_sequence_number_and_the_evaluation(client):
     with client.websocket_connect("/api/v1/live") as socket:
         socket.send_json({"seq": 7, "poles": [-12, -10, -9.25, -8.76]})
         reply = socket.receive_json()
-        models.Evaluation.model_validate(reply)
+        Evaluation.model_validate(reply)
         assert reply["seq"] == 7
     assert reply == {"seq": 7, **client.post("/api/v1/evaluate", json={}).json()}
 
@@ -74,7 +74,7 @@ def test_binary_frames_hold_the_same_evaluation(client):
         socket.send_json(request)
         frame = socket.receive_bytes()
     reply = decode(frame)
-    models.Evaluation.model_validate(reply)
+    Evaluation.model_validate(reply)
     exact = client.post("/api/v1/evaluate", json={"each_axis": True}).json()
     np.testing.assert_allclose(
         reply["step"]["linear"]["theta"], exact["step"]["linear"]["theta"], rtol=1e-6, atol=1e-9

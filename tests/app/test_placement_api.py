@@ -9,7 +9,12 @@ import pytest
 import sympy as sp
 from pydantic import TypeAdapter
 
-from app.contract import comparison_models, models, paper_models
+from app.contract.comparison import Comparison, Split
+from app.contract.derivation import Symbolic, Walkthrough
+from app.contract.evaluation import Evaluation
+from app.contract.frequency import Rga
+from app.contract.paper import Paper
+from app.contract.placement import Method, Placement
 from app.contract.problems import Problem
 from heli2dof_core import METHODS, PRESETS, pole_error
 from tests.app.test_rest import COMPLEX, PAPER, poles, post
@@ -28,7 +33,7 @@ def closed_loop(body, reply):
 def test_any_system_is_placed_by_any_method(client, method):
     body = {**SYSTEM, "poles": WANTED, "method": method}
     reply = post(client, "place", body)
-    comparison_models.Placement.model_validate(reply)
+    Placement.model_validate(reply)
     assert pole_error([-1, -2 + 1j, -2 - 1j], closed_loop(body, reply)) < 1e-6
     assert ("T" in reply) == (method == "full-rank")
 
@@ -100,7 +105,7 @@ def test_a_dyadic_method_on_the_helicopter_explains_why_it_cannot_be(client):
 @pytest.mark.parametrize("preset", PRESETS)
 def test_comparison_is_the_single_designs_side_by_side(client, preset):
     reply = post(client, "compare", {"preset": preset})
-    comparison_models.Comparison.model_validate(reply)
+    Comparison.model_validate(reply)
     assert len(reply["rows"]) == 3 + len(METHODS)
     for row in reply["rows"]:
         body = {"preset": preset, "method": row["method"]}
@@ -129,7 +134,7 @@ def test_comparison_of_chosen_methods(client):
 
 def test_splits_reproduce_themselves_by_their_split(client):
     reply = post(client, "splits", PAPER)
-    TypeAdapter(list[comparison_models.Split]).validate_python(reply)
+    TypeAdapter(list[Split]).validate_python(reply)
     assert len(reply) == 6
     for split in reply:
         gains = post(client, "gains", {**PAPER, "split": split["split"]})
@@ -165,14 +170,14 @@ def test_weights_and_methods_reach_the_design(client):
     assert plain["method"] == "lqr" and "pole_error" not in plain
     assert cheap["norm"] < plain["norm"]
     integral = post(client, "evaluate", {"method": "lqr-integral"})
-    models.Evaluation.model_validate(integral)
+    Evaluation.model_validate(integral)
     assert np.shape(integral["gains"]["integral"]) == (2, 2)
     assert integral["stable"] is True
 
 
 def test_methods_are_listed_with_their_sources(client):
     reply = client.get("/api/v1/methods").json()
-    TypeAdapter(list[comparison_models.Method]).validate_python(reply)
+    TypeAdapter(list[Method]).validate_python(reply)
     assert [method["name"] for method in reply] == list(METHODS)
     assert all(method["source"] and method["available"] for method in reply)
     assert reply[0]["couplings"] == ["triangular", "input-diagonal", "axis-decoupled"]
@@ -181,7 +186,7 @@ def test_methods_are_listed_with_their_sources(client):
 
 def test_rga_gives_its_reason_and_dominance_over_frequency(client):
     reply = post(client, "rga", {**PAPER, "frequencies": [0.1, 10]})
-    models.Rga.model_validate(reply)
+    Rga.model_validate(reply)
     assert "near 1" in reply["reason"]
     assert np.shape(reply["dominance"]["rows"]) == (2, 2)
     assert reply["niederlinski"] > 0 > reply["niederlinski_cross"]
@@ -192,7 +197,7 @@ def test_rga_gives_its_reason_and_dominance_over_frequency(client):
 
 def test_symbolic_shift_stays_a_symbol(client):
     reply = client.get("/api/v1/symbolic", params={"coupling": "input-diagonal", "shifted": "true"}).json()
-    models.Symbolic.model_validate(reply)
+    Symbolic.model_validate(reply)
     assert sp.Symbol("c") in sp.sympify(reply["K"]["sympy"]).free_symbols
     plain = client.get("/api/v1/symbolic", params={"coupling": "input-diagonal"}).json()
     shifted = sp.Matrix(sp.sympify(reply["K"]["sympy"])).subs(sp.Symbol("c"), 0)
@@ -205,7 +210,7 @@ def test_symbolic_shift_stays_a_symbol(client):
 
 def test_walkthrough_gives_the_numbers_of_the_derivation(client):
     reply = post(client, "walkthrough", PAPER)
-    paper_models.Walkthrough.model_validate(reply)
+    Walkthrough.model_validate(reply)
     gains = post(client, "gains", PAPER)
     assert reply["K"] == gains["K"] and reply["A"] == gains["A"]
     Q, T = np.array(reply["Q"]), np.array(reply["T"])
@@ -216,7 +221,7 @@ def test_walkthrough_gives_the_numbers_of_the_derivation(client):
     assert reply["controllability_indices"] == [2, 2]
     assert pole_error(poles(reply["closed_loop_poles"]), poles(gains["closed_loop_poles"])) < 1e-9
     other = post(client, "walkthrough", {"method": "lqr"})
-    paper_models.Walkthrough.model_validate(other)
+    Walkthrough.model_validate(other)
     assert {"A", "B", "trim", "constants", "controllability_matrix", "K", "G_0", "rga"} <= set(other)
     assert not {"T", "Q", "A_bar", "B_bar", "K_bar", "coefficients", "closed_loop_bar"} & set(other)
     assert "G_0" not in post(client, "walkthrough", {"poles": [0, -1, -2, -3]})
@@ -224,7 +229,7 @@ def test_walkthrough_gives_the_numbers_of_the_derivation(client):
 
 def test_the_paper_is_complete_and_every_erratum_holds(client):
     reply = client.get("/api/v1/paper").json()
-    paper_models.Paper.model_validate(reply)
+    Paper.model_validate(reply)
     assert all(erratum["proof"]["holds"] for erratum in reply["errata"])
     assert len(reply["errata"]) == 12
     gain = [row for row in reply["numbers"] if row["name"].startswith("k_") and row["formula"]]

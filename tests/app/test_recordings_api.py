@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.contract.recording_models import IdentificationReply, OverlayReply, Preview
+from app.contract.recordings import IdentificationReply, OverlayReply, Preview
 from app.jobs.recording_store import RecordingStore
 from heli2dof_core.errors import RecordingError
 from heli2dof_core.recordings.recording import Table

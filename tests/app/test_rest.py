@@ -10,7 +10,12 @@ import pytest
 import sympy as sp
 from pydantic import TypeAdapter
 
-from app.contract import models
+from app.contract.derivation import Symbolic
+from app.contract.design import Gains, Suggestion
+from app.contract.evaluation import Evaluation
+from app.contract.experiment import Step
+from app.contract.frequency import OpenLoops, Rga
+from app.contract.presets import Preset
 from app.contract.problems import Problem
 from heli2dof_core import PRESETS
 
@@ -53,11 +58,11 @@ def test_an_empty_body_is_the_default_design(client):
 @pytest.mark.parametrize(
     ("call", "model"),
     [
-        ("gains", models.Gains),
-        ("rga", models.Rga),
-        ("step", models.Step),
-        ("evaluate", models.Evaluation),
-        ("suggest", models.Suggestion),
+        ("gains", Gains),
+        ("rga", Rga),
+        ("step", Step),
+        ("evaluate", Evaluation),
+        ("suggest", Suggestion),
     ],
 )
 def test_every_reply_is_as_its_model_says(client, preset, call, model):
@@ -67,18 +72,18 @@ def test_every_reply_is_as_its_model_says(client, preset, call, model):
 def test_replies_without_steady_state_or_stability_are_as_their_models_say(client):
     body = {"poles": [0, -3, -4, 5], "outer": "none"}
     rga = post(client, "rga", body)
-    models.Rga.model_validate(rga)
+    Rga.model_validate(rga)
     assert "rga" not in rga
     assert "no_steady_state" in {f["code"] for f in rga["findings"]}
     reply = post(client, "evaluate", {**body, "each_axis": True})
-    models.Evaluation.model_validate(reply)
+    Evaluation.model_validate(reply)
     assert reply["stable"] is False
     assert reply["margins"] == {}
 
 
 def test_presets_are_complete_and_each_names_its_source(client):
     reply = client.get("/api/v1/presets").json()
-    TypeAdapter(list[models.Preset]).validate_python(reply)
+    TypeAdapter(list[Preset]).validate_python(reply)
     assert reply[0]["name"] == "quanser-2dof-manual"
     assert {p["name"] for p in reply} == set(PRESETS)
     assert all(p["source"] for p in reply)
@@ -111,7 +116,7 @@ def test_structures_differ_in_the_rga(client):
 def test_loops_over_frequency(client):
     frequencies = np.logspace(-1, 2, 61).tolist()
     reply = post(client, "loops", {**PAPER, "frequencies": frequencies})
-    models.OpenLoops.model_validate(reply)
+    OpenLoops.model_validate(reply)
     margins = post(client, "evaluate", PAPER)["margins"]
     assert reply["margins"] == margins
     for axis in ("pitch", "yaw"):
@@ -173,7 +178,7 @@ def test_suggestion_is_stable_when_used(client):
 @pytest.mark.parametrize("coupling", ["triangular", "input-diagonal", "axis-decoupled"])
 def test_symbolic_gives_formulas_that_parse(client, coupling):
     reply = client.get("/api/v1/symbolic", params={"coupling": coupling}).json()
-    models.Symbolic.model_validate(reply)
+    Symbolic.model_validate(reply)
     assert reply["controllability_indices"] == [2, 2]
     K = sp.Matrix(sp.sympify(reply["K"]["sympy"]))
     assert K.shape == (2, 4)
@@ -257,7 +262,7 @@ def test_a_digital_controller_and_a_disturbance_are_options_of_the_same_step(cli
     scenario = {"reference": {"theta": 0.1}, "duration": 1.0, "samples": 101}
     plain = post(client, "step", {**PAPER, "scenario": scenario})
     digital = post(client, "step", {**PAPER, "scenario": {**scenario, "digital": {"sample_time": 0.05}}})
-    models.Step.model_validate(digital)
+    Step.model_validate(digital)
     assert digital["V_p"][1] == digital["V_p"][4] != digital["V_p"][6]
     assert "slow_sampling" in {f["code"] for f in digital["findings"]}
     pushed = post(
@@ -291,7 +296,7 @@ def test_the_tracking_time_reaches_the_simulation(client, digital):
 def test_states_are_replied_where_they_are_asked_for(client, scenario):
     body = {**PAPER, "scenario": {"samples": 3001, **scenario}}
     plain, full = post(client, "step", body), post(client, "step", {**body, "states": True})
-    models.Step.model_validate(full)
+    Step.model_validate(full)
     states = full.pop("states")
     assert full == plain
     rate = np.gradient(full["theta"], full["t"][1])

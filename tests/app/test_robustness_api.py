@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.contract.robustness_requests import RobustnessReply
+from app.contract.robustness import RobustnessReply
 from tests.app.test_rest import PAPER, post
 
 

@@ -19,7 +19,7 @@ from threadpoolctl import threadpool_limits
 from websockets.asyncio.client import connect
 
 from app.contract.encoding import BINARY_SUBPROTOCOL
-from app.contract.requests import LiveRequest
+from app.contract.evaluation import LiveRequest
 from app.routes.live import _evaluate
 from heli2dof_core import evaluate, preset
 from tests.e2e.conftest import running_app

@@ -1,4 +1,4 @@
-"""Models of the replies about the paper and about the derivation's steps."""
+"""The paper as it is replied; `paper_reply` computes it, and imports SymPy."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from .models import Complex, Model
+from .model import Complex, Model
 
 
 class Typeset(Model):
@@ -133,37 +133,3 @@ class Paper(Model):
     errata: list[Erratum]
     consequence: list[Outcome]
     figures: list[Figure]
-
-
-Matrix = list[list[float]]
-
-
-class Walkthrough(Model):
-    """The derivation in numbers for one design.
-
-    Another method than full-rank's has no coefficients, T, Q, A_bar, B_bar, K_bar and closed_loop_bar.
-    G_0 and rga are left out where a pole is 0.
-    """
-
-    constants: dict[str, float] = Field(description="α, β₀, γ, a; SI")
-    A: Matrix = Field(description="4×4, SI")
-    B: Matrix = Field(description="4×2, SI")
-    trim: dict[str, float] = Field(description="V")
-    controllability_matrix: Matrix = Field(description="[B, AB, …], 4×8")
-    controllability_indices: list[int] = Field(description="one per input")
-    coefficients: dict[str, float] | None = Field(None, description="d₁₀, d₂₀ in 1/s², d₁₁, d₂₁ in 1/s")
-    T: Matrix | None = Field(None, description="4×4, x̄ = Tx")
-    Q: Matrix | None = Field(None, description="2×2")
-    A_bar: Matrix | None = Field(None, description="T A T⁻¹")
-    B_bar: Matrix | None = Field(None, description="T B")
-    K_bar: Matrix | None = Field(None, description="Q K T⁻¹")
-    K: Matrix = Field(description="V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y")
-    integral: Matrix | None = Field(None, description="the method's own integral action, V/(rad·s)")
-    closed_loop: Matrix = Field(description="A − BK")
-    closed_loop_bar: Matrix | None = Field(None, description="T (A − BK) T⁻¹")
-    closed_loop_poles: list[Complex]
-    pole_error: float | None = Field(
-        None, description="largest distance of a pole from the one asked for, rad/s"
-    )
-    G_0: Matrix | None = Field(None, description="Ĝ(0), rad/V")
-    rga: Matrix | None = Field(None, description="RGA at s = 0; rows θ, ψ, columns V_p, V_y")

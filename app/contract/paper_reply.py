@@ -19,7 +19,7 @@ from heli2dof_core.paper.printed import Printed
 from heli2dof_core.paper.reproduce import Row, reproduce, significant_digits
 from heli2dof_core.symbolic.names import LATEX
 
-from .replies import Reply, poles_reply, present
+from .model import Reply, poles_reply, present
 
 TITLE = "Symbolic Pole Assignment of 2DoF Conventional Helicopter"
 AUTHORS = "T. V. Mumcu, K. K. Çandır, İ. Üstoğlu"

@@ -1,26 +1,34 @@
-"""Requests that place the poles of any system, not of the rig alone."""
+"""Placement methods, and the poles of any system, not of the rig alone: what is asked and what is replied."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from importlib.util import find_spec
 from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
+from heli2dof_core.comparison import STRUCTURES
 from heli2dof_core.design import FULL_RANK
 from heli2dof_core.errors import InvalidInputError
 from heli2dof_core.placement.assess import Assessment, assess, place_poles
 from heli2dof_core.placement.full_rank import full_rank
-from heli2dof_core.placement.groups import Group
+from heli2dof_core.placement.groups import Group as CoreGroup
 from heli2dof_core.placement.method import MOST_STATES, Weights, require_system
+from heli2dof_core.placement.method import Method as CoreMethod
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.signals import Floats
 
 from .fields import Pole, PositiveWeight, Strict, Weight, Whole
+from .model import OF_GAINS, Complex, Finding, Model, Reply, findings_reply, poles_reply, told_by
 
 Row = Annotated[list[float], Field(min_length=1, max_length=MOST_STATES)]
+
+
 Matrix = Annotated[list[Row], Field(min_length=1, max_length=MOST_STATES)]
+
+
 Position = Annotated[Whole, Field(ge=0, lt=MOST_STATES)]
 
 
@@ -76,7 +84,7 @@ class PlaceRequest(Strict):
         if self.method == FULL_RANK:
             groups = None
             if self.groups is not None:
-                groups = [Group(tuple(g.inputs), tuple(g.poles)) for g in self.groups]
+                groups = [CoreGroup(tuple(g.inputs), tuple(g.poles)) for g in self.groups]
             shift = None if self.shift is None else _array(self.shift, "shift")
             placed = full_rank(
                 A,
@@ -118,3 +126,77 @@ def _sized(values: list[float] | None, size: int, field: str) -> tuple[float, ..
     if values is not None and len(values) != size:
         raise InvalidInputError(f"{field} has {len(values)} entries, not {size}", field=field)
     return (1.0,) * size if values is None else tuple(values)
+
+
+class Method(Model):
+    """A placement method; `needs` names the package that it takes, `couplings` are full-rank's alone."""
+
+    name: str
+    title: str
+    source: str
+    places_poles: bool = Field(description="whether it takes the poles given, rather than choose its own")
+    integrates: bool = Field(description="whether it brings integral action, in place of the PI loops")
+    available: bool
+    couplings: list[str]
+    leads: list[str]
+    needs: str | None = None
+
+
+class Group(Model):
+    """A block of the closed loop: its inputs and its poles, by position from 0."""
+
+    inputs: list[int] = Field(description="positions from 0")
+    poles: list[int] = Field(description="positions from 0")
+
+
+class Placement(told_by(OF_GAINS)):
+    """K of u = −Kx + v for any system; T, Q, indices and groups with full-rank placement."""
+
+    K: list[list[float]] = Field(description="p×n, rows are inputs")
+    integral: list[list[float]] | None = Field(None, description="p×q, the method's own integral action")
+    T: list[list[float]] | None = Field(None, description="n×n, x̄ = Tx")
+    Q: list[list[float]] | None = Field(None, description="p×p")
+    controllability_indices: list[int] | None = Field(None, description="one per input")
+    groups: list[Group] | None = None
+    closed_loop_poles: list[Complex]
+    findings: list[Finding]
+
+
+def methods_reply() -> list[Reply]:
+    """All placement methods; structures apply to full-rank placement alone."""
+    return [_method(method) for method in METHODS.values()]
+
+
+def _method(method: CoreMethod) -> Reply:
+    needs = {} if method.needs is None else {"needs": method.needs}
+    return {
+        "name": method.name,
+        "title": method.title,
+        "source": method.source,
+        "places_poles": method.places_poles,
+        "integrates": method.integrates,
+        "available": method.needs is None or find_spec(method.needs) is not None,
+        "couplings": list(dict.fromkeys(s.coupling for s in STRUCTURES)) if method.structured else [],
+        "leads": ["pitch", "yaw"] if method.structured else [],
+        **needs,
+    }
+
+
+def assessment_reply(result: Assessment) -> Reply:
+    """A placement of any system."""
+    placement = result.placement
+    reply: Reply = {
+        "K": placement.K.tolist(),
+        "closed_loop_poles": poles_reply(result.closed_loop_poles),
+        "norm": result.norm,
+        "spectral_norm": result.spectral_norm,
+        "findings": findings_reply(result.findings),
+    }
+    if result.pole_error is not None:
+        reply["pole_error"] = result.pole_error
+        reply["pole_error_bound"] = result.pole_error_bound
+    if result.eigenvector_condition is not None:
+        reply["eigenvector_condition"] = result.eigenvector_condition
+    if placement.integral is not None:
+        reply["integral"] = placement.integral.tolist()
+    return reply | placement.construction()

@@ -2,36 +2,41 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from collections.abc import Callable
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
+from heli2dof_core import close_loop, place
 from heli2dof_core.errors import within_field
 from heli2dof_core.recordings.files import MOST_FILES
 from heli2dof_core.recordings.guess import guess_columns
 from heli2dof_core.recordings.identification import IDENTIFIABLE, Identification, Progress
-from heli2dof_core.recordings.overlay import Overlay
-from heli2dof_core.recordings.recording import (
-    ROLES,
-    AngleUnit,
-    Columns,
-    Recording,
-    Table,
+from heli2dof_core.recordings.overlay import (
+    Overlay,
+    driven_by_references,
+    driven_by_voltages,
+    driven_in_segments,
 )
+from heli2dof_core.recordings.recording import ROLES, AngleUnit, Columns, Recording, Table
 from heli2dof_core.recordings.time_axis import likely_unit
 from heli2dof_core.recordings.units import SECONDS
 from heli2dof_core.signals import Floats
 
+from .design import DesignRequest
+from .experiment import StepRequest
 from .fields import Strict, Whole, asked
-from .models import Finding, Model
+from .model import Finding, Model, Reply
 from .places import COLUMNS
-from .requests import DesignRequest, StepRequest
 
 PREVIEWED = 5
+
+
 MOST_POINTS = 1500
 """Points of a curve that are sent; more make no other picture."""
-Reply = dict[str, Any]
+
+
 Driver = Literal["voltages", "segments", "references"]
 
 
@@ -239,6 +244,23 @@ class IdentificationReply(Model):
     evaluations: int
     seconds: float
     findings: list[Finding]
+
+
+def overlaid(
+    request: OverlayRequest, recording: Recording, wanted: Callable[[], None] = lambda: None
+) -> Overlay:
+    """The design's rig under what was recorded.
+
+    Raises:
+        RecordingError: the rig runs away, or what drives it was not recorded.
+    """
+    spec = request.to_spec()
+    if request.driver == "voltages":
+        return driven_by_voltages(spec.parameters, recording, spec.limits.theta, wanted)
+    if request.driver == "segments":
+        return driven_in_segments(spec.parameters, recording, request.segment, spec.limits.theta, wanted)
+    loop = close_loop(place(spec), spec.outer)
+    return driven_by_references(loop, spec.limits, recording, spec.scenario.digital, wanted)
 
 
 def preview_reply(key: str, name: str, table: Table) -> Reply:

@@ -1,4 +1,4 @@
-"""The contract's requests as Pydantic models, and the only way from them to the core.
+"""A design: what a request may change of a preset, the gains that are replied, and PI values that suit.
 
 Every field is optional: what is left out comes from the preset. Unknown fields are refused.
 """
@@ -6,33 +6,50 @@ Every field is optional: what is left out comes from the preset. Unknown fields 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Annotated, Any
+from functools import lru_cache
+from typing import Any
 
 from pydantic import BaseModel, Field, create_model
 
-from heli2dof_core import PoleSet, Preset, Spec, preset
+from heli2dof_core import (
+    Design,
+    Parameters,
+    PoleSet,
+    Preset,
+    Spec,
+    plant,
+    preset,
+)
 from heli2dof_core.checks import require_known
+from heli2dof_core.controllability import controllability_indices
 from heli2dof_core.design import FULL_RANK
 from heli2dof_core.placement.method import Weights
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.presets import DEFAULT
-from heli2dof_core.scenario import Digital, Disturbance, Model, Scenario
+from heli2dof_core.scenario import OuterLoop, Scenario
 from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
+from heli2dof_core.tuning import Suggestion as CoreSuggestion
 from heli2dof_core.weights import bryson_weights
 
-from .fields import Pole, PositiveWeight, PresetName, Split, Strict, Weight, Whole, asked
+from .fields import Pole, PositiveWeight, PresetName, Split, Strict, Weight, asked
+from .model import (
+    OF_GAINS,
+    Complex,
+    Finding,
+    Model,
+    Reply,
+    findings_reply,
+    poles_reply,
+    present,
+    proposed,
+    told_by,
+)
 from .places import (
-    DIGITAL,
-    DISTURBANCE,
-    ENCODERS,
-    INITIAL,
     LIMITS,
     LOOP,
     OUTER,
     PARAMETERS,
     POINT,
-    REFERENCE,
-    SCENARIO,
     STRUCTURE,
 )
 
@@ -68,7 +85,11 @@ def _weights_of(name: str, signals: Iterable[Signal], kind: Any, meaning: str) -
 
 
 StateWeights = _weights_of("StateWeights", STATES, Weight, "on Q's diagonal")
+
+
 InputWeights = _weights_of("InputWeights", INPUTS, PositiveWeight, "on R's diagonal")
+
+
 IntegralWeights = _weights_of("IntegralWeights", OUTPUTS, PositiveWeight, "on the integral of this error")
 
 
@@ -155,100 +176,86 @@ class DesignRequest(asked(STRUCTURE, OUTER)):
         return PoleSet.dealt(values, self.split)
 
 
-class RgaRequest(DesignRequest):
-    """A design, and frequencies at which |RGA(jω)| is wanted."""
+class Gains(told_by(OF_GAINS)):
+    """K in V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y.
 
-    frequencies: list[Annotated[float, Field(ge=0, le=1e6)]] = Field(
-        default=[], max_length=2000, description="rad/s"
+    `integral` is a method's own integral action, V/(rad·s); `pole_error` is left out where the method
+    chose its own poles, `eigenvector_condition` where there are too few eigenvectors.
+    """
+
+    method: str
+    K: list[list[float]] = Field(description="V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y")
+    integral: list[list[float]] | None = Field(
+        None, description="the method's own integral action, V/(rad·s)"
+    )
+    A: list[list[float]] = Field(description="4×4, x = [θ, ψ, θ̇, ψ̇], SI")
+    B: list[list[float]] = Field(description="4×2, inputs V_p, V_y, SI")
+    poles: list[Complex]
+    closed_loop_poles: list[Complex]
+    controllability_indices: list[int] = Field(description="one per input")
+    findings: list[Finding]
+
+
+class PI(proposed(LOOP["pitch"])):
+    """PI(s) = kp (1 + 1/(ti s)) of one axis."""
+
+
+class Loops(Model):
+    """PI values of both axes."""
+
+    pitch: PI
+    yaw: PI
+
+
+class Suggestion(Model):
+    """PI values and the whole loop's poles with them."""
+
+    loops: Loops
+    loop_poles: list[Complex]
+    stable: bool
+    rule: str
+
+
+@lru_cache(maxsize=256)
+def _indices(parameters: Parameters, theta_0: float) -> tuple[int, ...]:
+    """The rig's controllability indices, which no pole changes: scanned once, not at every drag."""
+    rig = plant(parameters, theta_0)
+    return controllability_indices(rig.A, rig.B)
+
+
+def gains_reply(design: Design) -> Reply:
+    """K and what it does to the poles."""
+    return present(
+        {
+            "method": design.method,
+            "K": design.K.tolist(),
+            "integral": None if design.integral is None else design.integral.tolist(),
+            "A": design.plant.A.tolist(),
+            "B": design.plant.B.tolist(),
+            "poles": poles_reply(design.poles.values),
+            "closed_loop_poles": poles_reply(design.closed_loop_poles),
+            "pole_error": design.pole_error,
+            "pole_error_bound": design.pole_error_bound if design.aims else None,
+            "norm": design.norm,
+            "spectral_norm": design.spectral_norm,
+            "eigenvector_condition": design.eigenvector_condition,
+            "controllability_indices": list(_indices(design.plant.parameters, design.plant.theta_0)),
+            "findings": findings_reply(design.findings),
+        }
     )
 
 
-class LoopsRequest(DesignRequest):
-    """A design with its outer loop, and frequencies at which L(jω) is wanted."""
-
-    frequencies: list[Annotated[float, Field(ge=1e-9, le=1e6)]] = Field(
-        min_length=1, max_length=2000, description="rad/s"
-    )
+def loops_reply(outer: OuterLoop) -> Reply:
+    """PI values of both axes."""
+    return {axis: place.proposal(getattr(outer, axis)) for axis, place in LOOP.items()}
 
 
-class Reference(asked(REFERENCE)):
-    """Reference angles after t = 0, absolute."""
-
-
-class Initial(asked(INITIAL)):
-    """State at t = 0; angles are absolute."""
-
-
-class EncoderCounts(asked(ENCODERS)):
-    """Counts per revolution; 0 measures exactly."""
-
-
-class DigitalController(asked(DIGITAL)):
-    """The rig's own controller: sampled, quantized, filtered, late, noisy."""
-
-    encoders: EncoderCounts | None = Field(default=None, description="the preset's where left out")
-
-
-class InputDisturbance(asked(DISTURBANCE)):
-    """Volts that act on the motors besides the controller's, from `time` on."""
-
-
-class ScenarioChanges(asked(SCENARIO)):
-    """An experiment: references step at t = 0; without a reference the preset's own is used."""
-
-    model: Model = Field(default="nonlinear", description="ignored by evaluate, which computes both")
-    reference: Reference | None = None
-    initial: Initial = Initial()
-    digital: DigitalController | None = Field(default=None, description="nonlinear model; null is continuous")
-    disturbance: InputDisturbance | None = Field(default=None, description="nonlinear model")
-
-    def to_scenario(self, base: Scenario, encoders: tuple[int, int]) -> Scenario:
-        """The core's scenario; `base` and `encoders` are the preset's.
-
-        Raises:
-            Heli2DofError: a value is out of its range.
-        """
-        others = INITIAL.given(self.initial)
-        if self.reference is not None:
-            others |= {"theta": None, "psi": None, **REFERENCE.given(self.reference)}
-        if self.digital is not None:
-            counts = {} if self.digital.encoders is None else ENCODERS.given(self.digital.encoders)
-            others["digital"] = DIGITAL.changed(Digital(encoders=encoders), self.digital, **counts)
-        if self.disturbance is not None:
-            others["disturbance"] = DISTURBANCE.changed(Disturbance(), self.disturbance)
-        return SCENARIO.changed(base, self, **others)
-
-
-class StepRequest(DesignRequest):
-    """A design and an experiment."""
-
-    scenario: ScenarioChanges = ScenarioChanges()
-
-    def _scenario(self, base: Preset) -> Scenario:
-        return self.scenario.to_scenario(base.scenario, base.encoders)
-
-
-class ResponseRequest(StepRequest):
-    """As a step request, and what the reply shall hold besides."""
-
-    states: bool = Field(default=False, description="also reply the rates, and the integrals of the errors")
-
-
-class EvaluateRequest(StepRequest):
-    """As a step request; both models are computed."""
-
-    each_axis: bool = Field(default=False, description="also step each axis of the reference alone")
-
-
-class CompareRequest(StepRequest):
-    """A design, an experiment, and the methods to compare."""
-
-    methods: list[Annotated[str, Field(json_schema_extra={"enum": [*METHODS]})]] | None = Field(
-        default=None, max_length=len(METHODS), description="all by default"
-    )
-
-
-class LiveRequest(EvaluateRequest):
-    """An evaluate request with the number that its answer will carry."""
-
-    seq: Whole = Field(ge=0, le=2**53)
+def suggestion_reply(suggestion: CoreSuggestion) -> Reply:
+    """PI values, the whole loop's poles with them, and the rule in words."""
+    outer = suggestion.outer
+    return {
+        "loops": loops_reply(outer),
+        "loop_poles": poles_reply(suggestion.loop.poles),
+        "stable": suggestion.loop.stable,
+        "rule": suggestion.rule,
+    }

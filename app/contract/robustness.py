@@ -1,4 +1,4 @@
-"""The cloud of uncertain rigs: its request, its reply, and the reply's model."""
+"""The cloud of uncertain rigs: what is asked and what is replied."""
 
 from __future__ import annotations
 
@@ -9,11 +9,10 @@ from pydantic import Field
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.robustness import MOST_SPREAD, Cloud, Uncertainty
 
+from .experiment import StepRequest
 from .fields import Whole, asked
-from .models import Complex, Model
+from .model import Complex, Model, Reply, poles_reply
 from .places import UNCERTAINTY
-from .replies import Reply, poles_reply
-from .requests import StepRequest
 
 MOST_POLES = 2000
 """Rigs whose poles are sent; more make no other picture."""

@@ -1,0 +1,127 @@
+"""Several methods or splits of the poles side by side: what is asked and what is replied."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from heli2dof_core.comparison import Comparison as CoreComparison
+from heli2dof_core.comparison import Row
+from heli2dof_core.comparison import Split as CoreSplit
+from heli2dof_core.figures import DESIGN
+from heli2dof_core.placement.registry import METHODS
+
+from .design import Gains, gains_reply
+from .experiment import Metrics, StepRequest, metrics_reply
+from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, rga_reply, sensitivity_reply
+from .model import Complex, Model, Reply, findings_reply, parts_of, poles_reply
+from .problems import problem_of
+
+
+class CompareRequest(StepRequest):
+    """A design, an experiment, and the methods to compare."""
+
+    methods: list[Annotated[str, Field(json_schema_extra={"enum": [*METHODS]})]] | None = Field(
+        default=None, max_length=len(METHODS), description="all by default"
+    )
+
+
+class Unavailable(Model):
+    """Why a method has no result here."""
+
+    code: str
+    detail: str
+    hint: str | None = None
+
+
+class AxisMetricsAlone(Model):
+    """Metrics of each axis stepped alone."""
+
+    theta: Metrics | None = None
+    psi: Metrics | None = None
+
+
+_LEFT_OUT = ("A", "B", "controllability_indices", "dominance", "frequencies", "rga_magnitude")
+"""Of a design's gains and RGA: what does not depend on the method, and what is asked for alone."""
+
+
+class ComparisonRow(parts_of(Gains, Rga, without=_LEFT_OUT)):
+    """One method's result, or why there is none; structures are full-rank's alone."""
+
+    method: str
+    title: str
+    coupling: str | None = None
+    lead: str | None = None
+    unavailable: Unavailable | None = None
+    metrics: Metrics | None = None
+    axis_metrics: AxisMetricsAlone | None = None
+    margins: LoopMargins | None = None
+    sensitivity: Sensitivity | None = None
+    loop_poles: list[Complex] | None = None
+    stable: bool | None = None
+
+
+class Comparison(Model):
+    """All methods side by side, and what becomes of the paper's claim of lower gains."""
+
+    rows: list[ComparisonRow]
+    claim: str
+
+
+class Split(Model):
+    """One way to deal the poles: positions of pitch's pair and of yaw's, and what it gives."""
+
+    split: list[list[int]] = Field(description="positions from 0 of pitch's pair and of yaw's")
+    poles: list[Complex]
+    K: list[list[float]] = Field(description="V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y")
+    norm: float = Field(description=DESIGN["norm"].described)
+    pole_error: float = Field(description=DESIGN["pole_error"].measured)
+    rga: list[list[float]] | None = Field(None, description="RGA at s = 0; rows θ, ψ, columns V_p, V_y")
+
+
+def comparison_reply(comparison: CoreComparison) -> Reply:
+    """One row per method and structure, and what becomes of the paper's claim."""
+    return {"rows": [_row(row) for row in comparison.rows], "claim": comparison.claim}
+
+
+def _row(row: Row) -> Reply:
+    reply: Reply = {"method": row.method, "title": METHODS[row.method].title}
+    if row.structure is not None:
+        reply |= {"coupling": row.structure.coupling, "lead": row.structure.lead}
+    if row.unavailable is not None:
+        refused = problem_of(row.unavailable)
+        reply["unavailable"] = {key: refused[key] for key in ("code", "detail", "hint") if key in refused}
+    report = row.report
+    if report is None:
+        return reply
+    rga = rga_reply(report.design, report.interaction)
+    gains = gains_reply(report.design)
+    return {
+        **reply,
+        **{key: value for key, value in (gains | rga).items() if key not in _LEFT_OUT},
+        "metrics": metrics_reply(report.step["nonlinear"].metrics),
+        "axis_metrics": {
+            axis: metrics_reply(steps["nonlinear"].metrics) for axis, steps in report.axis_steps.items()
+        },
+        "margins": margins_reply(report.margins),
+        **sensitivity_reply(report.sensitivity),
+        "loop_poles": poles_reply(report.loop.poles),
+        "stable": report.loop.stable,
+        "findings": findings_reply(report.findings),
+    }
+
+
+def splits_reply(splits: tuple[CoreSplit, ...]) -> list[Reply]:
+    """Every way to deal the poles, with its gain and relative gains."""
+    return [
+        {
+            "split": [list(pair) for pair in split.pairs],
+            "poles": poles_reply(split.design.poles.values),
+            "K": split.design.K.tolist(),
+            "norm": split.design.norm,
+            "pole_error": split.design.pole_error,
+            **({} if split.interaction.rga is None else {"rga": split.interaction.rga.tolist()}),
+        }
+        for split in splits
+    ]

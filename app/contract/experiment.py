@@ -1,0 +1,196 @@
+"""An experiment with a design, and the step response that is replied."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from heli2dof_core import Loop, Preset
+from heli2dof_core.evaluate import Step as CoreStep
+from heli2dof_core.figures import AXIS, MOTOR, STEP
+from heli2dof_core.findings import merged
+from heli2dof_core.metrics import StepMetrics
+from heli2dof_core.scenario import Digital, Disturbance, Scenario
+from heli2dof_core.scenario import Model as RigModel
+from heli2dof_core.signals import INPUTS, INTEGRALS, OUTPUTS, STATES
+
+from .design import DesignRequest
+from .fields import asked
+from .model import (
+    Angles,
+    Complex,
+    Finding,
+    Model,
+    Reply,
+    Voltages,
+    findings_reply,
+    poles_reply,
+    present,
+    told_by,
+    voltages_reply,
+)
+from .places import (
+    DIGITAL,
+    DISTURBANCE,
+    ENCODERS,
+    INITIAL,
+    REFERENCE,
+    SCENARIO,
+)
+
+
+class Reference(asked(REFERENCE)):
+    """Reference angles after t = 0, absolute."""
+
+
+class Initial(asked(INITIAL)):
+    """State at t = 0; angles are absolute."""
+
+
+class EncoderCounts(asked(ENCODERS)):
+    """Counts per revolution; 0 measures exactly."""
+
+
+class DigitalController(asked(DIGITAL)):
+    """The rig's own controller: sampled, quantized, filtered, late, noisy."""
+
+    encoders: EncoderCounts | None = Field(default=None, description="the preset's where left out")
+
+
+class InputDisturbance(asked(DISTURBANCE)):
+    """Volts that act on the motors besides the controller's, from `time` on."""
+
+
+class ScenarioChanges(asked(SCENARIO)):
+    """An experiment: references step at t = 0; without a reference the preset's own is used."""
+
+    model: RigModel = Field(default="nonlinear", description="ignored by evaluate, which computes both")
+    reference: Reference | None = None
+    initial: Initial = Initial()
+    digital: DigitalController | None = Field(default=None, description="nonlinear model; null is continuous")
+    disturbance: InputDisturbance | None = Field(default=None, description="nonlinear model")
+
+    def to_scenario(self, base: Scenario, encoders: tuple[int, int]) -> Scenario:
+        """The core's scenario; `base` and `encoders` are the preset's.
+
+        Raises:
+            Heli2DofError: a value is out of its range.
+        """
+        others = INITIAL.given(self.initial)
+        if self.reference is not None:
+            others |= {"theta": None, "psi": None, **REFERENCE.given(self.reference)}
+        if self.digital is not None:
+            counts = {} if self.digital.encoders is None else ENCODERS.given(self.digital.encoders)
+            others["digital"] = DIGITAL.changed(Digital(encoders=encoders), self.digital, **counts)
+        if self.disturbance is not None:
+            others["disturbance"] = DISTURBANCE.changed(Disturbance(), self.disturbance)
+        return SCENARIO.changed(base, self, **others)
+
+
+class StepRequest(DesignRequest):
+    """A design and an experiment."""
+
+    scenario: ScenarioChanges = ScenarioChanges()
+
+    def _scenario(self, base: Preset) -> Scenario:
+        return self.scenario.to_scenario(base.scenario, base.encoders)
+
+
+class ResponseRequest(StepRequest):
+    """As a step request, and what the reply shall hold besides."""
+
+    states: bool = Field(default=False, description="also reply the rates, and the integrals of the errors")
+
+
+class AxisMetrics(told_by(AXIS)):
+    """Step metrics of one axis; s, %, rad, rad·s, rad·s². They belong to the response, not to its samples."""
+
+
+class MotorMetrics(told_by(MOTOR)):
+    """Largest |voltage|, V, share of time at the limit, and effort ∫ (V − V_trim)² dt, V²·s."""
+
+
+class Metrics(Model):
+    """Metrics of each stepped axis, of the axis that is not, and of the motors."""
+
+    theta: AxisMetrics | None = None
+    psi: AxisMetrics | None = None
+    coupling_peak: float | None = Field(None, description=STEP["coupling_peak"].described)
+    V_p: MotorMetrics
+    V_y: MotorMetrics
+
+
+class States(Model):
+    """What the outputs do not show, rad/s and rad·s; the integrals are left out where nothing integrates."""
+
+    theta_dot: list[float] = Field(description="rad/s")
+    psi_dot: list[float] = Field(description="rad/s")
+    z_p: list[float] | None = Field(None, description="integral of the pitch error, rad·s")
+    z_y: list[float] | None = Field(None, description="integral of the yaw error, rad·s")
+
+
+class Step(Model):
+    """A step response; s, rad, V. Linear voltages are deviations from the trim.
+
+    `states` are there where they are asked for.
+    """
+
+    t: list[float] = Field(description="s")
+    theta: list[float] = Field(description="pitch, absolute, rad")
+    psi: list[float] = Field(description="yaw, absolute, rad")
+    V_p: list[float] = Field(description="pitch motor, V")
+    V_y: list[float] = Field(description="yaw motor, V")
+    states: States | None = None
+    reference: Angles
+    trim: Voltages
+    metrics: Metrics
+    loop_poles: list[Complex]
+    stable: bool
+    findings: list[Finding]
+
+
+class BothModels(Model):
+    """The same experiment by both models."""
+
+    linear: Step
+    nonlinear: Step
+
+
+def loop_reply(loop: Loop) -> Reply:
+    """What every response of a loop has in common."""
+    return {
+        "loop_poles": poles_reply(loop.poles),
+        "stable": loop.stable,
+        "trim": voltages_reply(loop.design.plant.trim),
+    }
+
+
+def step_reply(step: CoreStep, loop: Loop, common: Reply | None = None) -> Reply:
+    """Trajectories and metrics of one response; the long arrays are NumPy's. `common` is `loop_reply`'s, if known."""
+    response = step.response
+    return {
+        **(common or loop_reply(loop)),
+        "t": response.t,
+        **{signal.name: response.angles[i] for i, signal in enumerate(OUTPUTS)},
+        **{signal.name: response.voltages[i] for i, signal in enumerate(INPUTS)},
+        "reference": dict(zip(("theta", "psi"), response.reference, strict=True)),
+        "metrics": metrics_reply(step.metrics),
+        "findings": findings_reply(merged(loop.design.findings, loop.findings, response.findings)),
+    }
+
+
+def states_reply(step: CoreStep) -> Reply:
+    """The states that are no outputs, under ``states``; the integrals where anything integrates."""
+    states = step.response.states
+    if states is None:
+        return {}
+    hidden = (*STATES[len(OUTPUTS) :], *INTEGRALS)
+    rows = states[len(OUTPUTS) :]
+    return {"states": {signal.name: row for signal, row in zip(hidden, rows, strict=False)}}
+
+
+def metrics_reply(metrics: StepMetrics) -> Reply:
+    """Metrics by axis and motor."""
+    motors = {name: dict(vars(motor)) for name, motor in metrics.motors.items()}
+    axes = {name: present(vars(axis)) for name, axis in metrics.axes.items()}
+    other = {} if metrics.coupling_peak is None else {"coupling_peak": metrics.coupling_peak}
+    return {**axes, **other, **motors}

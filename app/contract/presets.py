@@ -1,0 +1,97 @@
+"""The rigs: what is replied of each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from pydantic import Field
+
+from heli2dof_core import Preset as CorePreset
+from heli2dof_core.components import COMPONENT_INFO
+from heli2dof_core.parameters import PARAMETER_INFO
+from heli2dof_core.quantities import Quantity
+
+from .design import Loops, loops_reply
+from .model import Angles, Complex, Model, Reply, poles_reply, proposed
+from .places import LIMITS, OUTER, REFERENCE, SCENARIO, STRUCTURE
+
+
+class Limits(proposed(LIMITS)):
+    """Voltage limits, V, and pitch travel, rad, where it is not free."""
+
+
+class ParameterInfo(Model):
+    """What a parameter or a limit means, and its range."""
+
+    meaning: str
+    unit: str
+    minimum: float = Field(description="lowest value allowed, in `unit`")
+    maximum: float = Field(description="highest value allowed, in `unit`")
+
+
+class ComponentInfo(Model):
+    """What a component's value means, and the paper's symbol for it."""
+
+    meaning: str
+    unit: str
+    printed: str
+
+
+class Scenario(proposed(SCENARIO)):
+    """A preset's own experiment."""
+
+    reference: Angles
+
+
+class Preset(proposed(STRUCTURE, OUTER)):
+    """A rig with its source and everything that a design may change."""
+
+    name: str
+    title: str
+    source: str
+    rig: str
+    parameters: dict[str, float] = Field(description="SI units, see `parameter_info`")
+    parameter_info: dict[str, ParameterInfo]
+    components: dict[str, float] = Field(description="in the units of `component_info`")
+    component_info: dict[str, ComponentInfo]
+    limits: Limits
+    limit_info: dict[str, ParameterInfo]
+    encoders: dict[str, int] = Field(description="counts per revolution")
+    operating_point: dict[str, float] = Field(description="theta, rad")
+    poles: list[Complex]
+    loops: Loops
+    scenario: Scenario
+
+
+def _ranges(quantities: Mapping[str, Quantity]) -> Reply:
+    return {
+        name: {"meaning": q.meaning, "unit": q.unit, "minimum": q.low, "maximum": q.high}
+        for name, q in quantities.items()
+    }
+
+
+def preset_reply(preset: CorePreset) -> Reply:
+    """A preset with everything that a design may change."""
+    scenario = preset.scenario
+    return {
+        "name": preset.name,
+        "title": preset.title,
+        "source": preset.source,
+        "rig": preset.rig,
+        "parameters": preset.parameters.as_dict(),
+        "parameter_info": _ranges(PARAMETER_INFO),
+        "components": {} if preset.components is None else preset.components.as_dict(),
+        "component_info": {
+            name: {"meaning": q.meaning, "unit": q.unit, "printed": q.symbol}
+            for name, q in COMPONENT_INFO.items()
+        },
+        "limits": LIMITS.proposal(preset.limits),
+        "limit_info": _ranges({name: known.quantity for name, known in LIMITS.fields().items()}),
+        "encoders": {"theta": preset.encoders[0], "psi": preset.encoders[1]},
+        "operating_point": {"theta": preset.theta_0},
+        "poles": poles_reply(preset.poles.values),
+        **STRUCTURE.proposal(preset.structure),
+        **OUTER.proposal(preset.outer),
+        "loops": loops_reply(preset.outer),
+        "scenario": {"reference": REFERENCE.proposal(scenario), **SCENARIO.proposal(scenario)},
+    }
