@@ -44,7 +44,7 @@ def module() -> str:
 def _entry(path: str, place: Place, known: Field) -> str:
     key = path if re.fullmatch(r"\w+", path) else f"'{path}'"
     said = ", ".join(f"{name}: {value}" for name, value in _said(path, place, known))
-    return f"  {key}: {{ {said} }},\n" if said else ""
+    return f"  {key}: {{ {said} }},\n" if said else f"  {key}: {{}},\n"
 
 
 def _said(path: str, place: Place, known: Field) -> Iterator[tuple[str, str]]:

@@ -89,8 +89,6 @@ def _size(value: object) -> int:
 
 
 def _body(spec: Spec, preset: Preset) -> Body:
-    structure, base = spec.structure, preset.structure
-    outer = _outer(spec, preset)
     body: Body = {
         "preset": preset.name,
         "parameters": _differences(spec.parameters.as_dict(), preset.parameters.as_dict()),
@@ -98,11 +96,9 @@ def _body(spec: Spec, preset: Preset) -> Body:
         "operating_point": {} if spec.theta_0 == preset.theta_0 else {"theta": spec.theta_0},
         "poles": [] if spec.poles == preset.poles else [_pole(p) for p in spec.poles.values],
         **({} if spec.method == "full-rank" else {"method": spec.method}),
-        **({} if structure.coupling == base.coupling else {"coupling": structure.coupling}),
-        **({} if structure.lead == base.lead else {"lead": structure.lead}),
-        **({} if structure.shift is None else {"shift": structure.shift}),
+        **_differences(vars(spec.structure), vars(preset.structure)),
         "weights": _weights(spec, preset),
-        **outer,
+        **_outer(spec, preset),
         "scenario": _scenario(spec.scenario, preset),
     }
     return {name: value for name, value in body.items() if value not in ({}, [])}

@@ -20,6 +20,7 @@ export const QUANTITIES = {
   shift: { min: -1000000, max: 1000000 },
   outer: { words: ['pi', 'none'] },
   pairing: { words: ['diagonal', 'cross'] },
+  decoupler: {},
   'loops.pitch.kp': { unit: 'V/rad', min: -1000000, max: 1000000 },
   'loops.pitch.ti': { unit: 's', min: 1e-6, max: 1000000 },
   'loops.yaw.kp': { unit: 'V/rad', min: -1000000, max: 1000000 },

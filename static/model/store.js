@@ -10,8 +10,10 @@
  */
 import { scenarioBody } from './experiment.js';
 import { guarded } from './locks.js';
+import { FULL_RANK } from './methods.js';
 import { letterOf } from './pins.js';
 import { fromWire } from './poles.js';
+import { QUANTITIES } from './quantities.js';
 import { NONE } from './requirements.js';
 
 const DEPTH = 200;
@@ -52,6 +54,17 @@ export const initialState = () => ({
   },
 });
 
+/** The contract's fields of a design that are one value. */
+const PLAIN = Object.keys(QUANTITIES).filter((path) => path !== 'poles' && !path.includes('.'));
+
+/**
+ * Those that a preset or a design has.
+ * @param {Preset|Design} of
+ * @returns {Pick<Design, 'coupling'|'lead'|'outer'|'pairing'|'decoupler'>}
+ */
+const plainOf = (of) =>
+  /** @type {any} */ (Object.fromEntries(Object.entries(of).filter(([name]) => PLAIN.includes(name))));
+
 /** What a preset proposes. @param {Preset} preset @param {Partial<Design>} [keep] @returns {Design} */
 export function designOf(preset, keep = {}) {
   return {
@@ -60,12 +73,8 @@ export function designOf(preset, keep = {}) {
     limits: {},
     theta0: preset.operating_point?.theta ?? 0,
     poles: fromWire(preset.poles),
-    method: 'full-rank',
-    coupling: /** @type {Design['coupling']} */ (preset.coupling ?? 'triangular'),
-    lead: preset.lead ?? 'pitch',
-    outer: /** @type {Design['outer']} */ (preset.outer ?? 'pi'),
-    pairing: /** @type {Design['pairing']} */ (preset.pairing ?? 'diagonal'),
-    decoupler: preset.decoupler ?? false,
+    method: FULL_RANK,
+    ...plainOf(preset),
     loops: { pitch: { ...preset.loops.pitch }, yaw: { ...preset.loops.yaw } },
     scenario: {
       reference: { theta: preset.scenario?.reference?.theta ?? 0.2, psi: preset.scenario?.reference?.psi ?? 0.5 },
@@ -84,11 +93,7 @@ export function bodyOf(design) {
     operating_point: { theta: design.theta0 },
     poles: design.poles,
     method: design.method,
-    coupling: design.coupling,
-    lead: design.lead,
-    outer: design.outer,
-    pairing: design.pairing,
-    decoupler: design.decoupler,
+    ...plainOf(design),
     loops: design.loops,
   };
 }

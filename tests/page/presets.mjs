@@ -1,6 +1,8 @@
 // Two presets in the shape of the server's, for tests of the page's pure modules.
 const real = (...values) => values.map((re) => ({ re, im: 0 }));
 
+const usual = { coupling: 'triangular', lead: 'pitch', outer: 'pi', pairing: 'diagonal', decoupler: false };
+
 export const PRESETS = [
   {
     name: 'quanser-2dof-manual',
@@ -10,6 +12,7 @@ export const PRESETS = [
     parameters: { K_pp: 0.204, B_y: 0.318, m: 1.3872 },
     limits: { V_p: 24, V_y: 15 },
     poles: real(-12, -10, -9.25, -8.76),
+    ...usual,
     loops: { pitch: { kp: 30, ti: 0.1 }, yaw: { kp: 30, ti: 0.1 } },
     scenario: { reference: { theta: 0.17453292519943295, psi: 0.3490658503988659 }, duration: 3 },
   },
@@ -21,6 +24,7 @@ export const PRESETS = [
     parameters: { K_pp: 0.001, B_y: 0.002 },
     limits: { V_p: 24, V_y: 24 },
     poles: real(-3, -2.5, -2, -1.5),
+    ...usual,
     coupling: 'axis-decoupled',
     lead: 'yaw',
     loops: { pitch: { kp: 5, ti: 2 }, yaw: { kp: 6, ti: 2.5 } },

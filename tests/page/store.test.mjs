@@ -17,6 +17,11 @@ const PRESET = {
     { re: -9, im: 0 },
     { re: -8, im: 0 },
   ],
+  coupling: 'triangular',
+  lead: 'pitch',
+  outer: 'pi',
+  pairing: 'diagonal',
+  decoupler: false,
   loops: { pitch: { kp: 30, ti: 0.1 }, yaw: { kp: 20, ti: 0.2 } },
   scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 4 },
 };
@@ -100,7 +105,7 @@ test('the request holds the whole design and asks for each axis', () => {
   assert.equal(request.scenario.duration, 4);
 });
 
-test('what a preset leaves out has a value: full-rank, no decoupler, level', () => {
+test('a design begins with full-rank placement, and as its preset has it', () => {
   const { method, decoupler, operating_point } = bodyOf(store.state.design);
   assert.deepEqual([method, decoupler, operating_point], ['full-rank', false, { theta: 0 }]);
   const other = designOf({ ...PRESET, decoupler: true, operating_point: { theta: 0.3 }, coupling: 'axis-decoupled' });
