@@ -46,6 +46,7 @@ from .plant import Plant, plant
 from .poles import PoleSet, match_poles, pole_error
 from .presets import PRESETS, Preset, preset
 from .relative_gains import best_pairing, diagonal_dominance, niederlinski_index, relative_gain_array
+from .request import body_of, spec_of
 from .robustness import Cloud, Uncertainty, cloud
 from .scenario import Digital, Disturbance, Limits, OuterLoop, PIGains, Scenario
 from .simulation.response import Response
@@ -101,6 +102,7 @@ __all__ = [
     "UnpairedPolesError",
     "Weights",
     "best_pairing",
+    "body_of",
     "close_loop",
     "cloud",
     "compare",
@@ -126,6 +128,7 @@ __all__ = [
     "relative_gain_array",
     "rga_over_frequency",
     "simulate",
+    "spec_of",
     "suggest_pi",
     "warm_up",
 ]

@@ -10,9 +10,10 @@ import re
 from collections.abc import Iterator
 from dataclasses import MISSING
 
-from app.contract.places import LIMITS, PARAMETERS, Place, quantities
+from app.contract.places import COLUMNS
 from heli2dof_core.poles import LARGEST
 from heli2dof_core.quantities import Field
+from heli2dof_core.request import LIMITS, PARAMETERS, Place, quantities
 from tests.children import ROOT
 
 PAGE = ROOT / "static" / "model" / "quantities.js"
@@ -36,7 +37,7 @@ export const QUANTITIES = {
 
 def module() -> str:
     """The whole module."""
-    own = (item for item in quantities() if item[1] not in (PARAMETERS, LIMITS))
+    own = (item for item in (*quantities(), *quantities([COLUMNS])) if item[1] not in (PARAMETERS, LIMITS))
     poles = f"  poles: {{ unit: 'rad/s', min: {_js(-LARGEST)}, max: {_js(LARGEST)} }},\n"
     return "".join((HEAD, poles, *(_entry(*item) for item in own), "};\n"))
 

@@ -12,11 +12,11 @@ import click
 
 from heli2dof_core.quantities import Field
 from heli2dof_core.recordings.recording import ANGLES, ROLES
+from heli2dof_core.request import LIMITS, LOOP, OUTER, PARAMETERS, POINT, REFERENCE, STRUCTURE, Place
+from heli2dof_core.request import SCENARIO as SCENARIO_PLACE
 from heli2dof_core.scenario import Model
 
 from ..contract.places import COLUMNS as COLUMNS_PLACE
-from ..contract.places import LIMITS, LOOP, OUTER, PARAMETERS, POINT, REFERENCE, STRUCTURE, Place
-from ..contract.places import SCENARIO as SCENARIO_PLACE
 from .values import Assignment, Choice, Name, Numbers, Poles, Split, Words
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -75,7 +75,7 @@ def _words(module: str, name: str) -> Callable[[], Iterable[str]]:
 
 def _of(place: Place, flags: Mapping[str, str] = MappingProxyType({}), whose: str = "") -> Iterator[Option]:
     """An option per quantity that stands at this place; `whose` they are goes before their description."""
-    for name, known in place.fields().items():
+    for name, known in place.fields.items():
         flag = flags.get(name, f"--{name.replace('_', '-')}")
         about = f"{whose}{known.quantity.described}."
         yield Option(
@@ -97,10 +97,12 @@ DESIGN = (
     Option(
         "--parameter",
         "parameters",
-        Assignment(PARAMETERS.fields),
+        Assignment(lambda: PARAMETERS.fields),
         "A parameter of the rig, SI units; repeatable.",
     ),
-    Option("--limit", "limits", Assignment(LIMITS.fields), "V_p, V_y (V) or theta (rad); repeatable."),
+    Option(
+        "--limit", "limits", Assignment(lambda: LIMITS.fields), "V_p, V_y (V) or theta (rad); repeatable."
+    ),
     *_of(POINT, {"theta": "--operating-point"}),
     Option("--poles", "poles", Poles(), "Pitch's pair, then yaw's, rad/s: -12,-10,-3±4j."),
     Option("--method", "method", Name(_methods), "Placement method."),
@@ -112,7 +114,7 @@ LOOPS = (
     *(
         option
         for axis, place in LOOP.items()
-        for option in _of(place, {name: f"--{name}-{axis}" for name in place.fields()}, f"{axis} loop's ")
+        for option in _of(place, {name: f"--{name}-{axis}" for name in place.fields}, f"{axis} loop's ")
     ),
 )
 SCENARIO = (*_of(REFERENCE), *_of(SCENARIO_PLACE))

@@ -9,27 +9,31 @@ from collections.abc import Iterable
 from functools import lru_cache
 from typing import Any
 
-from pydantic import BaseModel, Field, create_model
+from pydantic import Field, create_model
 
 from heli2dof_core import (
     Design,
     Parameters,
-    PoleSet,
-    Preset,
     Spec,
     plant,
-    preset,
 )
-from heli2dof_core.checks import require_known
 from heli2dof_core.controllability import controllability_indices
 from heli2dof_core.design import FULL_RANK
-from heli2dof_core.placement.method import Weights
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.presets import DEFAULT
-from heli2dof_core.scenario import OuterLoop, Scenario
+from heli2dof_core.request import (
+    LIMITS,
+    LOOP,
+    NAMES,
+    OUTER,
+    PARAMETERS,
+    POINT,
+    STRUCTURE,
+    spec_of,
+)
+from heli2dof_core.scenario import OuterLoop
 from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
 from heli2dof_core.tuning import Suggestion as CoreSuggestion
-from heli2dof_core.weights import bryson_weights
 
 from .fields import Pole, PositiveWeight, PresetName, Split, Strict, Weight, asked
 from .model import (
@@ -43,14 +47,6 @@ from .model import (
     present,
     proposed,
     told_by,
-)
-from .places import (
-    LIMITS,
-    LOOP,
-    OUTER,
-    PARAMETERS,
-    POINT,
-    STRUCTURE,
 )
 
 
@@ -85,11 +81,7 @@ def _weights_of(name: str, signals: Iterable[Signal], kind: Any, meaning: str) -
 
 
 StateWeights = _weights_of("StateWeights", STATES, Weight, "on Q's diagonal")
-
-
 InputWeights = _weights_of("InputWeights", INPUTS, PositiveWeight, "on R's diagonal")
-
-
 IntegralWeights = _weights_of("IntegralWeights", OUTPUTS, PositiveWeight, "on the integral of this error")
 
 
@@ -99,21 +91,6 @@ class WeightChanges(Strict):
     states: StateWeights = StateWeights()  # pyright: ignore[reportInvalidTypeForm]
     inputs: InputWeights = InputWeights()  # pyright: ignore[reportInvalidTypeForm]
     integrals: IntegralWeights = IntegralWeights()  # pyright: ignore[reportInvalidTypeForm]
-
-    def to_weights(self, base: Weights) -> Weights:
-        """The core's weights; what is left out comes from `base`."""
-
-        def merge(changes: BaseModel, own: tuple[float, ...]) -> tuple[float, ...]:
-            given = changes.model_dump().values()
-            return tuple(b if g is None else g for g, b in zip(given, own, strict=True))
-
-        if not self.model_fields_set:
-            return base
-        return Weights(
-            merge(self.states, base.states),
-            merge(self.inputs, base.inputs),
-            merge(self.integrals, base.integrals),
-        )
 
 
 class DesignRequest(asked(STRUCTURE, OUTER)):
@@ -144,36 +121,7 @@ class DesignRequest(asked(STRUCTURE, OUTER)):
         Raises:
             Heli2DofError: a value is out of its range or unknown; its field is the JSON path.
         """
-        base = preset(self.preset)
-        require_known(self.method, METHODS, "method")  # also where another is used
-        loops = {
-            axis: place.changed(getattr(base.outer, axis), getattr(self.loops, axis))
-            for axis, place in LOOP.items()
-        }
-        return Spec(
-            parameters=PARAMETERS.changed(base.parameters, self.parameters),
-            limits=LIMITS.changed(base.limits, self.limits),
-            theta_0=self._theta_0(base),
-            poles=self._poles(base),
-            structure=STRUCTURE.changed(base.structure, self),
-            outer=OUTER.changed(base.outer, self, **loops),
-            scenario=self._scenario(base),
-            method=self.method,
-            weights=self.weights.to_weights(bryson_weights(base.limits)),
-        )
-
-    def _scenario(self, base: Preset) -> Scenario:
-        return base.scenario
-
-    def _theta_0(self, base: Preset) -> float:
-        given = {} if self.operating_point is None else POINT.given(self.operating_point)
-        return given.get("theta_0", base.theta_0)
-
-    def _poles(self, base: Preset) -> PoleSet:
-        values = base.poles.values if self.poles is None else self.poles
-        if self.split is None:
-            return base.poles if self.poles is None else PoleSet(values)
-        return PoleSet.dealt(values, self.split)
+        return spec_of(self.model_dump(exclude_unset=True, include=NAMES))
 
 
 class Gains(told_by(OF_GAINS)):

@@ -5,15 +5,15 @@ from __future__ import annotations
 from pydantic import Field
 
 from heli2dof_core import Report, Spec
+from heli2dof_core.request import (
+    LIMITS,
+)
 
 from .design import Gains, gains_reply
 from .experiment import BothModels, StepRequest, loop_reply, step_reply
 from .fields import Whole
 from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, rga_reply, sensitivity_reply
 from .model import Complex, Finding, Model, Reply, Voltages, findings_reply, poles_reply
-from .places import (
-    LIMITS,
-)
 from .presets import Limits
 
 

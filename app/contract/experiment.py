@@ -4,12 +4,19 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from heli2dof_core import Loop, Preset
+from heli2dof_core import Loop
 from heli2dof_core.evaluate import Step as CoreStep
 from heli2dof_core.figures import AXIS, MOTOR, STEP
 from heli2dof_core.findings import merged
 from heli2dof_core.metrics import StepMetrics
-from heli2dof_core.scenario import Digital, Disturbance, Scenario
+from heli2dof_core.request import (
+    DIGITAL,
+    DISTURBANCE,
+    ENCODERS,
+    INITIAL,
+    REFERENCE,
+    SCENARIO,
+)
 from heli2dof_core.scenario import Model as RigModel
 from heli2dof_core.signals import INPUTS, INTEGRALS, OUTPUTS, STATES
 
@@ -27,14 +34,6 @@ from .model import (
     present,
     told_by,
     voltages_reply,
-)
-from .places import (
-    DIGITAL,
-    DISTURBANCE,
-    ENCODERS,
-    INITIAL,
-    REFERENCE,
-    SCENARIO,
 )
 
 
@@ -69,30 +68,11 @@ class ScenarioChanges(asked(SCENARIO)):
     digital: DigitalController | None = Field(default=None, description="nonlinear model; null is continuous")
     disturbance: InputDisturbance | None = Field(default=None, description="nonlinear model")
 
-    def to_scenario(self, base: Scenario, encoders: tuple[int, int]) -> Scenario:
-        """The core's scenario; `base` and `encoders` are the preset's.
-
-        Raises:
-            Heli2DofError: a value is out of its range.
-        """
-        others = INITIAL.given(self.initial)
-        if self.reference is not None:
-            others |= {"theta": None, "psi": None, **REFERENCE.given(self.reference)}
-        if self.digital is not None:
-            counts = {} if self.digital.encoders is None else ENCODERS.given(self.digital.encoders)
-            others["digital"] = DIGITAL.changed(Digital(encoders=encoders), self.digital, **counts)
-        if self.disturbance is not None:
-            others["disturbance"] = DISTURBANCE.changed(Disturbance(), self.disturbance)
-        return SCENARIO.changed(base, self, **others)
-
 
 class StepRequest(DesignRequest):
     """A design and an experiment."""
 
     scenario: ScenarioChanges = ScenarioChanges()
-
-    def _scenario(self, base: Preset) -> Scenario:
-        return self.scenario.to_scenario(base.scenario, base.encoders)
 
 
 class ResponseRequest(StepRequest):

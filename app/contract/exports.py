@@ -7,8 +7,8 @@ from types import MappingProxyType
 from heli2dof_core import Spec, evaluate
 from heli2dof_core.export import FORMATS as CORE_FORMATS
 from heli2dof_core.export import Format
-from heli2dof_core.export.origin import request_of
 from heli2dof_core.presets import PRESETS
+from heli2dof_core.request import body_of
 from heli2dof_core.version import package_version
 
 from .encoding import json_bytes
@@ -20,7 +20,7 @@ from .presets import preset_reply
 
 def _json(spec: Spec, link: str = "") -> bytes:
     """What `evaluate` replies, with all states, and before it where it comes from."""
-    report, request = evaluate(spec, each_axis=True), request_of(spec)
+    report, request = evaluate(spec, each_axis=True), body_of(spec)
     reply = report_reply(report, spec)
     for model, step in report.step.items():
         reply["step"][model] |= states_reply(step)

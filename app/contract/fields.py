@@ -11,8 +11,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSche
 from heli2dof_core.poles import LARGEST
 from heli2dof_core.presets import PRESETS
 from heli2dof_core.quantities import Field as Quantified
-
-from .places import Place
+from heli2dof_core.request import Place
 
 
 class Strict(BaseModel):
@@ -36,7 +35,7 @@ def asked(*places: Place) -> type[Strict]:
     """
     own: dict[str, Any] = {}
     for place in places:
-        for name, known in place.fields().items():
+        for name, known in place.fields.items():
             required = known.default is MISSING
             proposed = place.proposed(name) or required
             kind = _kind(known)

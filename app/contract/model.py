@@ -14,9 +14,8 @@ from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from heli2dof_core import Finding as CoreFinding
 from heli2dof_core.figures import DESIGN, Figure
+from heli2dof_core.request import Place
 from heli2dof_core.signals import INPUTS, Floats
-
-from .places import Place
 
 Reply = dict[str, Any]
 
@@ -43,7 +42,7 @@ def proposed(*places: Place) -> type[Model]:
     return _of(
         (name, known.kind, known.quantity.described, bool(known.quantity.absent))
         for place in places
-        for name, known in place.fields().items()
+        for name, known in place.fields.items()
         if place.proposed(name)
     )
 

@@ -10,10 +10,10 @@ from heli2dof_core import Preset as CorePreset
 from heli2dof_core.components import COMPONENT_INFO
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.quantities import Quantity
+from heli2dof_core.request import LIMITS, OUTER, REFERENCE, SCENARIO, STRUCTURE
 
 from .design import Loops, loops_reply
 from .model import Angles, Complex, Model, Reply, poles_reply, proposed
-from .places import LIMITS, OUTER, REFERENCE, SCENARIO, STRUCTURE
 
 
 class Limits(proposed(LIMITS)):
@@ -86,7 +86,7 @@ def preset_reply(preset: CorePreset) -> Reply:
             for name, q in COMPONENT_INFO.items()
         },
         "limits": LIMITS.proposal(preset.limits),
-        "limit_info": _ranges({name: known.quantity for name, known in LIMITS.fields().items()}),
+        "limit_info": _ranges({name: known.quantity for name, known in LIMITS.fields.items()}),
         "encoders": {"theta": preset.encoders[0], "psi": preset.encoders[1]},
         "operating_point": {"theta": preset.theta_0},
         "poles": poles_reply(preset.poles.values),

@@ -14,11 +14,11 @@ from pydantic import BaseModel, Field, ValidationError
 from starlette.exceptions import HTTPException
 
 from heli2dof_core import Heli2DofError
+from heli2dof_core.request import path_of
 
 from ..jobs.fair_queue import BusyError, OverdueError
 from ..ops.logs import request_id
 from .encoding import json_bytes
-from .places import path_of
 
 _log = logging.getLogger(__name__)
 

@@ -83,7 +83,7 @@ class Mapping(asked(COLUMNS)):
         with within_field(COLUMNS.attribute):
             return Columns(
                 names,
-                **COLUMNS.given(self),
+                **COLUMNS.given(self.model_dump(exclude_unset=True)),
                 signs=(self.signs.theta, self.signs.psi),
                 offsets=(self.offsets.theta, self.offsets.psi),
                 units=self.units.model_dump(exclude_none=True),

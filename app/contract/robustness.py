@@ -32,7 +32,7 @@ class RobustnessRequest(StepRequest, asked(UNCERTAINTY)):
 
     def to_uncertainty(self) -> Uncertainty:
         """The core's uncertainty."""
-        own = UNCERTAINTY.given(self)
+        own = UNCERTAINTY.given(self.model_dump(exclude_unset=True))
         return Uncertainty(**own) if self.uncertainty is None else Uncertainty(self.uncertainty, **own)
 
 

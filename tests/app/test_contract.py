@@ -10,14 +10,15 @@ from pydantic import ValidationError
 from app.cli.fields import ALL, Option
 from app.cli.values import Assignment, Choice, Name
 from app.contract.experiment import StepRequest
-from app.contract.places import COLUMNS, UNCERTAINTY, path_of, quantities
+from app.contract.places import COLUMNS, UNCERTAINTY
 from app.contract.problems import problem_of
 from app.contract.recordings import OverlayRequest
 from app.contract.robustness import RobustnessRequest
 from heli2dof_core import Heli2DofError
+from heli2dof_core.request import path_of, quantities
 from tests.page_quantities import PAGE, module
 
-QUANTITIES = {path: (place, known) for path, place, known in quantities()}
+QUANTITIES = {path: (place, known) for path, place, known in (*quantities(), *quantities([COLUMNS]))}
 OF_COLUMNS = {path: known for path, (place, known) in QUANTITIES.items() if place is COLUMNS}
 OF_DESIGNS = {path: known for path, (_, known) in QUANTITIES.items() if path not in OF_COLUMNS}
 
@@ -77,7 +78,7 @@ def test_the_range_of_an_uncertainty_is_refused_by_the_requests_path():
         with pytest.raises(Heli2DofError) as caught:
             RobustnessRequest(uncertainty=given).to_uncertainty()
         assert problem_of(caught.value)["field"] == path
-    for name in UNCERTAINTY.fields():
+    for name in UNCERTAINTY.fields:
         assert path_of(name) == name
 
 

@@ -10,15 +10,15 @@ from hypothesis import strategies as st
 
 from app.contract.experiment import StepRequest
 from heli2dof_core import PRESETS, Limits, OuterLoop, PIGains, Scenario, Spec, Structure
-from heli2dof_core.export.origin import request_of
 from heli2dof_core.placement.method import Weights
+from heli2dof_core.request import body_of
 from heli2dof_core.scenario import Digital, Disturbance
 from tests.strategies import operating_points, pole_sets, rigs, structures
 
 
 def again(spec: Spec) -> Spec:
     """The spec that the request makes; weights are those in use."""
-    return StepRequest.model_validate(request_of(spec)).to_spec()
+    return StepRequest.model_validate(body_of(spec)).to_spec()
 
 
 def same(spec: Spec) -> bool:
@@ -29,7 +29,7 @@ def same(spec: Spec) -> bool:
 @pytest.mark.parametrize("name", PRESETS)
 def test_a_preset_is_its_name(name: str):
     spec = Spec.from_preset(PRESETS[name])
-    assert request_of(spec) == {"preset": name}
+    assert body_of(spec) == {"preset": name}
     assert same(spec)
 
 
@@ -68,6 +68,6 @@ def test_weights_are_those_in_use():
     base = Spec.from_preset(PRESETS["quanser-2dof-manual"])
     spec = replace(base, method="lqr-integral", weights=own)
     assert again(spec) == spec
-    assert "weights" not in request_of(replace(spec, method="tits-yang"))
+    assert "weights" not in body_of(replace(spec, method="tits-yang"))
     tight = replace(base, method="lqr", limits=Limits(5.0, 5.0))  # its weights follow its own limits
     assert again(tight).weights != again(replace(base, method="lqr")).weights

@@ -1,0 +1,334 @@
+"""The JSON body of the REST calls that stands for a design and its experiment: from it, to it, and what stands where.
+
+One table says where the core's quantities stand in a body: requests and their schema, presets' replies, the command
+line's options, the page's module of quantities and the field that an error names follow from it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass, field, fields, replace
+from functools import cache, cached_property
+from typing import Any, TypeVar
+
+from .checks import require_known
+from .couplings import Structure
+from .design import FULL_RANK
+from .errors import InvalidInputError, within_field
+from .parameters import Parameters
+from .placement.method import Weights
+from .placement.registry import METHODS
+from .poles import PoleSet
+from .presets import DEFAULT, PRESETS, Preset, preset
+from .quantities import Field, quantities_of
+from .scenario import Digital, Disturbance, Limits, OuterLoop, PIGains, Scenario
+from .signals import AXES, INPUTS, OUTPUTS, STATES, Signal
+from .spec import Spec
+from .weights import bryson_weights
+
+T = TypeVar("T")
+Body = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Place:
+    """Quantities of one class of the core, in one object of a request.
+
+    Attributes:
+        path: of that object in the request's JSON; empty for the request itself.
+        attribute: by which the class' instance is reached in the core, from a `Spec`; empty for the `Spec` itself.
+        cls: the class.
+        names: in the object → of the field, or of one part of it (``initial.theta``); by default all of the class
+            under their own names, but for what other places hold.
+        by_preset: names of which the preset has its own value: what is left out comes from there; None: of all.
+    """
+
+    path: str
+    attribute: str
+    cls: type
+    names: Mapping[str, str] = field(default_factory=dict)
+    by_preset: Collection[str] | None = ()
+
+    @cached_property
+    def fields(self) -> dict[str, Field]:
+        """The quantities by their names in the object."""
+        known = quantities_of(self.cls)
+        names = self.names or {name: name for name in known if name not in _elsewhere(self)}
+        return {name: _part(known, own) for name, own in names.items()}
+
+    def proposed(self, name: str) -> bool:
+        """Whether what is left out comes from the preset."""
+        return self.by_preset is None or name in self.by_preset
+
+    def given(self, values: Mapping[str, Any] | None) -> dict[str, Any]:
+        """What an object says, by the fields of the core; where it gives a tuple's part, the whole of it."""
+        found: dict[str, Any] = {}
+        parts = {} if values is None else values
+        for name, known in self.fields.items():
+            whole = "." in self.names.get(name, "")
+            if name in parts and (parts[name] is not None or known.quantity.absent):
+                found[known.name] = (*found.get(known.name, ()), parts[name]) if whole else parts[name]
+            elif whole:
+                found[known.name] = (*found.get(known.name, ()), known.default)
+        return found
+
+    def changed(self, base: T, values: Mapping[str, Any] | None, **others: Any) -> T:
+        """`base` with what an object says, and with `others`; errors name the core's field."""
+        changes = {**self.given(values), **others}
+        if not changes:
+            return base
+        with within_field(self.attribute):
+            return replace(base, **changes)  # pyright: ignore[reportArgumentType, reportCallIssue, reportUnknownVariableType]
+
+    def proposal(self, instance: object) -> dict[str, Any]:
+        """What a preset's own instance proposes there, by the names in the object; what is absent is left out."""
+        own = {
+            name: getattr(instance, known.name) for name, known in self.fields.items() if self.proposed(name)
+        }
+        return {name: value for name, value in own.items() if value is not None}
+
+
+STRUCTURE = Place("", "structure", Structure, by_preset=None)
+OUTER = Place("", "outer", OuterLoop, by_preset=None)
+LOOP = {axis: Place(f"loops.{axis}", f"outer.{axis}", PIGains, by_preset=None) for axis in AXES}
+POINT = Place("operating_point", "", Spec, {"theta": "theta_0"}, by_preset=None)
+PARAMETERS = Place("parameters", "parameters", Parameters, by_preset=None)
+LIMITS = Place("limits", "limits", Limits, by_preset=None)
+SCENARIO = Place("scenario", "scenario", Scenario, by_preset=("duration", "samples"))
+REFERENCE = Place(
+    "scenario.reference", "scenario", Scenario, {"theta": "theta", "psi": "psi"}, by_preset=None
+)
+INITIAL = Place(
+    "scenario.initial",
+    "scenario",
+    Scenario,
+    {name: f"initial.{name}" for name in ("theta", "psi", "theta_dot", "psi_dot")},
+)
+DIGITAL = Place("scenario.digital", "scenario.digital", Digital)
+ENCODERS = Place(
+    "scenario.digital.encoders",
+    "scenario.digital",
+    Digital,
+    {"theta": "encoders.theta", "psi": "encoders.psi"},
+)
+DISTURBANCE = Place("scenario.disturbance", "scenario.disturbance", Disturbance)
+DESIGN = (POINT, PARAMETERS, LIMITS, STRUCTURE, OUTER, *LOOP.values())
+EXPERIMENT = (SCENARIO, REFERENCE, INITIAL, DIGITAL, ENCODERS, DISTURBANCE)
+_WEIGHTED: dict[str, tuple[Signal, ...]] = {"states": STATES, "inputs": INPUTS, "integrals": OUTPUTS}
+"""Per kind of weights the signals that they belong to."""
+_WHOLES = {"outer": "loops", "spread": "uncertainty"}
+"""What no quantity of its own stands for: in the core → in a request."""
+_ALL = (*DESIGN, *EXPERIMENT)
+
+
+def quantities(places: Iterable[Place] | None = None) -> Iterator[tuple[str, Place, Field]]:
+    """Every quantity at some places, by default of a design and its experiment: its path, its place, what it is."""
+    for place in _ALL if places is None else places:
+        for name, known in place.fields.items():
+            yield f"{place.path}.{name}".lstrip("."), place, known
+
+
+def path_of(field: str) -> str:
+    """The path in a request of what the core calls `field`; other paths as they are."""
+    first, dot, rest = field.partition(".")
+    if first in _WHOLES and (first == "spread" or not dot):
+        return f"{_WHOLES[first]}{dot}{rest}"
+    for place in sorted(_ALL, key=lambda p: -len(p.attribute)):
+        if place.attribute and field != place.attribute and not field.startswith(f"{place.attribute}."):
+            continue
+        rest = field.removeprefix(place.attribute).removeprefix(".")
+        for name in place.fields:
+            own = place.names.get(name, name)
+            if rest == own or rest.startswith(f"{own}."):
+                return f"{place.path}.{name}{rest.removeprefix(own)}".lstrip(".")
+    return field
+
+
+def _elsewhere(place: Place) -> set[str]:
+    return {
+        own.partition(".")[0]
+        for other in _ALL
+        if other is not place and other.attribute == place.attribute
+        for own in other.names.values()
+    }
+
+
+def _part(known: Mapping[str, Field], own: str) -> Field:
+    name, _, part = own.partition(".")
+    found = known[name]
+    if not part:
+        return found
+    at = [*found.quantity.parts].index(part)
+    return replace(found, default=found.default[at], quantity=found.quantity.parts[part])
+
+
+def spec_of(body: Mapping[str, Any]) -> Spec:
+    """The spec for which a body stands; what it leaves out comes from its preset, or from the default one.
+
+    >>> spec_of({"poles": [-12, -10, {"re": -3, "im": 4}, {"re": -3, "im": -4}], "lead": "yaw"}).structure.lead
+    'yaw'
+
+    Raises:
+        Heli2DofError: a value is out of its range or unknown; its field is the core's (see `path_of`).
+    """
+    _require_known(body, _tree())
+    base = preset(body.get("preset", DEFAULT))
+    method, loops = body.get("method", FULL_RANK), body.get("loops", {})
+    require_known(method, METHODS, "method")  # also where another is used
+    pi = {axis: place.changed(getattr(base.outer, axis), loops.get(axis)) for axis, place in LOOP.items()}
+    return Spec(
+        parameters=PARAMETERS.changed(base.parameters, body.get("parameters")),
+        limits=LIMITS.changed(base.limits, body.get("limits")),
+        theta_0=POINT.given(body.get("operating_point")).get("theta_0", base.theta_0),
+        poles=_poles(body.get("poles"), body.get("split"), base),
+        structure=STRUCTURE.changed(base.structure, body),
+        outer=OUTER.changed(base.outer, body, **pi),
+        scenario=_scenario(body.get("scenario", {}), base),
+        method=method,
+        weights=_weights(body.get("weights", {}), bryson_weights(base.limits)),
+    )
+
+
+def _require_known(values: Mapping[str, Any], tree: Mapping[str, Any], above: str = "") -> None:
+    for name, value in values.items():
+        if name not in tree:
+            raise InvalidInputError(
+                f"there is no field {above}{name}",
+                field=f"{above}{name}",
+                value=value,
+                hint="Known are " + ", ".join(tree) + ".",
+            )
+        if tree[name] and isinstance(value, Mapping):
+            _require_known(value, tree[name], f"{above}{name}.")
+
+
+@cache
+def _tree() -> dict[str, Any]:
+    """The names of a body's fields, below one another."""
+    weights = (f"weights.{kind}.{signal.name}" for kind, signals in _WEIGHTED.items() for signal in signals)
+    whole = ("preset", "method", "poles", "split", "scenario.model")
+    tree: dict[str, Any] = {}
+    for path in (*whole, *weights, *(path for path, _, _ in quantities())):
+        level = tree
+        for name in path.split("."):
+            level = level.setdefault(name, {})
+    return tree
+
+
+NAMES = set(_tree())
+"""What a body holds of a design and its experiment, right below itself."""
+
+
+def _poles(poles: Any, split: Any, base: Preset) -> PoleSet:
+    if poles is None and split is None:
+        return base.poles
+    values = base.poles.values if poles is None else [_complex(pole) for pole in poles]
+    return PoleSet(values) if split is None else PoleSet.dealt(values, split)
+
+
+def _complex(pole: Any) -> complex:
+    return complex(pole["re"], pole["im"]) if isinstance(pole, Mapping) else pole
+
+
+def _scenario(given: Mapping[str, Any], base: Preset) -> Scenario:
+    others = INITIAL.given(given["initial"]) if "initial" in given else {}
+    if given.get("reference") is not None:
+        others |= {"theta": None, "psi": None, **REFERENCE.given(given["reference"])}
+    digital = given.get("digital")
+    if digital is not None:
+        counts = digital.get("encoders")
+        encoders = {} if counts is None else ENCODERS.given(counts)
+        others["digital"] = DIGITAL.changed(Digital(encoders=base.encoders), digital, **encoders)
+    if given.get("disturbance") is not None:
+        others["disturbance"] = DISTURBANCE.changed(Disturbance(), given["disturbance"])
+    return SCENARIO.changed(base.scenario, given, **others)
+
+
+def _weights(given: Mapping[str, Mapping[str, Any]], base: Weights) -> Weights:
+    def merged(kind: str, signals: tuple[Signal, ...]) -> tuple[float, ...]:
+        own = given.get(kind, {})
+        values = (own.get(signal.name) for signal in signals)
+        return tuple(b if v is None else v for v, b in zip(values, getattr(base, kind), strict=True))
+
+    return Weights(**{kind: merged(kind, signals) for kind, signals in _WEIGHTED.items()}) if given else base
+
+
+def body_of(spec: Spec) -> Body:
+    """The body of the REST calls (docs/api.md) that stands for this spec.
+
+    It names the preset from which the spec differs least, and nothing else but these differences.
+    """
+    bodies = [_differing(spec, preset) for preset in PRESETS.values()]
+    return min(bodies, key=_size)
+
+
+def _size(value: object) -> int:
+    if isinstance(value, dict):
+        return sum(map(_size, value.values()))
+    return sum(map(_size, value)) if isinstance(value, list) else 1
+
+
+def _differing(spec: Spec, preset: Preset) -> Body:
+    body: Body = {
+        "preset": preset.name,
+        "parameters": _differences(spec.parameters.as_dict(), preset.parameters.as_dict()),
+        "limits": _differences(vars(spec.limits), vars(preset.limits)),
+        "operating_point": {} if spec.theta_0 == preset.theta_0 else {"theta": spec.theta_0},
+        "poles": [] if spec.poles == preset.poles else [_pole_body(p) for p in spec.poles.values],
+        **({} if spec.method == "full-rank" else {"method": spec.method}),
+        **_differences(vars(spec.structure), vars(preset.structure)),
+        "weights": _weights_body(spec, preset),
+        **_outer_body(spec, preset),
+        "scenario": _scenario_body(spec.scenario, preset),
+    }
+    return {name: value for name, value in body.items() if value not in ({}, [])}
+
+
+def _differences(own: Mapping[str, Any], base: Mapping[str, Any]) -> Body:
+    return {name: value for name, value in own.items() if value != base[name]}
+
+
+def _pole_body(p: complex) -> float | Body:
+    return {"re": p.real, "im": p.imag} if p.imag else p.real
+
+
+def _outer_body(spec: Spec, preset: Preset) -> Body:
+    own, base = asdict(spec.outer), asdict(preset.outer)
+    loops = {axis: _differences(own.pop(axis), base.pop(axis)) for axis in AXES}
+    return {**_differences(own, base), "loops": {axis: gains for axis, gains in loops.items() if gains}}
+
+
+def _weights_body(spec: Spec, preset: Preset) -> Body:
+    """Those of a quadratic method; others do not look at them."""
+    if METHODS[spec.method].places_poles:
+        return {}
+    own, base = spec.weights or bryson_weights(spec.limits), bryson_weights(preset.limits)
+    return {
+        kind: {signal.name: value for signal, value in zip(signals, getattr(own, kind), strict=True)}
+        for kind, signals in _WEIGHTED.items()
+        if getattr(own, kind) != getattr(base, kind)
+    }
+
+
+def _scenario_body(scenario: Scenario, preset: Preset) -> Body:
+    base, usual = preset.scenario, Scenario()
+    own = {f.name: getattr(scenario, f.name) for f in fields(scenario)}
+    reference = {name: own.pop(name) for name in ("theta", "psi")}
+    initial, digital, disturbance = (own.pop(name) for name in ("initial", "digital", "disturbance"))
+    body = _differences(own, vars(usual) | {"duration": base.duration, "samples": base.samples})
+    if (scenario.theta, scenario.psi) != (base.theta, base.psi):
+        body["reference"] = {name: angle for name, angle in reference.items() if angle is not None}
+    if initial != usual.initial:
+        start = zip((signal.name for signal in STATES), initial, strict=True)
+        body["initial"] = {name: value for name, value in start if value is not None}
+    if digital is not None:
+        body["digital"] = _digital_body(digital, preset)
+    if disturbance is not None:
+        body["disturbance"] = asdict(disturbance)
+    return body
+
+
+def _digital_body(digital: Digital, preset: Preset) -> Body:
+    own = asdict(digital)
+    theta, psi = own.pop("encoders")
+    return own if (theta, psi) == preset.encoders else {**own, "encoders": {"theta": theta, "psi": psi}}
