@@ -30,7 +30,7 @@ test: $(VENV)/.tools node_modules/.installed browser ## build what the tests nee
 
 quick: $(VENV)/.tools node_modules/.installed browser ## what is soon told: style, types, floors, laws of the core, the page's units, a page that opens
 	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check page-test kernels
-	@$(PYTEST) -m "not slow" tests/core tests/authorities tests/test_architecture.py \
+	@$(PYTEST) -m "not slow" tests/core tests/authorities tests/test_architecture.py tests/test_architecture_docs.py \
 	  tests/e2e/test_page.py::test_gain_shown_is_the_gain_of_the_poles_shown
 
 check: style static-types types floors ## style, types, floors
