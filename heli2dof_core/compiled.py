@@ -1,7 +1,7 @@
 """Symbols → plain numeric functions, generated once from the derivation, never typed by hand.
 
-This is the door from `symbolic` to floats; exact placement alone reads the symbols besides. SymPy is imported on the first call, not with this
-module, so that a server can answer its first page before the derivation has run.
+This is the door from `symbolic` to floats; exact placement alone reads the symbols besides. SymPy is imported on
+the first call, not with this module, so that a server can answer its first page before the derivation has run.
 """
 
 from __future__ import annotations
