@@ -10,6 +10,7 @@ import numpy as np
 
 from .checks import require_one_of, require_within
 from .errors import InvalidInputError
+from .frozen import frozen
 from .signals import Floats
 
 Outer = Literal["pi", "none"]
@@ -191,7 +192,7 @@ class Scenario:
     @property
     def times(self) -> Floats:
         """linspace(0, duration, samples), s."""
-        return _times(self.duration, self.samples).copy()
+        return _times(self.duration, self.samples)
 
     def resolved(self, theta_0: float) -> tuple[float, ...]:
         """References θ, ψ and start θ, ψ, θ̇, ψ̇ with the operating point (θ₀, 0) filled in, rad and rad/s."""
@@ -208,4 +209,4 @@ class Scenario:
 
 @lru_cache(maxsize=64)  # hardly ever does it change from one update to the next
 def _times(duration: float, samples: int) -> Floats:
-    return np.linspace(0.0, duration, samples)
+    return frozen(np.linspace(0.0, duration, samples))

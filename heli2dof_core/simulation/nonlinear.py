@@ -28,18 +28,18 @@ from ..kernels.layout import (
 )
 from ..loop import Loop
 from ..scenario import Limits, Scenario
+from ..scratch import FOLLOWED_TWICE
 from ..signals import INPUTS, Floats
 from .experiment import NOTHING, experiment
-from .linear import FOLLOWED_TWICE
-from .response import Measured, Response, course_findings
+from .response import Measured, Response, course_findings, room
 
 ABSOLUTE_TOLERANCE = 0.1
 """Absolute tolerance of the integration as a share of the relative one (states are of order 1)."""
 
 
-@dataclass(frozen=True)
+@dataclass
 class NonlinearLoop:
-    """The loop around the nonlinear rig (Eqs. 9–12) as `kernels.rig` takes it.
+    """The loop around the nonlinear rig (Eqs. 9–12) as `kernels.rig` takes it; kernels write into it, too.
 
     Attributes:
         experiment: laid out as `layout` says.
@@ -62,7 +62,7 @@ class NonlinearLoop:
         plant, x = loop.design.plant, experiment(loop, limits, scenario)
         constants, modes, start = np.empty(CONSTANTS), np.empty(MODES, dtype=np.int64), np.zeros(6)
         integral = NOTHING if loop.integral is None else loop.integral
-        engine().compose(
+        engine().nonlinear_loop(
             plant.constants,
             plant.trim,
             plant.theta_0,
@@ -109,7 +109,7 @@ def simulate_nonlinear(
     `most_steps`, by default half a second's work or two, it is given up and a finding says so.
     """
     system, kernels = NonlinearLoop.of(loop, limits, scenario), engine()
-    t, found = scenario.times, Measured.empty()
+    t, found = scenario.times, room()
     states, voltages = np.empty((6, len(t))), np.empty((2, len(t)))
     kernels.run_nonlinear(
         system.constants,
@@ -128,11 +128,9 @@ def simulate_nonlinear(
         np.empty(FOLLOWED_TWICE),
         states,
         voltages,
-        found.axes,
-        found.motors,
-        found.course,
+        *found,
     )
-    return limited_response(system.experiment, t, states[: system.order], voltages, found)
+    return limited_response(system.experiment, t, states[: system.order], voltages, Measured(*found))
 
 
 def limited_response(x: Floats, t: Floats, states: Floats, voltages: Floats, found: Measured) -> Response:
