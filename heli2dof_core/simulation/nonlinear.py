@@ -135,23 +135,23 @@ def simulate_nonlinear(
 
 def limited_response(x: Floats, t: Floats, states: Floats, voltages: Floats, found: Measured) -> Response:
     """The course of an experiment with its remarks."""
-    theta, psi, theta_start, psi_start = x[: START + 2].tolist()
+    numbers: list[float] = x.tolist()
+    theta, psi, theta_start, psi_start = numbers[: START + 2]
     ends = ((theta, psi), (theta_start, psi_start))
     pitch, yaw, _, _, impacts, *_ = found.course[SHARE:].tolist()
-    remarks = (*course_findings("nonlinear", t, found), *_remarks(x, (pitch, yaw), impacts))
+    remarks = (*course_findings("nonlinear", t, found), *_remarks(numbers, (pitch, yaw), impacts))
     return Response("nonlinear", t, states[:2], voltages, *ends, (pitch, yaw), remarks, states, found)
 
 
-def _remarks(x: Floats, saturated: tuple[float, float], impacts: float) -> Iterator[Finding]:
-    for signal, share, limit in zip(INPUTS, saturated, x[BOUND:STOP].tolist(), strict=True):
+def _remarks(x: list[float], saturated: tuple[float, float], impacts: float) -> Iterator[Finding]:
+    for signal, share, limit in zip(INPUTS, saturated, x[BOUND:STOP], strict=True):
         if share:
             yield Finding(
                 f"saturation_{signal.name}",
                 "warning",
                 f"The {signal.meaning} is at its limit of ±{limit:g} V for {100 * share:.0f} % of the time.",
             )
-    travel = float(x[STOP])
-    stop = f"±{degrees(travel):.1f}°"
+    travel = x[STOP]
     if abs(x[START]) > travel:
         yield Finding(
             "starts_on_stop",
@@ -159,10 +159,15 @@ def _remarks(x: Floats, saturated: tuple[float, float], impacts: float) -> Itera
             "The start angle lies beyond the pitch travel. The rig starts on its stop.",
         )
     if impacts:
-        yield Finding("travel_stop", "warning", f"Pitch hits a stop of its travel at {stop}.")
+        yield Finding("travel_stop", "warning", f"Pitch hits a stop of its travel at {_stop(travel)}.")
     if abs(x[REFERENCE]) > travel:
         yield Finding(
             "reference_beyond_stop",
             "warning",
-            f"The pitch reference lies beyond the travel of {stop} and cannot be reached. Choose a smaller step.",
+            f"The pitch reference lies beyond the travel of {_stop(travel)} and cannot be reached. Choose a "
+            "smaller step.",
         )
+
+
+def _stop(travel: float) -> str:
+    return f"±{degrees(travel):.1f}°"

@@ -115,7 +115,8 @@ _GIVEN_UP = {
 
 def course_findings(model: Literal["linear", "nonlinear"], t: Floats, found: Measured) -> Iterator[Finding]:
     """How a course ended before its time: without bound, or given up."""
-    held, outcome, reached = (found.course[i] for i in (HELD, OUTCOME, REACHED))
+    course = found.course.tolist()
+    held, outcome, reached = course[HELD], course[OUTCOME], course[REACHED]
     if held < len(t):
         message = f"The response grows without bound. It is shown until t = {t[int(held) - 1]:.3g} s."
         yield Finding("diverges", "error", message)
