@@ -15,8 +15,9 @@ from .couplings import Structure, require_structure
 from .engine import engine
 from .errors import StructureUnavailableError
 from .findings import Finding
+from .frozen import Frozen, frozen
 from .interop import state_space
-from .kernels.layout import POLYNOMIAL_WORKSPACE, POLYNOMIALS, ROUNDING
+from .kernels.layout import POLYNOMIALS, ROUNDING
 from .placement.exact import exact_coefficients, exact_matrix, float_matrix
 from .placement.method import Task, Weights
 from .placement.registry import method as method_named
@@ -24,6 +25,7 @@ from .placement.verdict import Verdict, eigenvector_condition, judge
 from .plant import Plant
 from .poles import PoleSet
 from .remarks import design_remarks
+from .scratch import scratch
 from .signals import INPUTS, OUTPUTS, STATES, C, Complexes, Floats
 from .tables import Shown, Table, latex_matrix, number, poles
 
@@ -34,7 +36,7 @@ FULL_RANK = "full-rank"
 
 
 @dataclass(frozen=True, repr=False)
-class Design(Shown):
+class Design(Frozen, Shown):
     """State feedback u = −Kx + v for one rig, by one method.
 
     Attributes:
@@ -63,7 +65,7 @@ class Design(Shown):
     @cached_property
     def A_closed(self) -> Floats:
         """A − BK, 4×4."""
-        return self.plant.A - self.plant.B @ self.K
+        return frozen(self.plant.A - self.plant.B @ self.K)
 
     @cached_property
     def verdict(self) -> Verdict:
@@ -136,7 +138,7 @@ class Design(Shown):
         if not self.steady_state_determinant:
             return None
         (a, b), (c, d) = self.steady_state_inverse.tolist()
-        return np.array([[d, -b], [-c, a]]) / self.steady_state_determinant
+        return frozen(np.array([[d, -b], [-c, a]]) / self.steady_state_determinant)
 
     @cached_property
     def stable(self) -> bool:
@@ -144,8 +146,8 @@ class Design(Shown):
         if self.aims:
             return self.steady_state_determinant != 0 and all(p.real < 0 for p in self.poles.values)
         f = np.empty(POLYNOMIALS)
-        engine().describe(self.plant.A, self.plant.B, -self.K, f)
-        return bool(engine().stable(f, np.empty(POLYNOMIAL_WORKSPACE)))
+        engine().polynomial_matrices(self.plant.A, self.plant.B, -self.K, f)
+        return bool(engine().is_stable(f, scratch.stability))
 
     def to_control(self) -> control.StateSpace:
         """The inner loop alone, Ĝ(s) (Eq. 17): v_p, v_y of u = −Kx + v to θ, ψ, V to rad, deviations.

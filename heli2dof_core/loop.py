@@ -14,9 +14,11 @@ from .design import Design
 from .eigenvalues import eigenvalues
 from .engine import engine
 from .findings import Finding
+from .frozen import Frozen, frozen
 from .interop import state_space
-from .kernels.layout import OWN, PI, POLYNOMIAL_WORKSPACE, POLYNOMIALS, ROUNDING, STATIC
+from .kernels.layout import OWN, PI, POLYNOMIALS, ROUNDING, STATIC
 from .scenario import OuterLoop
+from .scratch import scratch
 from .signals import AXES, INPUTS, INTEGRALS, OUTPUTS, STATES, Complexes, Floats
 from .tables import Shown, Table, number, poles
 
@@ -25,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, repr=False)
-class Loop(Shown):
+class Loop(Frozen, Shown):
     """Design and outer loop together, linear, in deviations from the trim.
 
     States are x = [θ, ψ, θ̇, ψ̇] and, with PI, z = ∫ error of pitch and yaw in rad·s. The voltage is
@@ -78,8 +80,8 @@ class Loop(Shown):
     def polynomials(self) -> Floats:
         """Rig and law as 2×2 matrices of polynomials of s, (2, 2, 20), laid out as `kernels.polynomials` says."""
         plant, f = self.design.plant, np.empty(POLYNOMIALS)
-        engine().describe(plant.A, plant.B, self.voltage_from_state, f)
-        return f
+        engine().polynomial_matrices(plant.A, plant.B, self.voltage_from_state, f)
+        return frozen(f)
 
     @cached_property
     def connected(self) -> tuple[int, ...]:
@@ -94,7 +96,7 @@ class Loop(Shown):
         """The poles that decide on stability, rad/s: those of the connected states; slowest first."""
         order = self.connected
         A = self.A if len(order) == len(self.A) else self.A[np.ix_(order, order)]
-        return np.array(sorted(eigenvalues(A), key=_slowest_first))
+        return frozen(np.array(sorted(eigenvalues(A), key=_slowest_first)))
 
     @cached_property
     def poles(self) -> Complexes:
@@ -103,7 +105,7 @@ class Loop(Shown):
         if len(own) == len(self.A):  # as a rule
             return own
         apart = [0j] * (len(self.A) - len(own))
-        return np.array(sorted([*apart, *own.tolist()], key=_slowest_first))
+        return frozen(np.array(sorted([*apart, *own.tolist()], key=_slowest_first)))
 
     @cached_property
     def stable(self) -> bool:
@@ -112,7 +114,7 @@ class Loop(Shown):
         `kernels.stability` says how rounding is told; where no outer loop moves the placed poles, those asked for
         must comply as well.
         """
-        robust = bool(engine().stable(self.polynomials, np.empty(POLYNOMIAL_WORKSPACE)))
+        robust = bool(engine().is_stable(self.polynomials, scratch.stability))
         return robust and (not self._poles_are_the_designs or self.design.stable)
 
     @property
@@ -173,7 +175,9 @@ def close_loop(design: Design, outer: OuterLoop = OuterLoop()) -> Loop:
     plant, cross = design.plant, outer.pairing == "cross"
     settings = (kind, gains, cross, outer.decoupler)
     steady = (design.steady_state_inverse, design.steady_state_determinant)
-    engine().close(design.K, *steady, plant.A, plant.B, *settings, P, integral, F, law, by_reference, A, B)
+    engine().loop_matrices(
+        design.K, *steady, plant.A, plant.B, *settings, P, integral, F, law, by_reference, A, B
+    )
     return Loop(design, outer, P, None if kind == STATIC else integral, F, law, by_reference, A, B)
 
 

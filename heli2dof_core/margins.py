@@ -10,8 +10,9 @@ from .eigenvalues import resolvent
 from .engine import engine
 from .figures import MARGINS as FIGURES
 from .figures import Margins
-from .kernels.layout import MARGINS, POLYNOMIAL_WORKSPACE
+from .kernels.layout import MARGINS
 from .loop import Loop
+from .scratch import scratch
 from .signals import AXES, Complexes, Floats
 from .tables import Table, number
 
@@ -26,7 +27,7 @@ def loop_margins(loop: Loop) -> tuple[Margins, Margins] | None:
     if not loop.stable:
         return None
     table = np.empty((2, MARGINS))
-    engine().margins(loop.polynomials, np.empty(POLYNOMIAL_WORKSPACE), table)
+    engine().margins(loop.polynomials, *scratch.margins, table)
     pitch, yaw = ([None if isnan(v) else v for v in row] for row in table.tolist())
     return Margins(*pitch), Margins(*yaw)
 

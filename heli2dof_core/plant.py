@@ -12,6 +12,7 @@ from .checks import require_within
 from .compiled import linear_matrices
 from .couplings import require_controllable
 from .eigenvalues import eigenvalues
+from .frozen import Frozen, frozen
 from .interop import state_space
 from .parameters import Parameters
 from .signals import INPUTS, OUTPUTS, STATES, C, Complexes, Floats, fixed
@@ -31,7 +32,7 @@ SMALLEST = 1e-100
 
 
 @dataclass(frozen=True, repr=False)
-class Plant(Shown):
+class Plant(Frozen, Shown):
     """Linear model about rest at pitch angle `theta_0` (Eqs. 13, 14), in deviations from the trim.
 
     Attributes:
@@ -77,7 +78,7 @@ class Plant(Shown):
     @cached_property
     def poles(self) -> Complexes:
         """Poles of the rig without feedback, rad/s, shape (4,)."""
-        return np.array(eigenvalues(self.A))
+        return frozen(np.array(eigenvalues(self.A)))
 
     def to_control(self) -> control.StateSpace:
         """The rig without feedback: V_p, V_y to θ, ψ, V to rad, in deviations from the trim.

@@ -15,6 +15,7 @@ from .compiled import linear_matrices
 from .engine import engine
 from .errors import InvalidInputError
 from .evaluate import place
+from .frozen import Frozen, read_only
 from .kernels.layout import POLYNOMIAL_WORKSPACE, POLYNOMIALS, WORKSPACE
 from .loop import Loop, close_loop
 from .parameters import PARAMETER_INFO, Parameters
@@ -69,7 +70,7 @@ class Uncertainty:
 
 
 @dataclass(frozen=True, repr=False)
-class Cloud(Shown):
+class Cloud(Frozen, Shown):
     """What is known after `done` of the rigs.
 
     Attributes:
@@ -186,7 +187,7 @@ def _summary(
         done=done,
         samples=len(poles),
         loop_poles=poles[:done],
-        t=t,
+        t=read_only(t),
         percentiles=PERCENTILES,
         envelopes={name: np.ascontiguousarray(bands[:, i]) for i, name in enumerate(("theta", "psi"))},
         share_stable=float(np.mean(stable[:done])),
@@ -222,7 +223,7 @@ def _stability(loop: Loop, rigs: Floats) -> tuple[Complexes, Floats]:
     whole = np.repeat(loop.A[None], len(rigs), axis=0)
     whole[:, :4] = B @ law
     whole[:, :4, :4] += A
-    engine().count_stable(A, B, law, np.empty(POLYNOMIALS), np.empty(POLYNOMIAL_WORKSPACE), stable)
+    engine().are_stable(A, B, law, np.empty(POLYNOMIALS), np.empty(POLYNOMIAL_WORKSPACE), stable)
     poles = np.linalg.eigvals(whole[:, connected][:, :, connected]).astype(np.complex128)
     return poles, stable
 

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 import numpy as np
 
 from .errors import InvalidInputError
+from .frozen import frozen
 from .quantities import Quantity, documented, require_valid
 from .signals import Floats
 
@@ -194,7 +195,7 @@ class Scenario:
     @property
     def times(self) -> Floats:
         """linspace(0, duration, samples), s."""
-        return _times(self.duration, self.samples).copy()
+        return _times(self.duration, self.samples)
 
     def resolved(self, theta_0: float) -> tuple[float, ...]:
         """References θ, ψ and start θ, ψ, θ̇, ψ̇ with the operating point (θ₀, 0) filled in, rad and rad/s."""
@@ -211,4 +212,4 @@ class Scenario:
 
 @lru_cache(maxsize=64)  # hardly ever does it change from one update to the next
 def _times(duration: float, samples: int) -> Floats:
-    return np.linspace(0.0, duration, samples)
+    return frozen(np.linspace(0.0, duration, samples))

@@ -8,8 +8,9 @@ from math import atan, isinf
 import numpy as np
 
 from .engine import engine
-from .kernels.layout import FREQUENCIES, SENSITIVITY
+from .kernels.layout import SENSITIVITY
 from .loop import Loop
+from .scratch import scratch
 
 
 @dataclass(frozen=True)
@@ -48,7 +49,7 @@ def loop_sensitivity(loop: Loop) -> Sensitivity | None:
     if not loop.stable:
         return None
     both = np.empty(SENSITIVITY)
-    engine().peaks(loop.polynomials, loop.connected_poles, np.empty((3, FREQUENCIES)), both)
+    engine().sensitivity_peaks(loop.polynomials, loop.connected_poles, scratch.sensitivity, both)
     peak, peak_frequency, disk_margin, disk_frequency = both.tolist()
     return Sensitivity(peak, _finite(peak_frequency), disk_margin, _finite(disk_frequency))
 

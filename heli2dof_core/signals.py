@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .frozen import frozen
+
 Floats = NDArray[np.float64]
 """An array of real numbers."""
 Complexes = NDArray[np.complex128]
@@ -15,9 +17,7 @@ Complexes = NDArray[np.complex128]
 
 def fixed(values: ArrayLike) -> Floats:
     """An array of these numbers that nobody can change; to the kernels it is a type of its own."""
-    array = np.array(values, dtype=np.float64, order="C")
-    array.flags.writeable = False
-    return array
+    return frozen(np.array(values, dtype=np.float64, order="C"))
 
 
 @dataclass(frozen=True)
@@ -48,5 +48,5 @@ INTEGRALS = (
 AXES = ("pitch", "yaw")
 """Names of the two axes and of their loops, in the order of the outputs."""
 
-C: Floats = np.eye(2, 4)
+C: Floats = fixed(np.eye(2, 4))
 """Output matrix, 2×4: y = [θ, ψ] (theory: y = Cx)."""

@@ -10,12 +10,13 @@ from .compiled import construction
 from .controllability import scan
 from .couplings import Structure
 from .design import Design
+from .frozen import Frozen
 from .plant import Plant
 from .signals import Floats
 
 
 @dataclass(frozen=True)
-class Walkthrough:
+class Walkthrough(Frozen):
     """Numbers of the derivation, step by step (theory: steps 1–5).
 
     The fields that may be None are full-rank placement's own; another method has none of these steps.

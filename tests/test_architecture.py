@@ -81,12 +81,15 @@ def test_no_test_waits_for_time():
             "import heli2dof_core",
             (
                 *("sympy", "control", "viser", "fastapi", "scipy.integrate", "scipy.signal"),
-                *("h5py", "openpyxl", "scipy.io", "heli2dof_core.recordings.recording"),
+                *("h5py", "openpyxl", "scipy.io", "jinja2", "heli2dof_core.recordings.recording"),
             ),
         ),
         (
             "import app.main; app.main.create_app()",
-            ("sympy", "control", "viser", "scipy.integrate", "scipy.signal", "h5py", "openpyxl", "scipy.io"),
+            (
+                *("sympy", "control", "viser", "scipy.integrate", "scipy.signal"),
+                *("h5py", "openpyxl", "scipy.io", "jinja2"),
+            ),
         ),
     ],
 )

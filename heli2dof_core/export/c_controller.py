@@ -8,6 +8,7 @@ from functools import partial
 from math import isfinite
 
 from ..evaluate import place
+from ..frozen import Frozen
 from ..kernels.layout import BACK_CALCULATION, CLAMPING, MOTOR_OF, TRACKING, TRAVEL, WINDUP
 from ..loop import Loop, close_loop
 from ..scenario import Digital
@@ -22,7 +23,7 @@ _STEM = "heli2dof_controller"
 
 
 @dataclass(frozen=True)
-class _Controller:
+class _Controller(Frozen):
     """The design as the digital rig runs it."""
 
     loop: Loop

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from html import escape
+from functools import cache
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..couplings import Structure
+from ..design import Design
 from ..evaluate import Report, evaluate
 from ..parameters import PARAMETER_INFO
 from ..placement.registry import METHODS
@@ -17,106 +18,94 @@ from ..scenario import Model
 from ..signals import AXES, INPUTS, OUTPUTS, Floats
 from ..simulation.response import Response
 from ..spec import Spec
+from ..templates import templates_beside
 from .format import Format
-from .markup import figure, formula, indexed, matrix, paragraph, pole, section, table
 from .origin import origin, preset_of
-from .report_figures import merit
+from .report_figures import margins, merit
 from .report_style import STYLE
 from .svg import Curve, Marks, chart, number, pole_map
 
-if TYPE_CHECKING:  # it would import SymPy before the first page
+if TYPE_CHECKING:  # both would be imported before the first page
+    from jinja2 import Environment
+
     from ..symbolic.render import Formula
+
+_NAMES = ("p₁", "p₂", "p₃", "p₄")
 
 
 def render(spec: Spec, link: str = "") -> str:
     """The page; figures and words are those of `evaluate`."""
     report, preset = evaluate(spec, each_axis=True), preset_of(spec)
-    title = f"Pole placement: {preset.title}"
-    opened = (
-        f'<p class="about">This design, live: <a href="{escape(link)}">{escape(link)}</a></p>' if link else ""
-    )
-    return "".join(
-        [
-            '<!doctype html><html lang="en"><head><meta charset="utf-8">',
-            f"<title>{escape(title)}</title>",
-            '<meta name="viewport" content="width=device-width, initial-scale=1">',
-            f"<style>{STYLE}</style></head><body>",
-            f"<header><h1>{escape(title)}</h1>",
-            paragraph(preset.source, "about"),
-            opened,
-            '<p class="fields"><span>Name</span><span>Date</span></p></header><main>',
-            section("Rig", *_rig(spec, report)),
-            section("Design", *_design(spec, report)),
-            section("Formulas", *_formulas(spec)),
-            section("Responses", *_responses(spec, report)),
-            section("Figures of merit", *merit(report)),
-            section("Findings", *_findings(report)),
-            section("Origin", f"<pre>{escape(chr(10).join(origin(spec, FORMAT.name, link)))}</pre>"),
-            "</main></body></html>\n",
-        ]
-    )
-
-
-def _rig(spec: Spec, report: Report) -> Iterator[str]:
-    rows = [
-        (name, info.meaning, number(value, 6), info.unit)
-        for (name, value), info in zip(
-            spec.parameters.as_dict().items(), PARAMETER_INFO.values(), strict=True
+    return (
+        _templates()
+        .get_template("report.html.jinja")
+        .render(
+            title=f"Pole placement: {preset.title}",
+            source=preset.source,
+            link=link,
+            style=STYLE,
+            spec=spec,
+            report=report,
+            method=METHODS[spec.method],
+            parameters=_parameters(spec),
+            trim=_trim(report),
+            placed=_placed(report.design),
+            outer=_outer(spec, report),
+            pole_map=_pole_map(report),
+            loop_poles=[(str(i), pole(p)) for i, p in enumerate(report.loop.poles.tolist(), 1)],
+            formulas=_formulas(spec),
+            experiment=_experiment(spec, report),
+            responses=_responses(spec, report),
+            merit=merit(report),
+            margins=margins(report),
+            origin=origin(spec, FORMAT.name, link),
         )
+    )
+
+
+@cache
+def _templates() -> Environment:
+    return templates_beside(__file__, number=number, degrees=degrees, inner=_inner, displayed=_displayed)
+
+
+def pole(p: complex) -> str:
+    """A pole for people."""
+    if not p.imag:
+        return number(p.real, 6)
+    return f"{number(p.real, 6)} {'−' if p.imag < 0 else '+'} {number(abs(p.imag), 6)}j"
+
+
+def _parameters(spec: Spec) -> list[tuple[str, ...]]:
+    values = spec.parameters.as_dict().items()
+    return [
+        (name, info.meaning, number(value, 6), info.unit)
+        for (name, value), info in zip(values, PARAMETER_INFO.values(), strict=True)
     ]
-    yield table(("", "meaning", "value", "unit"), rows)
-    trim = ", ".join(
-        f"{s.symbol} = {number(v, 5)} V"
-        for s, v in zip(INPUTS, report.design.plant.trim.tolist(), strict=True)
-    )
-    travel = spec.limits.theta
-    free = "free" if travel is None else f"±{number(degrees(travel))}°"
-    yield paragraph(
-        f"Operating point θ₀ = {number(degrees(spec.theta_0))}°, held by {trim}. Limits: |V_p| ≤ "
-        f"{number(spec.limits.V_p)} V, |V_y| ≤ {number(spec.limits.V_y)} V; pitch travel {free}."
-    )
 
 
-def _design(spec: Spec, report: Report) -> Iterator[str]:
-    design, method = report.design, METHODS[spec.method]
-    structure = ""
-    if design.structure is not None:
-        lead = f", {design.structure.lead} leads" if design.structure.coupling == "triangular" else ""
-        structure = f"; {design.structure.coupling}{lead}"
-    yield paragraph(f"Method: {method.title}{structure}. Source: {method.source}")
-    names = [f"p{chr(0x2081 + i)}" for i in range(4)]
+def _trim(report: Report) -> str:
+    volts = zip(INPUTS, report.design.plant.trim.tolist(), strict=True)
+    return ", ".join(f"{signal.symbol} = {number(value, 5)} V" for signal, value in volts)
+
+
+def _placed(design: Design) -> list[tuple[str, ...]]:
+    """The placed poles, after those that were asked for and with the distance from them where there were any."""
     found = design.closed_loop_poles.tolist()
-    if design.aims:
-        rows = [
-            (name, pole(p), pole(q), number(abs(p - q), 2))
-            for name, p, q in zip(names, design.poles.values, found, strict=True)
-        ]
-        yield table(("", "requested, rad/s", "placed, rad/s", "distance, rad/s"), rows)
-    else:
-        yield table(("", "chosen by the method, rad/s"), list(zip(names, map(pole, found), strict=True)))
-    yield matrix("<mi>K</mi>", design.K)
-    yield paragraph(
-        "u = −Kx + v with x = [θ, ψ, θ̇, ψ̇], in V/rad and V·s/rad. "
-        f"Frobenius norm {number(design.norm, 5)}, mixed units."
-    )
-    rga = report.interaction.rga
-    if rga is not None:
-        yield matrix("<mi mathvariant='normal'>RGA</mi>", rga, 5)
-    yield paragraph(report.interaction.reason)
-    yield paragraph(_outer(spec, report))
-    groups = [
-        Marks(found, "cross", names),
-        Marks(report.loop.poles.tolist(), "plus"),
-        Marks(design.plant.poles.tolist(), "circle"),
+    if not design.aims:
+        return [(name, pole(p)) for name, p in zip(_NAMES, found, strict=True)]
+    return [
+        (name, pole(p), pole(q), number(abs(p - q), 2))
+        for name, p, q in zip(_NAMES, design.poles.values, found, strict=True)
     ]
-    words = "× placed poles, + poles of the whole loop, ○ poles of the rig alone"
-    parts = figure(pole_map("Poles in the s-plane", groups), words)
-    whole = table(
-        ("", "rad/s"),
-        [(str(i + 1), pole(p)) for i, p in enumerate(report.loop.poles.tolist())],
-        "Poles of the whole loop",
-    )
-    yield f'<div class="plots">{parts}<div>{whole}</div></div>'
+
+
+def _pole_map(report: Report) -> str:
+    groups = [
+        Marks(report.design.closed_loop_poles.tolist(), "cross", _NAMES),
+        Marks(report.loop.poles.tolist(), "plus"),
+        Marks(report.design.plant.poles.tolist(), "circle"),
+    ]
+    return pole_map("Poles in the s-plane", groups)
 
 
 def _outer(spec: Spec, report: Report) -> str:
@@ -132,33 +121,18 @@ def _outer(spec: Spec, report: Report) -> str:
     return f"PI loops, {outer.pairing} pairing{', with the static decoupler' if outer.decoupler else ''}: {gains}."
 
 
-def _formulas(spec: Spec) -> Iterator[str]:
+def _formulas(spec: Spec) -> dict[str, Any]:
+    """All formulas, K's entries by their indices; `gains` is None where K has no formula."""
     from ..symbolic.render import symbolic_report  # SymPy: on first use
 
     symbols = symbolic_report(spec.structure.family)
-    yield paragraph("Linear model ẋ = Ax + Bu about rest at θ₀:", "before")
-    for name in ("A", "B"):
-        yield formula(f"<mi>{name}</mi>", symbols.formulas[name].mathml)
-    if spec.method == "full-rank":
-        shift = spec.structure.shift
-        gains, relative = symbols.entries["K"], symbols.entries["RGA"]["lambda_11"]
-        if shift is not None:
-            gains, relative = _shifted(spec.structure.family)
-            yield paragraph(
-                f"Gain of the state feedback, with the basis' shift c = {number(shift, 6)}:", "before"
-            )
-        else:
-            yield paragraph("Gain of the state feedback:", "before")
-        for name, entry in gains.items():
-            yield formula(indexed("k", name.removeprefix("k_")), entry.mathml)
-        yield paragraph("Relative gain at s = 0:", "before")
-        yield formula(indexed("λ", "11"), relative.mathml)
-    else:
-        yield paragraph(f"K is computed in numbers by the method {METHODS[spec.method].title}.")
-    yield paragraph("With the abbreviations", "before")
-    for name, definition in symbols.definitions.items():
-        if name in symbols.notation:
-            yield formula(_inner(symbols.notation[name].mathml), definition.mathml)
+    if spec.method != "full-rank":
+        return {"symbols": symbols, "gains": None}
+    gains, relative = symbols.entries["K"], symbols.entries["RGA"]["lambda_11"]
+    if spec.structure.shift is not None:
+        gains, relative = _shifted(spec.structure.family)
+    by_index = {name.removeprefix("k_"): entry for name, entry in gains.items()}
+    return {"symbols": symbols, "gains": by_index, "relative": relative}
 
 
 def _shifted(structure: Structure) -> tuple[dict[str, Formula], Formula]:
@@ -179,14 +153,19 @@ def _inner(mathml: str) -> str:
     return mathml[mathml.index(">") + 1 : mathml.rindex("</math>")]
 
 
-def _responses(spec: Spec, report: Report) -> Iterator[str]:
-    yield paragraph(_experiment(spec, report))
+def _displayed(mathml: str) -> str:
+    """The math element with fractions of full size."""
+    return mathml.replace("<math ", '<math displaystyle="true" ', 1)
+
+
+def _responses(spec: Spec, report: Report) -> list[tuple[str, str]]:
+    """Drawings and their captions."""
     trim, reference = report.design.plant.trim, report.step["nonlinear"].response.reference
     bounds, pictures = (spec.limits.V_p, spec.limits.V_y), []
     for i, signal in enumerate(OUTPUTS):
         curves = [Curve(t, np.degrees(response.angles[i]), kind) for t, response, kind in _traces(report)]
         curves.append(Curve(curves[0].x, np.full(len(curves[0].x), degrees(reference[i])), "mark"))
-        pictures.append(figure(chart(signal.meaning, "t, s", f"{signal.symbol}, °", curves), signal.meaning))
+        pictures.append((chart(signal.meaning, "t, s", f"{signal.symbol}, °", curves), signal.meaning))
     for i, signal in enumerate(INPUTS):
         curves = [
             Curve(t, r.voltages[i] + (trim[i] if r.model == "linear" else 0.0), kind)
@@ -196,14 +175,8 @@ def _responses(spec: Spec, report: Report) -> Iterator[str]:
             solid = [c.y for c in curves if c.kind in AXES]
             near = [b for b in (-bounds[i], bounds[i]) if max(float(np.max(y / b)) for y in solid) > 0.8]
             curves += [Curve(curves[0].x, np.full(len(curves[0].x), bound), "mark") for bound in near]
-        pictures.append(figure(chart(signal.meaning, "t, s", f"{signal.symbol}, V", curves), signal.meaning))
-    yield f'<div class="plots">{"".join(pictures)}</div>'
-    yield paragraph(
-        "Thick: pitch step; thin: yaw step, each alone on the nonlinear rig. Dashed and dotted: the same by the "
-        "linear model, without limits, the trim added to its voltages, where it fits in the picture. Grey: "
-        "references and voltage limits.",
-        "about",
-    )
+        pictures.append((chart(signal.meaning, "t, s", f"{signal.symbol}, V", curves), signal.meaning))
+    return pictures
 
 
 def _traces(report: Report) -> Iterator[tuple[Floats, Response, str]]:
@@ -240,14 +213,6 @@ def _experiment(spec: Spec, report: Report) -> str:
         d = scenario.disturbance
         parts.append(f"disturbed by {number(d.V_p)} V and {number(d.V_y)} V from {number(d.time)} s on")
     return "; ".join(parts) + "."
-
-
-def _findings(report: Report) -> Iterator[str]:
-    if not report.findings:
-        yield paragraph("No warnings.")
-        return
-    items = "".join(f"<li><b>{escape(f.severity)}:</b> {escape(f.message)}</li>" for f in report.findings)
-    yield f"<ul>{items}</ul>"
 
 
 FORMAT = Format(

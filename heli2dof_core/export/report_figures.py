@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import floor, log10
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +14,6 @@ from ..figures import AXIS, MARGINS, MOTOR, RESPONSE, SENSITIVITY, STEP, AxisMet
 from ..metrics import NOT_SETTLED
 from ..scenario import Model
 from ..signals import AXES, INPUTS, OUTPUTS, Floats
-from .markup import paragraph, table
 
 DASH = "–"
 
@@ -111,8 +111,8 @@ ROWS = (
 """Rows of the page's table, in its order; the linear model's motors have no limits."""
 
 
-def merit(report: Report) -> Iterator[str]:
-    """The table of both steps, each by the rig and by the linear model, and the margins."""
+def merit(report: Report) -> tuple[list[str], list[tuple[str, ...]]]:
+    """Head and rows of the table of both steps, each by the rig and by the linear model."""
     trim, columns = report.design.plant.trim, []
     for axis, signal in zip(AXES, OUTPUTS, strict=True):
         both = report.axis_steps.get(signal.name)
@@ -124,19 +124,13 @@ def merit(report: Report) -> Iterator[str]:
                 (label, [DASH if step is None or own is None else row.text(step, own, trim) for row in ROWS])
             )
     rows = [(row.name, *(cells[i] for _, cells in columns)) for i, row in enumerate(ROWS)]
-    yield table(("", *(label for label, _ in columns)), rows)
-    yield paragraph(
-        "Each axis is stepped alone. Settling: within 2 % of the step. Peak voltages include the trim; “limit” is "
-        "the share of time at the voltage limit. Effort: ∫ (V − V_trim)² dt.",
-        "about",
-    )
-    yield from _margins(report)
+    return ["", *(label for label, _ in columns)], rows
 
 
-def _margins(report: Report) -> Iterator[str]:
+def margins(report: Report) -> dict[str, Any] | None:
+    """Rows of the margins' table, and the words on both motors at once; None where the loop has no margins."""
     if report.margins is None or report.sensitivity is None:
-        yield paragraph("The whole loop is unstable: it has no margins.")
-        return
+        return None
 
     def gain_and_phase(m: Margins) -> str:
         if m.gain_margin is None and m.phase_margin is None:
@@ -149,15 +143,15 @@ def _margins(report: Report) -> Iterator[str]:
         ("Gain · phase margin", *(gain_and_phase(m) for m in report.margins)),
         (delay.title, *(told(delay, m.delay_margin) for m in report.margins)),
     ]
-    yield table(("", "pitch motor", "yaw motor"), rows, "Margins at each motor, the other loop closed")
     s = report.sensitivity
     low, high = s.gain_range
     of = SENSITIVITY
     peak = told(of["peak"], s.peak)
     if s.peak >= 1.005:
         peak = f"{peak} at {told(of['peak_frequency'], s.peak_frequency)}"
-    yield paragraph(
+    both = (
         f"Both motors at once. {of['disk_margin'].title}: {told(of['disk_margin'], s.disk_margin)}: "
         f"× {told(of['gain_low'], low)} to {'∞' if high is None else told(of['gain_high'], high)}, "
         f"± {told(of['phase'], s.phase)}. {of['peak'].title}: {peak}."
     )
+    return {"rows": rows, "both": both}

@@ -9,6 +9,7 @@ from math import ceil, floor, log10
 
 import numpy as np
 
+from ..frozen import Frozen
 from ..signals import Floats
 
 WIDTH, HEIGHT = 340, 210
@@ -17,7 +18,7 @@ MOST_POINTS = 400
 
 
 @dataclass(frozen=True)
-class Curve:
+class Curve(Frozen):
     """One line: values over x, and the class that the style draws: `pitch`, `yaw` (`…-linear`) or `mark`."""
 
     x: Floats

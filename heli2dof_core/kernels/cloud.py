@@ -6,20 +6,20 @@ from math import nan
 
 from . import examples
 from .dormand_prince import integrate
-from .jit import entry_point, put
+from .jit import copy_into, entry_point
 from .layout import (
     GAIN,
     LIMIT,
     WORKSPACE,
 )
-from .rig import asked
+from .rig import commanded_voltage
 
 
 @entry_point(
     lambda: (
         examples.constants()[None, :GAIN].copy(),
         examples.zeros(6),
-        examples.times(),
+        examples.times().copy(),
         examples.constants(),
         examples.modes(),
         *examples.NUMBERS,
@@ -39,11 +39,11 @@ def run_cloud(rigs, start, t, c, m, rtol, atol, most_steps, w, y, own, modes, st
     becomes 1 where no motor met its limit at these times and pitch no stop. Scratch: `w`, `y` (6,),
     `own` and `modes` like c and m, `states` (len(t), 6).
     """
-    put(c, own)
+    copy_into(c, own)
     for i in range(len(rigs)):
-        put(rigs[i], own)
-        put(m, modes)
-        put(start, y)
+        copy_into(rigs[i], own)
+        copy_into(m, modes)
+        copy_into(start, y)
         _, done, _, _, impacts = integrate(y, t, own, modes, rtol, atol, most_steps, w, states)
         free = impacts == 0 and done == len(t)
         for k in range(len(t)):
@@ -52,6 +52,6 @@ def run_cloud(rigs, start, t, c, m, rtol, atol, most_steps, w, y, own, modes, st
                 continue
             angles[i, 0, k], angles[i, 1, k] = states[k, 0], states[k, 1]
             for motor in range(2):
-                if abs(asked(states[k], motor, own)) > own[LIMIT + motor]:
+                if abs(commanded_voltage(states[k], motor, own)) > own[LIMIT + motor]:
                     free = False
         within[i] = 1.0 if free else 0.0

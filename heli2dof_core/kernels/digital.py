@@ -11,11 +11,18 @@ from math import floor, inf
 import numpy as np
 
 from . import examples
-from .dormand_prince import ANGLES, travel
-from .exact import dwell
+from .dormand_prince import ANGLES, integrate_measured
+from .exact import slowest_period
 from .experiment import ROUNDING, SEEN
-from .figures import begin, conclude, confirm, doubtful, hold_voltage, keep
-from .jit import entry_point, kernel, put
+from .figures import (
+    confirm_settling,
+    copy_figures,
+    figures_of_merit,
+    settling_check_end,
+    start_figures,
+    update_held_motor,
+)
+from .jit import copy_into, entry_point, kernel
 from .layout import (
     BACK_CALCULATION,
     BEFORE,
@@ -57,7 +64,7 @@ from .layout import (
         examples.settings(),
         examples.poles(),
         examples.experiment(),
-        examples.zeros(3, 2),
+        examples.given(3, 2),
         inf,
         *examples.NUMBERS,
         examples.trim(),
@@ -84,17 +91,17 @@ def run_digital(
     `known`, as `layout` says. Scratch: `w` of zeros, `plant` and `free` like c and m, `grid` (len(t) + 2,), `course`
     (len(t) + 2, 6), `f`, twice FOLLOWED. What was not reached is held.
     """
-    without_controller(c, m, plant, free)
+    rig_without_feedback(c, m, plant, free)
     filters, measured, held, waiting = w[16:18], w[18], w[19], w[20]
-    stand(y, c, d, filters, held)
+    initialize_controller(y, c, d, filters, held)
     own, ahead, end, samples = f[:4], f[4:], t[-1], len(t)
     start, reference = (x[START], x[START + 1]), (x[REFERENCE], x[REFERENCE + 1])
-    begin(own, start, reference, rest, y[0], y[1], 0.0)
+    start_figures(own, start, reference, rest, y[0], y[1], 0.0)
     now, done, impacts, k, outcome, reached = t[0], 0, 0, 0, ENDED, end
     period, over, until, proven = d[TIME], False, end, True
     while done < samples or now < until:
-        sense(y, d, filters, noise[min(k, len(noise) - 1)], measured)
-        control(y, c, m, d, measured, w[23], waiting)
+        sample_sensors(y, d, filters, noise[min(k, len(noise) - 1)], measured)
+        sample_controller(y, c, m, d, measured, w[23], waiting)
         if d[DELAY] == 0.0:
             held[0], held[1] = waiting[0], waiting[1]
         following = t[0] + (k + 1) * period
@@ -105,14 +112,14 @@ def run_digital(
                 grid[count] = t[done + count - 1]
                 count += 1
             else:
-                put(y, states[done])
+                copy_into(y, states[done])
                 voltages[done, 0], voltages[done, 1] = held[0], held[1]
                 done += 1
         ends = not over and done + count - 1 == samples
         if ends and count == 1:  # with this very sample
             ends, over = False, True
-            keep(own, ahead)
-            until = doubtful(own, end, min(dwell(poles), end))
+            copy_figures(own, ahead)
+            until = settling_check_end(own, end, min(slowest_period(poles), end))
             if not until > end:
                 break
         plant[OFFSET], plant[OFFSET + 1] = held[0], held[1]
@@ -123,28 +130,28 @@ def run_digital(
         if not ends:
             grid[count] = following
             points += 1
-        found, filled, _, _, hits, here = travel(
+        found, filled, _, _, hits, here = integrate_measured(
             y, grid[:points], plant, free, rtol, atol, most_steps, w, course, ahead if over else own, ANGLES
         )
         y[4], y[5] = z0, z1
         for i in range(1, count):
             if i < filled:
-                put(course[i], states[done])
+                copy_into(course[i], states[done])
                 states[done, 4], states[done, 5] = z0, z1
                 voltages[done, 0], voltages[done, 1] = held[0], held[1]
                 done += 1
         if not over:
             impacts += hits
             for i in range(2):
-                hold_voltage(own[2 + i], held[i], c[LIMIT + i], here - now)
+                update_held_motor(own[2 + i], held[i], c[LIMIT + i], here - now)
         if ends and found == ENDED:
             over = True
-            keep(own, ahead)
-            until = doubtful(own, end, min(dwell(poles), end))
+            copy_figures(own, ahead)
+            until = settling_check_end(own, end, min(slowest_period(poles), end))
             if not until > end:
                 break
             grid[0], grid[1] = end, following
-            found, _, _, _, _, _ = travel(
+            found, _, _, _, _, _ = integrate_measured(
                 y, grid[:2], plant, free, rtol, atol, most_steps, w, course, ahead, ANGLES
             )
             y[4], y[5] = z0, z1
@@ -157,19 +164,19 @@ def run_digital(
         now = following
         k += 1
     if not over:
-        keep(own, ahead)
+        copy_figures(own, ahead)
     for k in range(done, samples):
-        put(states[done - 1], states[k])
+        copy_into(states[done - 1], states[k])
         voltages[k, 0], voltages[k, 1] = voltages[done - 1, 0], voltages[done - 1, 1]
-    confirm(own, ahead, proven)
+    confirm_settling(own, ahead, proven)
     known[HELD] = done if outcome == OUT_OF_BOUNDS else samples
     known[OUTCOME], known[IMPACTS], known[REACHED] = outcome, impacts, reached
     last, floor = states[samples - 1] if outcome == ENDED else y, min(max(ROUNDING, 10.0 * rtol), SEEN)
-    conclude(own, reference, last[0], last[1], reached, floor, axes, motors, known)
+    figures_of_merit(own, reference, last[0], last[1], reached, floor, axes, motors, known)
 
 
 @kernel
-def measure(angle, axis, d, noise):
+def encoder_reading(angle, axis, d, noise):
     """The angle as the encoder tells it, rad."""
     seen = angle + noise
     step = d[STEP + axis]
@@ -177,26 +184,26 @@ def measure(angle, axis, d, noise):
 
 
 @kernel
-def without_controller(c, m, plant, free):
+def rig_without_feedback(c, m, plant, free):
     """Constants and modes of the rig alone into `plant` and `free`: held voltages go into its offset."""
-    put(c, plant)
+    copy_into(c, plant)
     for j in range(12):
         plant[GAIN + j] = 0.0
     plant[LIMIT], plant[LIMIT + 1] = np.inf, np.inf
-    put(m, free)
+    copy_into(m, free)
     free[WINDUP] = 0
 
 
 @kernel
-def stand(y, c, d, filters, held):
+def initialize_controller(y, c, d, filters, held):
     """The rig before the first sample: within its travel, its filters settled, under the voltages d[BEFORE]."""
-    enter(y, c)
+    stop_at_travel(y, c)
     held[0], held[1] = d[BEFORE], d[BEFORE + 1]
-    settle_filters(y, d, filters)
+    initialize_filters(y, d, filters)
 
 
 @kernel
-def enter(y, c):
+def stop_at_travel(y, c):
     """Who starts beyond a stop of the pitch travel stands at it, as in `rig.meet_stop`."""
     if abs(y[0]) >= c[TRAVEL]:
         y[0] = c[TRAVEL] if y[0] > 0.0 else -c[TRAVEL]
@@ -204,12 +211,12 @@ def enter(y, c):
 
 
 @kernel
-def settle_filters(y, d, filters):
+def initialize_filters(y, d, filters):
     """The rate filters as if the rig had rested where it is."""
     if d[FILTERED] == 0.0:
         return
     for axis in range(2):
-        seen = measure(y[axis], axis, d, 0.0)
+        seen = encoder_reading(y[axis], axis, d, 0.0)
         # x = (I − F)⁻¹ b θ
         a, b = 1.0 - d[F], -d[F + 1]
         e, f = -d[F + 2], 1.0 - d[F + 3]
@@ -219,10 +226,10 @@ def settle_filters(y, d, filters):
 
 
 @kernel
-def sense(y, d, filters, noise, measured):
+def sample_sensors(y, d, filters, noise, measured):
     """Angles and rates as the controller knows them: θ, ψ, θ̇, ψ̇."""
     for axis in range(2):
-        seen = measure(y[axis], axis, d, noise[axis])
+        seen = encoder_reading(y[axis], axis, d, noise[axis])
         measured[axis] = seen
         if d[FILTERED] == 0.0:
             measured[2 + axis] = y[2 + axis]
@@ -234,7 +241,7 @@ def sense(y, d, filters, noise, measured):
 
 
 @kernel
-def control(y, c, m, d, measured, asked, out):
+def sample_controller(y, c, m, d, measured, asked, out):
     """Voltages as asked, and within their limits into `out`; the integrals y[4:6] go on by one sample (Euler)."""
     for motor in range(2):
         row = GAIN + 6 * motor

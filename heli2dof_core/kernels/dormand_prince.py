@@ -10,8 +10,8 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from . import examples
-from .figures import drive, follow, hold_voltage, reach
-from .jit import entry_point, kernel, put
+from .figures import level_crossing, update_axis, update_held_motor, update_motor
+from .jit import copy_into, entry_point, kernel
 from .layout import (
     DIVERGED,
     ENDED,
@@ -27,7 +27,7 @@ from .layout import (
     TRAVEL,
     WORKSPACE,
 )
-from .rig import meet_stop, rates, resolve, switch, watch
+from .rig import event_functions, meet_stop, saturation_modes, state_derivative, switch_mode
 
 MOST_SWITCHES = 2000
 NOTHING, ANGLES, EVERYTHING = 0, 1, 2
@@ -39,7 +39,7 @@ SHORTEST = 1e-9
 @entry_point(
     lambda: (
         examples.zeros(6),
-        examples.times(),
+        examples.times().copy(),
         examples.constants(),
         examples.modes(),
         *examples.NUMBERS,
@@ -48,12 +48,12 @@ SHORTEST = 1e-9
     )
 )
 def integrate(y, t, c, m, rtol, atol, most_steps, w, states):
-    """`travel` without figures: the outcome, the number of samples filled, of steps, of switches and of impacts."""
-    return travel(y, t, c, m, rtol, atol, most_steps, w, states, w, NOTHING)[:5]
+    """`integrate_measured` without figures: the outcome, and how many samples, steps, switches and impacts."""
+    return integrate_measured(y, t, c, m, rtol, atol, most_steps, w, states, w, NOTHING)[:5]
 
 
 @kernel
-def travel(y, t, c, m, rtol, atol, most_steps, w, states, f, figures):
+def integrate_measured(y, t, c, m, rtol, atol, most_steps, w, states, f, figures):
     """States at all t into `states`, (len(t), 6), from y at t[0]; y and m end where the course ends.
 
     `f`, laid out as `layout` says, follows the angles (ANGLES), or the voltages too (EVERYTHING). A course ends
@@ -63,46 +63,46 @@ def travel(y, t, c, m, rtol, atol, most_steps, w, states, f, figures):
     k, q, u, trial, probe, g = w[:8], w[8:13], w[21:23], w[13], w[14], w[15]
     switches = impacts = steps = 0
     now, end, samples = t[0], t[-1], len(t)
-    resolve(y, c, m)
+    saturation_modes(y, c, m)
     if abs(y[0]) >= c[TRAVEL]:
         meet_stop(y, c, m, k, g)
-    rates(y, c, m, k, 0)
-    h = first_step(y, k, end - now, rtol, atol)
-    put(y, states[0])
+    state_derivative(y, c, m, k, 0)
+    h = initial_step_size(y, k, end - now, rtol, atol)
+    copy_into(y, states[0])
     done = 1
     while done < samples:
         steps += 1
         h = min(h, end - now)
         if steps > most_steps or h < 1e-15 * end:
             return OUT_OF_STEPS, done, steps, switches, impacts, now
-        error = attempt(y, h, k, trial, c, m, rtol, atol)
+        error = dormand_prince_step(y, h, k, trial, c, m, rtol, atol)
         if not error <= 1.0:  # also rejects a state that is not finite
             h *= max(0.2, 0.9 * error**-0.2) if error < inf else 0.1
             continue
-        interpolant(y, h, k, trial, q)
+        dense_output(y, h, k, trial, q)
         which, share = -1, 1.0
-        if not quiet(q, c, m, u):
-            which, share = first_switch(q, c, m, k, g, probe)
+        if not no_event_possible(q, c, m, u):
+            which, share = first_event(q, c, m, k, g, probe)
         beyond = which < 0 and max(abs(trial[0]), abs(trial[1])) >= DIVERGED
         if beyond:
-            share = departure(q)
+            share = divergence_crossing(q)
         if figures != NOTHING:
             for i in range(2):
-                follow(f[i], q[0, i], q[1, i], q[2, i], q[3, i], q[4, i], now, h, share, True)
+                update_axis(f[i], q[0, i], q[1, i], q[2, i], q[3, i], q[4, i], now, h, share, True)
         if figures == EVERYTHING:
             for i in range(2):
                 b = f[2 + i]
                 if m[i] == INSIDE:
-                    drive(b, u[i, 0], u[i, 1], u[i, 2], u[i, 3], u[i, 4], h, share)
+                    update_motor(b, u[i, 0], u[i, 1], u[i, 2], u[i, 3], u[i, 4], h, share)
                 else:
-                    hold_voltage(b, m[SIDE + i] * c[LIMIT + i], c[LIMIT + i], share * h)
+                    update_held_motor(b, m[SIDE + i] * c[LIMIT + i], c[LIMIT + i], share * h)
         reached = now + share * h
         last = end - reached < 1e-12 * end
         while done < samples and (t[done] <= reached or last):
-            point(min((t[done] - now) / h, share), q, states[done])
+            interpolate(min((t[done] - now) / h, share), q, states[done])
             done += 1
         if beyond:
-            point(share, q, y)
+            interpolate(share, q, y)
             return OUT_OF_BOUNDS, done, steps, switches, impacts, reached
         if which < 0:
             for i in range(6):
@@ -111,20 +111,20 @@ def travel(y, t, c, m, rtol, atol, most_steps, w, states, f, figures):
             h *= 5.0 if error == 0.0 else min(5.0, 0.9 * error**-0.2)
         else:
             switches += 1
-            point(share, q, y)
+            interpolate(share, q, y)
             if switches > MOST_SWITCHES:
                 return OUT_OF_SWITCHES, done, steps, switches, impacts, reached
             if which == 4 and m[REST] == 0:
                 impacts += 1
-            switch(which, y, c, m, k, g)
-            rates(y, c, m, k, 0)
+            switch_mode(which, y, c, m, k, g)
+            state_derivative(y, c, m, k, 0)
             h *= max(1.0 - share, 1e-3)
         now = reached
     return ENDED, done, steps, switches, impacts, now
 
 
 @kernel
-def quiet(q, c, m, u):
+def no_event_possible(q, c, m, u):
     """Whether no mode can change within a step, by bounds on its polynomials; those of the voltages asked into u."""
     for motor in range(2):
         row = GAIN + 6 * motor
@@ -136,13 +136,16 @@ def quiet(q, c, m, u):
     if m[0] != INSIDE or m[1] != INSIDE or m[REST] != 0:
         return False
     for motor in range(2):
-        if bound(u[motor, 0], u[motor, 1], u[motor, 2], u[motor, 3], u[motor, 4]) > c[LIMIT + motor]:
+        if (
+            bernstein_bound(u[motor, 0], u[motor, 1], u[motor, 2], u[motor, 3], u[motor, 4])
+            > c[LIMIT + motor]
+        ):
             return False
-    return bound(q[0, 0], q[1, 0], q[2, 0], q[3, 0], q[4, 0]) <= c[TRAVEL]
+    return bernstein_bound(q[0, 0], q[1, 0], q[2, 0], q[3, 0], q[4, 0]) <= c[TRAVEL]
 
 
 @kernel
-def bound(p0, p1, p2, p3, p4):
+def bernstein_bound(p0, p1, p2, p3, p4):
     """The largest of a step's Bernstein ordinates: nothing on the step is larger."""
     b1, b3 = p0 + 0.25 * (p1 + p2), p0 + 0.75 * p1 + 0.25 * (p2 + p3)
     b2 = p0 + 0.5 * p1 + (p2 + 0.5 * (p3 + p4)) / 3.0
@@ -150,19 +153,19 @@ def bound(p0, p1, p2, p3, p4):
 
 
 @kernel
-def departure(q):
+def divergence_crossing(q):
     """The share of a step at which the first angle leaves ±DIVERGED."""
     share = 1.0
     for i in range(2):
         last = q[0, i] + q[1, i]
         if abs(last) >= DIVERGED:
             level = DIVERGED if last > 0.0 else -DIVERGED
-            share = min(share, reach(q[0, i], q[1, i], q[2, i], q[3, i], q[4, i], level, 0.0, 1.0))
+            share = min(share, level_crossing(q[0, i], q[1, i], q[2, i], q[3, i], q[4, i], level, 0.0, 1.0))
     return share
 
 
 @kernel
-def first_step(y, k, length, rtol, atol):
+def initial_step_size(y, k, length, rtol, atol):
     """A hundredth of the time in which the state would change by itself (Hairer, II.4), from `SHORTEST` on.
 
     That time is no measure where the state is 0 but for rounding.
@@ -177,29 +180,29 @@ def first_step(y, k, length, rtol, atol):
 
 
 @kernel
-def attempt(y, h, k, trial, c, m, rtol, atol):
+def dormand_prince_step(y, h, k, trial, c, m, rtol, atol):
     """One step of size h from y into `trial`; its estimated error, accepted up to 1."""
     for i in range(6):
         trial[i] = y[i] + h * (k[0, i] / 5)
-    rates(trial, c, m, k, 1)
+    state_derivative(trial, c, m, k, 1)
     for i in range(6):
         trial[i] = y[i] + h * (3 / 40 * k[0, i] + 9 / 40 * k[1, i])
-    rates(trial, c, m, k, 2)
+    state_derivative(trial, c, m, k, 2)
     for i in range(6):
         trial[i] = y[i] + h * (44 / 45 * k[0, i] - 56 / 15 * k[1, i] + 32 / 9 * k[2, i])
-    rates(trial, c, m, k, 3)
+    state_derivative(trial, c, m, k, 3)
     for i in range(6):
         slope = 19372 / 6561 * k[0, i] - 25360 / 2187 * k[1, i] + 64448 / 6561 * k[2, i]
         trial[i] = y[i] + h * (slope - 212 / 729 * k[3, i])
-    rates(trial, c, m, k, 4)
+    state_derivative(trial, c, m, k, 4)
     for i in range(6):
         slope = 9017 / 3168 * k[0, i] - 355 / 33 * k[1, i] + 46732 / 5247 * k[2, i]
         trial[i] = y[i] + h * (slope + 49 / 176 * k[3, i] - 5103 / 18656 * k[4, i])
-    rates(trial, c, m, k, 5)
+    state_derivative(trial, c, m, k, 5)
     for i in range(6):
         slope = 35 / 384 * k[0, i] + 500 / 1113 * k[2, i] + 125 / 192 * k[3, i]
         trial[i] = y[i] + h * (slope - 2187 / 6784 * k[4, i] + 11 / 84 * k[5, i])
-    rates(trial, c, m, k, 6)
+    state_derivative(trial, c, m, k, 6)
     total = 0.0
     for i in range(6):
         d = 71 / 57600 * k[0, i] - 71 / 16695 * k[2, i] + 71 / 1920 * k[3, i]
@@ -209,7 +212,7 @@ def attempt(y, h, k, trial, c, m, rtol, atol):
 
 
 @kernel
-def interpolant(y, h, k, trial, q):
+def dense_output(y, h, k, trial, q):
     """Coefficients of the step's continuous output into q, 5×6."""
     for i in range(6):
         change = trial[i] - y[i]
@@ -222,7 +225,7 @@ def interpolant(y, h, k, trial, q):
 
 
 @kernel
-def point(x, q, out):
+def interpolate(x, q, out):
     """The state at the share x of a step."""
     z = 1.0 - x
     for i in range(6):
@@ -230,23 +233,23 @@ def point(x, q, out):
 
 
 @kernel
-def first_switch(q, c, m, k, g, probe):
-    """Which function of `watch` turns negative first, and at which share of the step; −1 if none.
+def first_event(q, c, m, k, g, probe):
+    """Which function of `event_functions` turns negative first, and at which share of the step; −1 if none.
 
     Looked for at the middle and at the end of the step, then bisected to the last digit.
     """
     low = 0.0
     for half in range(1, 3):
         high = 0.5 * half
-        point(high, q, probe)
-        which = watch(probe, c, m, k, g)
+        interpolate(high, q, probe)
+        which = event_functions(probe, c, m, k, g)
         if which >= 0:
             while high - low > 1e-15:
                 middle = 0.5 * (low + high)
                 if middle <= low or middle >= high:
                     break
-                point(middle, q, probe)
-                found = watch(probe, c, m, k, g)
+                interpolate(middle, q, probe)
+                found = event_functions(probe, c, m, k, g)
                 if found >= 0:
                     high, which = middle, found
                 else:

@@ -12,7 +12,15 @@ from math import ceil, inf, pi
 
 import numpy as np
 
-from .figures import decides, drive, follow, largest, reach, value, widen
+from .figures import (
+    level_crossing,
+    may_cross_level,
+    quartic,
+    quartic_peak,
+    update_axis,
+    update_extrema,
+    update_motor,
+)
 from .jit import kernel
 from .layout import (
     AREA,
@@ -29,7 +37,7 @@ from .layout import (
     PEAK_VOLTAGE,
     STEPPED,
 )
-from .linear import combine, extend, halvings, multiply, series
+from .linear import exponential_series, matrix_product, next_samples, row_times_samples, squarings_needed
 
 SPACING = 0.2
 """Of two nodes, in 1/|λ| of the fastest pole that matters: the polynomial is off by 3e-8 of that pole's share."""
@@ -53,7 +61,7 @@ MOMENTS = WHOLE * np.arange(GROUP + 1)
 
 
 @kernel
-def fastest(poles, t):
+def fastest_pole(poles, t):
     """The largest |λ| of the poles that still matter at t, rad/s."""
     found = 0.0
     for p in poles:
@@ -63,7 +71,7 @@ def fastest(poles, t):
 
 
 @kernel
-def dwell(poles):
+def slowest_period(poles):
     """A period of the slowest pole, s: how long an axis must stay within its band to count as settled."""
     size, slowest = 0.0, inf
     for p in poles:
@@ -75,7 +83,7 @@ def dwell(poles):
 
 
 @kernel
-def proof(poles):
+def settling_horizon(poles):
     """How long a linear course must stay within the band, s: until every pole has had its say; inf where one grows.
 
     Six time constants of each pole, or ten periods where it hardly decays.
@@ -93,7 +101,7 @@ def proof(poles):
 
 
 @kernel
-def march(M, outputs, slopes, poles, t, length, theta_0, most, f, ladder, nodes, w):
+def propagate_measured(M, outputs, slopes, poles, t, length, theta_0, most, f, ladder, nodes, w):
     """Follows the course from the state in the first column of `nodes` at t for a time `length`.
 
     `outputs` and `slopes`, (2, 7): voltages and their rates by state. The state at the end is left in the first
@@ -101,20 +109,21 @@ def march(M, outputs, slopes, poles, t, length, theta_0, most, f, ladder, nodes,
     outcome and the time reached. Scratch: `ladder`, LADDER, and `w`, (42, 7).
     """
     end = t + length
-    wanted = length * fastest(poles, t) / SPACING  # intervals at this spacing: `parts` times a power of 2
+    # intervals at this spacing: `parts` times a power of 2
+    wanted = length * fastest_pole(poles, t) / SPACING
     level = 3
     while wanted > 8.0 * 2.0**level:
         level += 1
     parts = max(ceil(wanted / 2.0**level), 1)
     spacing = length / (parts * 2.0**level)
-    deepest = max(halvings(M, length / parts), level + 1)
+    deepest = max(squarings_needed(M, length / parts), level + 1)
     at = deepest - level  # the place of the spacing's matrix in the ladder
     if level > 55 or deepest + 10 > len(ladder):
         return OUT_OF_STEPS, t
-    series(M, length / parts * 0.5**deepest, ladder[0], w)
+    exponential_series(M, length / parts * 0.5**deepest, ladder[0], w)
     built, left, groups = 1, parts * 2**level, 0
     while left > 0:
-        limit = fastest(poles, t) / SPACING
+        limit = fastest_pole(poles, t) / SPACING
         while left % (2 * GROUP) == 0 and 2.0 * spacing * limit <= 1.0:
             spacing *= 2.0
             left //= 2
@@ -128,21 +137,23 @@ def march(M, outputs, slopes, poles, t, length, theta_0, most, f, ladder, nodes,
         done, power = 1, at
         while done <= count:
             while built <= power:
-                multiply(ladder[built - 1], ladder[built - 1], ladder[built])
+                matrix_product(ladder[built - 1], ladder[built - 1], ladder[built])
                 built += 1
             more = min(done, count + 1 - done)
-            extend(ladder[power], nodes, done, more)
+            next_samples(ladder[power], nodes, done, more)
             done += more
             power += 1
         for i in range(2):
-            combine(outputs[i], nodes, count + 1, nodes[AUGMENTED + i], 0)
-        good = bounded(nodes, theta_0, count)
+            row_times_samples(outputs[i], nodes, count + 1, nodes[AUGMENTED + i], 0)
+        good = intervals_in_bounds(nodes, theta_0, count)
         for i in range(2):
-            scan(f[i], nodes, i, good, t, spacing, ladder[at - 1], theta_0 if i == 0 else 0.0)
-            strain(f[2 + i], nodes, i, good, spacing, ladder[at - 1], outputs, slopes)
+            measure_axis(f[i], nodes, i, good, t, spacing, ladder[at - 1], theta_0 if i == 0 else 0.0)
+            measure_motor(f[2 + i], nodes, i, good, spacing, ladder[at - 1], outputs, slopes)
         if good < count:
             t += good * spacing
-            return OUT_OF_BOUNDS, leave(f, nodes, good, t, spacing, ladder[at - 1], theta_0, outputs, slopes)
+            return OUT_OF_BOUNDS, measure_to_divergence(
+                f, nodes, good, t, spacing, ladder[at - 1], theta_0, outputs, slopes
+            )
         left -= count
         t = end - left * spacing
         for i in range(AUGMENTED):
@@ -151,7 +162,7 @@ def march(M, outputs, slopes, poles, t, length, theta_0, most, f, ladder, nodes,
 
 
 @kernel
-def bounded(nodes, theta_0, count):
+def intervals_in_bounds(nodes, theta_0, count):
     """How many intervals begin and end within ±DIVERGED."""
     for k in range(1, count + 1):
         good = abs(nodes[0, k] + theta_0) < DIVERGED and abs(nodes[1, k]) < DIVERGED
@@ -161,7 +172,7 @@ def bounded(nodes, theta_0, count):
 
 
 @kernel
-def middle(row, nodes, k):
+def midpoint_state(row, nodes, k):
     """An entry of the state half an interval after node k, by the matrix' row."""
     total = row[AUGMENTED - 1]
     for i in range(AUGMENTED - 1):
@@ -170,7 +181,7 @@ def middle(row, nodes, k):
 
 
 @kernel
-def piece(y, y1, rate, rate1, half):
+def quartic_between(y, y1, rate, rate1, half):
     """Coefficients p₁ … p₄ of the polynomial between two nodes, of rates times the spacing, and the value halfway."""
     change = y1 - y
     bend = rate - change
@@ -179,7 +190,7 @@ def piece(y, y1, rate, rate1, half):
 
 
 @kernel
-def scan(a, nodes, axis, count, t, d, half, base):
+def measure_axis(a, nodes, axis, count, t, d, half, base):
     """One axis, a row of f, along `count` intervals of length d; its angle is `base` above the state."""
     y, slope = nodes[axis], nodes[2 + axis]
     start, by, stepped = a[FROM] - base, a[BY], a[STEPPED] != 0.0
@@ -194,23 +205,29 @@ def scan(a, nodes, axis, count, t, d, half, base):
             moment += MOMENTS[j] * y[first + j]
         before, after = (y[first] - start) * by, (y[first + GROUP] - start) * by
         crosses = stepped and (before - 1.0) * (after - 1.0) <= 0.0
-        if (rose and fell) or crosses or (stepped and decides(a, min(before, after), max(before, after))):
-            crosses = inspect(a, y, slope, first, first + GROUP, t, d, half[axis], nodes, base, False)
+        if (
+            (rose and fell)
+            or crosses
+            or (stepped and may_cross_level(a, min(before, after), max(before, after)))
+        ):
+            crosses = measure_axis_by_interval(
+                a, y, slope, first, first + GROUP, t, d, half[axis], nodes, base, False
+            )
         else:
-            widen(a, after, t + (first + GROUP) * d)
+            update_extrema(a, after, t + (first + GROUP) * d)
         if crosses:
-            gather(a, y, first, t, d, start, by)
+            error_integrals_by_interval(a, y, first, t, d, start, by)
         elif stepped:  # ∫ (1 − share) dt, and with t, in the group's own time
             area = GROUP - by * (area - GROUP * start)
             moment = 0.5 * GROUP * GROUP - by * (moment - 0.5 * GROUP * GROUP * start)
             a[AREA] += d * abs(area)
             a[MOMENT] += d * abs((t + first * d) * area + d * moment)
     if full < count:
-        inspect(a, y, slope, full, count, t, d, half[axis], nodes, base, True)
+        measure_axis_by_interval(a, y, slope, full, count, t, d, half[axis], nodes, base, True)
 
 
 @kernel
-def inspect(a, y, slope, first, last, t, d, half, nodes, base, integrals):
+def measure_axis_by_interval(a, y, slope, first, last, t, d, half, nodes, base, integrals):
     """The same from node to node, events located; whether the error changes its sign, whose integrals are done then.
 
     `half` is the matrix' row that leads to the middle of an interval.
@@ -221,18 +238,25 @@ def inspect(a, y, slope, first, last, t, d, half, nodes, base, integrals):
         after = (y[k + 1] - start) * by
         crossing = stepped and (share - 1.0) * (after - 1.0) < 0.0
         turns = slope[k] * slope[k + 1] < 0.0
-        if integrals or crossing or turns or (stepped and decides(a, min(share, after), max(share, after))):
-            p1, p2, p3, p4 = piece(y[k], y[k + 1], d * slope[k], d * slope[k + 1], middle(half, nodes, k))
-            follow(a, y[k] + base, p1, p2, p3, p4, t + k * d, d, 1.0, crossing or integrals)
+        if (
+            integrals
+            or crossing
+            or turns
+            or (stepped and may_cross_level(a, min(share, after), max(share, after)))
+        ):
+            p1, p2, p3, p4 = quartic_between(
+                y[k], y[k + 1], d * slope[k], d * slope[k + 1], midpoint_state(half, nodes, k)
+            )
+            update_axis(a, y[k] + base, p1, p2, p3, p4, t + k * d, d, 1.0, crossing or integrals)
             crosses = crosses or crossing
         else:
-            widen(a, after, t + (k + 1) * d)
+            update_extrema(a, after, t + (k + 1) * d)
         share = after
     return crosses
 
 
 @kernel
-def gather(a, y, first, t, d, start, by):
+def error_integrals_by_interval(a, y, first, t, d, start, by):
     """∫ |1 − share| dt, also weighted with t, over the intervals of a group on which the error keeps its sign."""
     for k in range(GROUP):
         if ((y[first + k] - start) * by - 1.0) * ((y[first + k + 1] - start) * by - 1.0) < 0.0:
@@ -247,7 +271,7 @@ def gather(a, y, first, t, d, start, by):
 
 
 @kernel
-def strain(b, nodes, motor, count, d, half, outputs, slopes):
+def measure_motor(b, nodes, motor, count, d, half, outputs, slopes):
     """One motor, a row of f, along `count` intervals of length d; at rest its voltage is 0."""
     u = nodes[AUGMENTED + motor]
     highest, total, full = max(b[PEAK_VOLTAGE], abs(u[0])), 0.0, count - count % GROUP
@@ -260,31 +284,31 @@ def strain(b, nodes, motor, count, d, half, outputs, slopes):
         if 0 < k < count and (u[k] - u[k - 1]) * (u[k + 1] - u[k]) > 0.0:
             continue
         for j in range(max(k - 1, 0), min(k + 1, count)):
-            p1, p2, p3, p4 = voltage_piece(outputs[motor], slopes[motor], half, nodes, u, j, d)
-            peak = max(peak, largest(u[j], p1, p2, p3, p4, 1.0))
+            p1, p2, p3, p4 = voltage_quartic(outputs[motor], slopes[motor], half, nodes, u, j, d)
+            peak = max(peak, quartic_peak(u[j], p1, p2, p3, p4, 1.0))
     for first in range(0, full, GROUP):
         for j in range(GROUP + 1):
             total += WHOLE[j] * u[first + j] * u[first + j]
     b[PEAK_VOLTAGE] = peak
     b[EFFORT] += d * total
     for k in range(full, count):
-        p1, p2, p3, p4 = voltage_piece(outputs[motor], slopes[motor], half, nodes, u, k, d)
-        drive(b, u[k], p1, p2, p3, p4, d, 1.0)
+        p1, p2, p3, p4 = voltage_quartic(outputs[motor], slopes[motor], half, nodes, u, k, d)
+        update_motor(b, u[k], p1, p2, p3, p4, d, 1.0)
 
 
 @kernel
-def voltage_piece(output, slope, half, nodes, u, k, d):
-    """`piece` of a voltage between the nodes k and k + 1, by the rows that make it and its rate of the state."""
+def voltage_quartic(output, slope, half, nodes, u, k, d):
+    """The same of a voltage between the nodes k and k + 1, by the rows that make it and its rate of the state."""
     between, first, last = output[AUGMENTED - 1], slope[AUGMENTED - 1], slope[AUGMENTED - 1]
     for i in range(AUGMENTED - 1):
-        between += output[i] * middle(half[i], nodes, k)
+        between += output[i] * midpoint_state(half[i], nodes, k)
         first += slope[i] * nodes[i, k]
         last += slope[i] * nodes[i, k + 1]
-    return piece(u[k], u[k + 1], d * first, d * last, between)
+    return quartic_between(u[k], u[k + 1], d * first, d * last, between)
 
 
 @kernel
-def leave(f, nodes, k, t, d, half, theta_0, outputs, slopes):
+def measure_to_divergence(f, nodes, k, t, d, half, theta_0, outputs, slopes):
     """The last interval of a course, on which an angle leaves ±DIVERGED; until when.
 
     Where the angles are then stands in the first column.
@@ -298,21 +322,25 @@ def leave(f, nodes, k, t, d, half, theta_0, outputs, slopes):
         base = theta_0 if i == 0 else 0.0
         y, slope = nodes[i], nodes[2 + i]
         if abs(y[k + 1] + base) >= DIVERGED:
-            p1, p2, p3, p4 = piece(y[k], y[k + 1], d * slope[k], d * slope[k + 1], middle(half[i], nodes, k))
+            p1, p2, p3, p4 = quartic_between(
+                y[k], y[k + 1], d * slope[k], d * slope[k + 1], midpoint_state(half[i], nodes, k)
+            )
             level = DIVERGED if y[k + 1] > 0.0 else -DIVERGED
-            x = min(x, reach(y[k] + base, p1, p2, p3, p4, level, 0.0, 1.0))
+            x = min(x, level_crossing(y[k] + base, p1, p2, p3, p4, level, 0.0, 1.0))
     pitch = yaw = 0.0
     for i in range(2):
         base = theta_0 if i == 0 else 0.0
         y, slope = nodes[i], nodes[2 + i]
-        p1, p2, p3, p4 = piece(y[k], y[k + 1], d * slope[k], d * slope[k + 1], middle(half[i], nodes, k))
-        follow(f[i], y[k] + base, p1, p2, p3, p4, t, d, x, True)
+        p1, p2, p3, p4 = quartic_between(
+            y[k], y[k + 1], d * slope[k], d * slope[k + 1], midpoint_state(half[i], nodes, k)
+        )
+        update_axis(f[i], y[k] + base, p1, p2, p3, p4, t, d, x, True)
         if i == 0:
-            pitch = value(y[k], p1, p2, p3, p4, x)
+            pitch = quartic(y[k], p1, p2, p3, p4, x)
         else:
-            yaw = value(y[k], p1, p2, p3, p4, x)
+            yaw = quartic(y[k], p1, p2, p3, p4, x)
         u = nodes[AUGMENTED + i]
-        p1, p2, p3, p4 = voltage_piece(outputs[i], slopes[i], half, nodes, u, k, d)
-        drive(f[2 + i], u[k], p1, p2, p3, p4, d, x)
+        p1, p2, p3, p4 = voltage_quartic(outputs[i], slopes[i], half, nodes, u, k, d)
+        update_motor(f[2 + i], u[k], p1, p2, p3, p4, d, x)
     nodes[0, 0], nodes[1, 0] = pitch, yaw
     return t + d * x

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..figures import AXIS_METRICS
+from ..frozen import frozen
 from ..signals import Floats, fixed
 from .layout import (
     ALPHA,
@@ -37,13 +38,18 @@ NUMBERS = (1e-3, 1e-3, 10)
 
 
 def zeros(*shape: int) -> Floats:
-    """An array that a kernel reads or fills."""
+    """An array that a kernel fills, or its caller's own."""
     return np.zeros(shape)
 
 
+def given(*shape: int) -> Floats:
+    """An array of a result, which nobody may change; a writable one is taken in its place."""
+    return fixed(np.zeros(shape))
+
+
 def times() -> Floats:
-    """Two samples."""
-    return np.array([0.0, 1e-3])
+    """Two samples, which nobody may change."""
+    return fixed([0.0, 1e-3])
 
 
 def constants() -> Floats:
@@ -81,8 +87,8 @@ def experiment() -> Floats:
 
 
 def poles() -> Any:
-    """Of the linear loop."""
-    return np.array([-1 + 0j])
+    """Of the linear loop, which nobody may change."""
+    return frozen(np.array([-1 + 0j]))
 
 
 def search() -> tuple[Floats, Floats, Floats]:
@@ -108,5 +114,5 @@ def settings() -> Floats:
 
 
 def bounds() -> Any:
-    """One segment of two samples."""
-    return np.array([[0, 2]])
+    """One segment of two samples, which nobody may change."""
+    return frozen(np.array([[0, 2]]))

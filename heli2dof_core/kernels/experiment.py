@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import inf
 
 from . import examples
-from .dormand_prince import EVERYTHING, travel
-from .exact import dwell, march, proof
-from .figures import begin, conclude, confirm, doubtful, keep
-from .jit import entry_point, kernel, put
+from .dormand_prince import EVERYTHING, integrate_measured
+from .exact import propagate_measured, settling_horizon, slowest_period
+from .figures import confirm_settling, copy_figures, figures_of_merit, settling_check_end, start_figures
+from .jit import copy_into, entry_point, kernel
 from .layout import (
     AUGMENTED,
     DISTURBANCE,
@@ -25,9 +25,9 @@ from .layout import (
     TRAVEL,
     WORKSPACE,
 )
-from .linear import respond
-from .loop import augment, compose
-from .measures import hold, trajectories
+from .linear import exact_response
+from .loop import augmented_system, nonlinear_loop
+from .measures import hold_after_divergence, trajectories
 
 ROUNDING = 1e-6
 """An overshoot of the exact response below this share of the step is none: with poles at −10⁵, it may be rounding."""
@@ -38,10 +38,10 @@ SEEN = 1e-4
 @entry_point(
     lambda: (
         0.0,
-        examples.zeros(2, 6),
-        examples.zeros(2, 2),
-        examples.zeros(6, 6),
-        examples.zeros(6, 2),
+        examples.given(2, 6),
+        examples.given(2, 2),
+        examples.given(6, 6),
+        examples.given(6, 2),
         examples.poles(),
         examples.experiment(),
         examples.times(),
@@ -65,7 +65,7 @@ def run_linear(
     """
     n = AUGMENTED
     M, outputs, slopes, scratch = w[:n], w[n : n + 2], w[n + 2 : n + 4], w[n + 4 :]
-    augment(theta_0, law, by_reference, whole, driven, x, M, outputs, states)
+    augmented_system(theta_0, law, by_reference, whole, driven, x, M, outputs, states)
     for i in range(n):
         nodes[i, 0] = states[i, 0]
         for j in range(2):
@@ -73,22 +73,22 @@ def run_linear(
             for k in range(n):
                 total += outputs[j, k] * M[k, i]
             slopes[j, i] = total
-    respond(M, t[1], outputs, scratch, states, voltages)
+    exact_response(M, t[1], outputs, scratch, states, voltages)
     for k in range(len(t)):
         states[0, k] += theta_0
     own, ahead, end = f[:4], f[4:], t[-1]
     start, reference = (x[START], x[START + 1]), (x[REFERENCE], x[REFERENCE + 1])
-    begin(own, start, reference, rest, x[START], x[START + 1], 0.0)
-    outcome, reached = march(
+    start_figures(own, start, reference, rest, x[START], x[START + 1], 0.0)
+    outcome, reached = propagate_measured(
         M, outputs, slopes, poles, 0.0, end, theta_0, most_steps, own, ladder, nodes, scratch
     )
     proven, pitch, yaw = outcome == ENDED, nodes[0, 0] + theta_0, nodes[1, 0]
-    until = doubtful(own, end, proof(poles))
-    keep(own, ahead)
+    until = settling_check_end(own, end, settling_horizon(poles))
+    copy_figures(own, ahead)
     if proven and until > end:
         proven = False
         if until < inf:
-            found, _ = march(
+            found, _ = propagate_measured(
                 M,
                 outputs,
                 slopes,
@@ -103,10 +103,10 @@ def run_linear(
                 scratch,
             )
             proven = found == ENDED
-    confirm(own, ahead, proven)
-    course[HELD] = len(t) if outcome == ENDED else hold(states, voltages, DIVERGED)
+    confirm_settling(own, ahead, proven)
+    course[HELD] = len(t) if outcome == ENDED else hold_after_divergence(states, voltages, DIVERGED)
     course[OUTCOME], course[IMPACTS], course[REACHED] = outcome, 0, reached
-    conclude(own, reference, pitch, yaw, reached, ROUNDING, axes, motors, course)
+    figures_of_merit(own, reference, pitch, yaw, reached, ROUNDING, axes, motors, course)
 
 
 @entry_point(
@@ -140,7 +140,7 @@ def run_nonlinear(
     for i in range(6):
         y[i] = x[START + i] if i < 4 else 0.0
     start, reference = (x[START], x[START + 1]), (x[REFERENCE], x[REFERENCE + 1])
-    begin(own, start, reference, rest, min(max(y[0], -c[TRAVEL]), c[TRAVEL]), y[1], 0.0)
+    start_figures(own, start, reference, rest, min(max(y[0], -c[TRAVEL]), c[TRAVEL]), y[1], 0.0)
     volts = (c[DISTURBANCE], c[DISTURBANCE + 1])
     before, outcome, done, impacts, reached = 0, ENDED, 0, 0, 0.0
     while before < samples and t[before] < since:
@@ -151,7 +151,7 @@ def run_nonlinear(
             grid[k] = t[k]
         grid[before] = since
         count = before + 1 if before < samples else before
-        outcome, done, _, _, impacts, reached = travel(
+        outcome, done, _, _, impacts, reached = integrate_measured(
             y, grid[:count], c, m, rtol, atol, most_steps, w, raw[:count], own, EVERYTHING
         )
         done = min(done, before)
@@ -161,41 +161,45 @@ def run_nonlinear(
         count = samples - before + 1
         for k in range(before, samples):
             grid[k - before + 1] = t[k]
-        outcome, more, _, _, hits, reached = travel(
+        outcome, more, _, _, hits, reached = integrate_measured(
             y, grid[:count], c, m, rtol, atol, most_steps, w, raw[before:], own, EVERYTHING
         )
         impacts += hits
         for k in range(before, before + more - 1):
-            put(raw[k + 1], raw[k])
+            copy_into(raw[k + 1], raw[k])
         done = before + more - 1
     trajectories(raw, done, c, states, voltages)
     pitch, yaw = y[0], y[1]
-    turn = min(dwell(poles), end)
-    settle(own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, most_steps, w, raw[:2], grid[:2])
+    turn = min(slowest_period(poles), end)
+    check_settling(
+        own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, most_steps, w, raw[:2], grid[:2]
+    )
     course[HELD] = done if outcome == OUT_OF_BOUNDS else samples
     course[OUTCOME], course[IMPACTS], course[REACHED] = outcome, impacts, reached
     floor = min(max(ROUNDING, 10.0 * rtol), SEEN)
-    conclude(own, reference, pitch, yaw, reached, floor, axes, motors, course)
+    figures_of_merit(own, reference, pitch, yaw, reached, floor, axes, motors, course)
 
 
 @kernel
-def settle(own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, most_steps, w, raw, grid):
+def check_settling(own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, most_steps, w, raw, grid):
     """Looks beyond the end, until an axis has been within its settling band for a time `turn`.
 
     The disturbance within c sets in at `since` there, too.
     """
-    proven, until = outcome == ENDED, doubtful(own, end, turn)
+    proven, until = outcome == ENDED, settling_check_end(own, end, turn)
     volts, now = (c[DISTURBANCE], c[DISTURBANCE + 1]), end
-    keep(own, ahead)
+    copy_figures(own, ahead)
     for disturbed in range(2):
         to = until if disturbed == 1 else min(max(since, end), until)
         if proven and to > now:
             c[DISTURBANCE], c[DISTURBANCE + 1] = disturbed * volts[0], disturbed * volts[1]
             grid[0], grid[1] = now, to
-            found, _, _, _, _, _ = travel(y, grid, c, m, rtol, atol, most_steps, w, raw, ahead, EVERYTHING)
+            found, _, _, _, _, _ = integrate_measured(
+                y, grid, c, m, rtol, atol, most_steps, w, raw, ahead, EVERYTHING
+            )
             proven, now = found == ENDED, to
     c[DISTURBANCE], c[DISTURBANCE + 1] = volts[0], volts[1]
-    confirm(own, ahead, proven)
+    confirm_settling(own, ahead, proven)
 
 
 @entry_point(
@@ -203,11 +207,11 @@ def settle(own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, most_step
         examples.rig(),
         examples.trim(),
         0.0,
-        examples.zeros(2, 6),
-        examples.zeros(2, 2),
-        examples.zeros(2, 2),
-        examples.zeros(6, 6),
-        examples.zeros(6, 2),
+        examples.given(2, 6),
+        examples.given(2, 2),
+        examples.given(2, 2),
+        examples.given(6, 6),
+        examples.given(6, 2),
         examples.poles(),
         examples.experiment()[None],
         examples.times(),
@@ -242,7 +246,7 @@ def run_experiments(
             theta_0, law, by_reference, whole, driven, poles, x, t, most_steps, zeros, v, ladder, nodes, f,
             linear[n], voltages[n, 0], axes[n, 0], motors[n, 0], courses[n, 0],
         )  # fmt: skip
-        compose(rig, trim, theta_0, law, by_reference, integral, x, c, m)
+        nonlinear_loop(rig, trim, theta_0, law, by_reference, integral, x, c, m)
         c[DISTURBANCE] = c[DISTURBANCE + 1] = 0.0
         run_nonlinear(
             c, m, poles, x, t, inf, rtol, atol, most_steps, trim, w, raw, grid, f,

@@ -44,7 +44,7 @@ FOUND = 1e-12
 
 
 @kernel
-def begin(f, start, reference, rest, pitch, yaw, t):
+def start_figures(f, start, reference, rest, pitch, yaw, t):
     """Nothing is known yet of a course that is at these angles at t; `start` is what its steps count from."""
     for i in range(2):
         a, step = f[i], reference[i] - start[i]
@@ -62,28 +62,28 @@ def begin(f, start, reference, rest, pitch, yaw, t):
 
 
 @kernel
-def value(p0, p1, p2, p3, p4, x):
+def quartic(p0, p1, p2, p3, p4, x):
     """The piece at x."""
     z = 1.0 - x
     return p0 + x * (p1 + z * (p2 + x * (p3 + z * p4)))
 
 
 @kernel
-def rate(p1, p2, p3, p4, x):
+def quartic_slope(p1, p2, p3, p4, x):
     """Its derivative by x."""
     return p1 + p2 + x * (2.0 * (p3 + p4 - p2) - x * (3.0 * (p3 + 2.0 * p4) - 4.0 * x * p4))
 
 
 @kernel
-def reach(p0, p1, p2, p3, p4, level, low, high):
+def level_crossing(p0, p1, p2, p3, p4, level, low, high):
     """Where a piece that is monotone between low and high has the value: Newton's method, bisecting if it leaves."""
-    first, last = value(p0, p1, p2, p3, p4, low), value(p0, p1, p2, p3, p4, high)
+    first, last = quartic(p0, p1, p2, p3, p4, low), quartic(p0, p1, p2, p3, p4, high)
     if first == last:
         return low
     rising = last > first
     x = low + (high - low) * min(max((level - first) / (last - first), 0.0), 1.0)
     for _ in range(100):
-        off, slope = value(p0, p1, p2, p3, p4, x) - level, rate(p1, p2, p3, p4, x)
+        off, slope = quartic(p0, p1, p2, p3, p4, x) - level, quartic_slope(p1, p2, p3, p4, x)
         if (off > 0.0) == rising:
             high = x
         else:
@@ -98,10 +98,10 @@ def reach(p0, p1, p2, p3, p4, level, low, high):
 
 
 @kernel
-def turn(p1, p2, p3, p4, low, high):
+def turning_point(p1, p2, p3, p4, low, high):
     """The first x between low and high where the piece turns back; high if there is none.
 
-    Between the zeros of its second derivative the first one is monotone: Newton's method there, as in `reach`.
+    Between the zeros of its second derivative the first one is monotone: Newton's method, as in `level_crossing`.
     """
     a, b, c = 6.0 * p4, -3.0 * (p3 + 2.0 * p4), p3 + p4 - p2
     one = other = high
@@ -114,14 +114,14 @@ def turn(p1, p2, p3, p4, low, high):
             other = c / q
         if one > other:
             one, other = other, one
-    left, before = low, rate(p1, p2, p3, p4, low)
+    left, before = low, quartic_slope(p1, p2, p3, p4, low)
     for part in range(3):
         right = min(max(one if part == 0 else other if part == 1 else high, low), high)
-        after = rate(p1, p2, p3, p4, right)
+        after = quartic_slope(p1, p2, p3, p4, right)
         if before * after < 0.0:
             x = left + (right - left) * before / (before - after)
             for _ in range(100):
-                here, bend = rate(p1, p2, p3, p4, x), 2.0 * (c + x * (b + x * a))
+                here, bend = quartic_slope(p1, p2, p3, p4, x), 2.0 * (c + x * (b + x * a))
                 if here * before > 0.0:
                     left = x
                 else:
@@ -138,7 +138,7 @@ def turn(p1, p2, p3, p4, low, high):
 
 
 @kernel
-def follow(a, p0, p1, p2, p3, p4, t, h, end, integrals):
+def update_axis(a, p0, p1, p2, p3, p4, t, h, end, integrals):
     """One axis, a row of f, along a piece of its angle from x = 0 to `end`, at t + h x; with integrals or without."""
     by = a[BY]
     p0, p1, p2, p3, p4 = (p0 - a[FROM]) * by, p1 * by, p2 * by, p3 * by, p4 * by
@@ -153,26 +153,26 @@ def follow(a, p0, p1, p2, p3, p4, t, h, end, integrals):
         weighted = (p0 + 2.0 * b1 + 3.0 * b2 + 4.0 * b3 + 5.0 * b4) / 30.0
         a[AREA] += h * abs(1.0 - mean)
         a[MOMENT] += h * abs(t * (1.0 - mean) + h * (0.5 - weighted))
-    if not integrals and not (a[STEPPED] != 0.0 and decides(a, low, high)):
+    if not integrals and not (a[STEPPED] != 0.0 and may_cross_level(a, low, high)):
         if low >= a[BOTTOM] and high <= a[TOP]:
             return
         if end == 1.0 and low == min(p0, b4) and high == max(p0, b4):  # its extrema are its ends
-            widen(a, b4, t + h)
+            update_extrema(a, b4, t + h)
             return
     if (p0 <= b1 <= b2 <= b3 <= b4) or (p0 >= b1 >= b2 >= b3 >= b4):
-        stretch(a, p0, p1, p2, p3, p4, t, h, 0.0, end, integrals)
+        update_monotone(a, p0, p1, p2, p3, p4, t, h, 0.0, end, integrals)
         return
     x = 0.0
     for _ in range(4):
-        following = turn(p1, p2, p3, p4, x + 1e-9 if x > 0.0 else 0.0, end)
-        stretch(a, p0, p1, p2, p3, p4, t, h, x, following, integrals)
+        following = turning_point(p1, p2, p3, p4, x + 1e-9 if x > 0.0 else 0.0, end)
+        update_monotone(a, p0, p1, p2, p3, p4, t, h, x, following, integrals)
         x = following
         if x >= end:
             return
 
 
 @kernel
-def decides(a, low, high):
+def may_cross_level(a, low, high):
     """Whether a course between these shares of the step may reach a level of the rise or the edge of the band."""
     if a[RISEN] < 2.0 and high >= (LOW if a[RISEN] == 0.0 else HIGH):
         return True
@@ -182,7 +182,7 @@ def decides(a, low, high):
 
 
 @kernel
-def widen(a, share, t):
+def update_extrema(a, share, t):
     """The highest and the lowest share of the step, with one more that is reached at t."""
     if share > a[TOP]:
         a[TOP], a[TOP_AT] = share, t
@@ -191,39 +191,39 @@ def widen(a, share, t):
 
 
 @kernel
-def stretch(a, p0, p1, p2, p3, p4, t, h, low, high, integrals):
+def update_monotone(a, p0, p1, p2, p3, p4, t, h, low, high, integrals):
     """The same along a part of a piece, in shares of the step, that is monotone."""
-    first, last = value(p0, p1, p2, p3, p4, low), value(p0, p1, p2, p3, p4, high)
-    widen(a, last, t + h * high)
+    first, last = quartic(p0, p1, p2, p3, p4, low), quartic(p0, p1, p2, p3, p4, high)
+    update_extrema(a, last, t + h * high)
     if a[STEPPED] == 0.0:
         return
     if a[RISEN] == 0.0 and last >= LOW:
-        a[RISEN], a[AT_LOW] = 1.0, t + h * reach(p0, p1, p2, p3, p4, LOW, low, high)
+        a[RISEN], a[AT_LOW] = 1.0, t + h * level_crossing(p0, p1, p2, p3, p4, LOW, low, high)
     if a[RISEN] == 1.0 and last >= HIGH:
-        a[RISEN], a[AT_HIGH] = 2.0, t + h * reach(p0, p1, p2, p3, p4, HIGH, low, high)
+        a[RISEN], a[AT_HIGH] = 2.0, t + h * level_crossing(p0, p1, p2, p3, p4, HIGH, low, high)
     inside = abs(last - 1.0) <= BAND
     if inside and a[WITHIN] == 0.0:
         edge = 1.0 - BAND if first < 1.0 else 1.0 + BAND
-        a[WITHIN], a[SINCE] = 1.0, t + h * reach(p0, p1, p2, p3, p4, edge, low, high)
+        a[WITHIN], a[SINCE] = 1.0, t + h * level_crossing(p0, p1, p2, p3, p4, edge, low, high)
     elif not inside:
         a[WITHIN] = 0.0
     if integrals:
         at = high
         if (first - 1.0) * (last - 1.0) < 0.0:
-            at = reach(p0, p1, p2, p3, p4, 1.0, low, high)
-            errors(a, p0, p1, p2, p3, p4, t, h, at, high)
-        errors(a, p0, p1, p2, p3, p4, t, h, low, at)
+            at = level_crossing(p0, p1, p2, p3, p4, 1.0, low, high)
+            error_integrals(a, p0, p1, p2, p3, p4, t, h, at, high)
+        error_integrals(a, p0, p1, p2, p3, p4, t, h, low, at)
 
 
 @kernel
-def errors(a, p0, p1, p2, p3, p4, t, h, low, high):
+def error_integrals(a, p0, p1, p2, p3, p4, t, h, low, high):
     """∫ |1 − share| dt, also weighted with t, where its sign stays: three points of Gauss, exact to degree 5."""
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
     off = half * sqrt(0.6)
     area = moment = 0.0
     for part in range(-1, 2):
         x = middle + part * off
-        weight = (8.0 if part == 0 else 5.0) / 9.0 * (1.0 - value(p0, p1, p2, p3, p4, x))
+        weight = (8.0 if part == 0 else 5.0) / 9.0 * (1.0 - quartic(p0, p1, p2, p3, p4, x))
         area += weight
         moment += weight * (t + h * x)
     a[AREA] += abs(h * half * area)
@@ -231,7 +231,7 @@ def errors(a, p0, p1, p2, p3, p4, t, h, low, high):
 
 
 @kernel
-def hold_voltage(b, voltage, limit, span):
+def update_held_motor(b, voltage, limit, span):
     """A motor, a row of f, whose voltage stays for a time."""
     b[PEAK_VOLTAGE] = max(b[PEAK_VOLTAGE], abs(voltage))
     b[EFFORT] += (voltage - b[CALM]) ** 2 * span
@@ -240,17 +240,17 @@ def hold_voltage(b, voltage, limit, span):
 
 
 @kernel
-def drive(b, p0, p1, p2, p3, p4, h, end):
+def update_motor(b, p0, p1, p2, p3, p4, h, end):
     """A motor, a row of f, along a piece of its voltage from x = 0 to `end`."""
     b1, b3, b4 = p0 + 0.25 * (p1 + p2), p0 + 0.75 * p1 + 0.25 * (p2 + p3), p0 + p1
     b2 = p0 + 0.5 * p1 + (p2 + 0.5 * (p3 + p4)) / 3.0
     ends, rest = max(abs(p0), abs(b4)), b[CALM]
     bound = max(ends, abs(b1), abs(b2), abs(b3))
     if bound > b[PEAK_VOLTAGE]:
-        peak = ends if bound == ends and end == 1.0 else largest(p0, p1, p2, p3, p4, end)
+        peak = ends if bound == ends and end == 1.0 else quartic_peak(p0, p1, p2, p3, p4, end)
         b[PEAK_VOLTAGE] = max(b[PEAK_VOLTAGE], peak)
     if end < 1.0:
-        b[EFFORT] += h * end * squares(p0 - rest, p1, p2, p3, p4, end)
+        b[EFFORT] += h * end * quartic_mean_square(p0 - rest, p1, p2, p3, p4, end)
         return
     a0, a1, a2, a3, a4 = p0 - rest, b1 - rest, b2 - rest, b3 - rest, b4 - rest
     total = a0 * a0 + a0 * a1 + a3 * a4 + a4 * a4
@@ -260,31 +260,31 @@ def drive(b, p0, p1, p2, p3, p4, h, end):
 
 
 @kernel
-def largest(p0, p1, p2, p3, p4, end):
+def quartic_peak(p0, p1, p2, p3, p4, end):
     """The largest size of a piece from x = 0 to `end`."""
     found, x = abs(p0), 0.0
     for _ in range(4):
-        x = turn(p1, p2, p3, p4, x + 1e-9 if x > 0.0 else 0.0, end)
-        found = max(found, abs(value(p0, p1, p2, p3, p4, x)))
+        x = turning_point(p1, p2, p3, p4, x + 1e-9 if x > 0.0 else 0.0, end)
+        found = max(found, abs(quartic(p0, p1, p2, p3, p4, x)))
         if x >= end:
             break
     return found
 
 
 @kernel
-def squares(p0, p1, p2, p3, p4, end):
+def quartic_mean_square(p0, p1, p2, p3, p4, end):
     """The mean square of a piece from x = 0 to `end`: five points of Gauss, exact to degree 9."""
     outer, inner = sqrt(5.0 + 2.0 * sqrt(10.0 / 7.0)) / 3.0, sqrt(5.0 - 2.0 * sqrt(10.0 / 7.0)) / 3.0
-    total = 128.0 / 225.0 * value(p0, p1, p2, p3, p4, 0.5 * end) ** 2
+    total = 128.0 / 225.0 * quartic(p0, p1, p2, p3, p4, 0.5 * end) ** 2
     for sign in range(-1, 2, 2):
         far, near = 0.5 * end * (1.0 + sign * outer), 0.5 * end * (1.0 + sign * inner)
-        total += (322.0 - 13.0 * sqrt(70.0)) / 900.0 * value(p0, p1, p2, p3, p4, far) ** 2
-        total += (322.0 + 13.0 * sqrt(70.0)) / 900.0 * value(p0, p1, p2, p3, p4, near) ** 2
+        total += (322.0 - 13.0 * sqrt(70.0)) / 900.0 * quartic(p0, p1, p2, p3, p4, far) ** 2
+        total += (322.0 + 13.0 * sqrt(70.0)) / 900.0 * quartic(p0, p1, p2, p3, p4, near) ** 2
     return 0.5 * total
 
 
 @kernel
-def doubtful(f, end, dwell):
+def settling_check_end(f, end, dwell):
     """Until when a course must be looked at to know whether its axes have settled; `end` where that is known."""
     until = end
     for i in range(2):
@@ -294,7 +294,7 @@ def doubtful(f, end, dwell):
 
 
 @kernel
-def keep(f, ahead):
+def copy_figures(f, ahead):
     """A copy of f in `ahead`, to look beyond the end."""
     for i in range(4):
         for j in range(f.shape[1]):
@@ -302,7 +302,7 @@ def keep(f, ahead):
 
 
 @kernel
-def confirm(f, ahead, whole):
+def confirm_settling(f, ahead, whole):
     """Axes that left the settling band beyond the end, or of which that is not known, have not settled."""
     for i in range(2):
         if not whole or ahead[i, WITHIN] == 0.0 or ahead[i, SINCE] != f[i, SINCE]:
@@ -310,7 +310,7 @@ def confirm(f, ahead, whole):
 
 
 @kernel
-def conclude(f, reference, pitch, yaw, end, floor, axes, motors, course):
+def figures_of_merit(f, reference, pitch, yaw, end, floor, axes, motors, course):
     """Figures of what was followed until `end`, where the axes are at these angles; nan is what did not happen.
 
     Into `axes`, (2, AXIS_METRICS), for each axis that is stepped, and `motors`, (2, MOTOR_METRICS); deviations and

@@ -22,7 +22,16 @@ from .layout import (
     POLYNOMIALS,
     ROUNDING,
 )
-from .polynomials import add_product, at, close, determinant, drop_rounding, halves, positive_roots, value
+from .polynomials import (
+    add_product,
+    closed_loop_matrix,
+    determinant,
+    drop_rounding,
+    even_and_odd_part,
+    horner,
+    on_imaginary_axis,
+    positive_roots,
+)
 
 # Rows of the scratch array p, (13, 16): det M, the same with a motor opened, the sizes of their terms, their even and
 # odd halves, and the polynomial of ω² whose roots are sought, with rows for the search
@@ -36,38 +45,42 @@ ON_AXIS = 1e3 * ROUNDING
 
 
 @entry_point(
-    lambda: (examples.zeros(*POLYNOMIALS), examples.zeros(*POLYNOMIAL_WORKSPACE), examples.zeros(2, MARGINS))
+    lambda: (
+        examples.given(*POLYNOMIALS),
+        examples.zeros(*POLYNOMIALS),
+        examples.zeros(*POLYNOMIAL_WORKSPACE),
+        examples.zeros(2, MARGINS),
+    )
 )
-def margins(f, p, table):
-    """Gain, gain reduction, phase and delay margin of each motor into `table`, (2, 4); f as described, loop stable.
+def margins(f, g, p, table):
+    """Gain, gain reduction, phase and delay margin of each motor into `table`, (2, 4); the loop is stable.
 
     L_i crosses the unit circle where Re S_ii = ½ and the real axis where Im S_ii = 0: with S_ii = p_i / p_c,
     both polynomials, these are the positive roots of two polynomials of ω², and ω = 0. None can be missed. Where the
     opened loop has poles at 0, `control.margin` may report a gain margin of 0 for a state-space model, though not
-    for its transfer function; it is no crossing.
+    for its transfer function; it is no crossing. Scratch: `g`, like f, and `p`.
     """
     determinant(f, p[CLOSED], p[CLOSED_SIZES])
-    halves(p, CLOSED, CLOSED_EVEN, CLOSED_ODD)
+    even_and_odd_part(p, CLOSED, CLOSED_EVEN, CLOSED_ODD)
     for motor in range(2):
-        close(f, motor)
-        determinant(f, p[OPENED], p[OPENED_SIZES])
-        halves(p, OPENED, EVEN, ODD)
-        close(f, -1)
+        closed_loop_matrix(f, motor, g)
+        determinant(g, p[OPENED], p[OPENED_SIZES])
+        even_and_odd_part(p, OPENED, EVEN, ODD)
         for k in range(MARGINS):
             table[motor, k] = nan
         unit_circle(p)
         found, touched = positive_roots(p[SOUGHT], p[SIZES], p[CHAIN], p[ROOTS], p[BEFORE])
         for k in range(found + touched):
             x = p[ROOTS, k]
-            opened = at(p, EVEN, ODD, x)
-            turned = opened - at(p, CLOSED_EVEN, CLOSED_ODD, x)  # −L_i p_i
+            opened = on_imaginary_axis(p, EVEN, ODD, x)
+            turned = opened - on_imaginary_axis(p, CLOSED_EVEN, CLOSED_ODD, x)  # −L_i p_i
             if k >= found and not abs(abs(turned) - abs(opened)) <= NEAR * abs(opened):
                 continue
             lag = phase(turned * opened.conjugate()) % FULL_TURN  # above −180°, as a lag that closes it
-            smallest(table, motor, PHASE_MARGIN, min(lag, FULL_TURN - lag))
-            smallest(table, motor, DELAY_MARGIN, lag / sqrt(x))
+            keep_smallest(table, motor, PHASE_MARGIN, min(lag, FULL_TURN - lag))
+            keep_smallest(table, motor, DELAY_MARGIN, lag / sqrt(x))
         if p[SOUGHT, 0] == 0.0:  # L_i(0) = 1: a lead or lag by half a turn, which no delay makes there
-            smallest(table, motor, PHASE_MARGIN, pi)
+            keep_smallest(table, motor, PHASE_MARGIN, pi)
         real_axis(p)
         found, touched = positive_roots(p[SOUGHT], p[SIZES], p[CHAIN], p[ROOTS], p[BEFORE])
         gain_margins(p, 0.0, False, table, motor)
@@ -78,10 +91,10 @@ def margins(f, p, table):
 @kernel
 def gain_margins(p, x, touches, table, motor):
     """What a crossing of the real axis at ω² = x says: with a gain factor of k, p_i + k (p_c − p_i) is 0."""
-    opened = at(p, EVEN, ODD, x)
-    turned = opened - at(p, CLOSED_EVEN, CLOSED_ODD, x)
+    opened = on_imaginary_axis(p, EVEN, ODD, x)
+    turned = opened - on_imaginary_axis(p, CLOSED_EVEN, CLOSED_ODD, x)
     size = turned.real * turned.real + turned.imag * turned.imag
-    terms = value(p[OPENED_SIZES], 2 * 3, sqrt(x))
+    terms = horner(p[OPENED_SIZES], 2 * 3, sqrt(x))
     if size == 0.0 or abs(opened) <= ON_AXIS * terms:
         return
     product = opened * turned.conjugate()
@@ -89,7 +102,7 @@ def gain_margins(p, x, touches, table, motor):
         return
     gain = product.real / size
     if gain > 1.0:
-        smallest(table, motor, GAIN_MARGIN, gain)
+        keep_smallest(table, motor, GAIN_MARGIN, gain)
     elif 0.0 < gain < 1.0 and not gain < table[motor, GAIN_REDUCTION_MARGIN]:
         table[motor, GAIN_REDUCTION_MARGIN] = gain
 
@@ -97,7 +110,7 @@ def gain_margins(p, x, touches, table, motor):
 @kernel
 def unit_circle(p):
     """Re S_ii = ½: 2 (E_i E_c + x O_i O_c) − (E_c² + x O_c²), a polynomial of x = ω²."""
-    clear(p)
+    clear_sought(p)
     c, o, r, sizes = p[CLOSED_SIZES], p[OPENED_SIZES], p[SOUGHT], p[SIZES]
     add_product(p[EVEN], o, p[CLOSED_EVEN], c, 0, 0, 2.0, 0, r, sizes)
     add_product(p[ODD], o, p[CLOSED_ODD], c, 1, 1, 2.0, 1, r, sizes)
@@ -109,7 +122,7 @@ def unit_circle(p):
 @kernel
 def real_axis(p):
     """Im S_ii = 0: O_i E_c − E_i O_c."""
-    clear(p)
+    clear_sought(p)
     c, o, r, sizes = p[CLOSED_SIZES], p[OPENED_SIZES], p[SOUGHT], p[SIZES]
     add_product(p[ODD], o, p[CLOSED_EVEN], c, 1, 0, 1.0, 0, r, sizes)
     add_product(p[EVEN], o, p[CLOSED_ODD], c, 0, 1, -1.0, 0, r, sizes)
@@ -117,14 +130,14 @@ def real_axis(p):
 
 
 @kernel
-def smallest(table, motor, column, number):
+def keep_smallest(table, motor, column, number):
     """Keeps the smallest number of a column; nan is none yet."""
     if not number > table[motor, column]:
         table[motor, column] = number
 
 
 @kernel
-def clear(p):
+def clear_sought(p):
     """Zeros for the polynomial that is sought."""
     for k in range(p.shape[1]):
         p[SOUGHT, k] = p[SIZES, k] = 0.0

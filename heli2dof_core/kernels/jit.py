@@ -39,7 +39,7 @@ def entry_point(example: Callable[[], tuple[Any, ...]]) -> Callable[[Callable[..
 
 
 @kernel
-def put(source, target):
+def copy_into(source, target):
     """target[:] = source; a slice assignment would allocate, in case the two overlap."""
     for i in range(len(source)):
         target[i] = source[i]

@@ -70,7 +70,7 @@ at −σ counts as on the axis likewise where σ is below this share of the loop
 """
 
 POLYNOMIALS = (2, 2, 20)
-"""Shape of the loop as matrices of polynomials: `kernels.polynomials.describe`."""
+"""Shape of the loop as matrices of polynomials: `kernels.polynomials`."""
 POLYNOMIAL_WORKSPACE = (13, 16)
 FREQUENCIES = 2000
 """Most frequencies at which the sensitivity is looked at: its steps grow with the distance from the poles, so that

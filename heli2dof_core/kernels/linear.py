@@ -14,37 +14,37 @@ TERMS = 16
 
 
 @kernel
-def respond(M, dt, outputs, w, states, traces):
+def exact_response(M, dt, outputs, w, states, traces):
     """x_k = exp(M dt)ᵏ x₀ into `states`, (7, samples), from its first column; y_k = `outputs` x_k.
 
     The last state is 1 throughout. `outputs` (rows, 7), `traces` (rows, samples). Scratch: `w`, (49, 7).
     """
     samples = states.shape[1]
     power, other = w[6 * AUGMENTED : 7 * AUGMENTED], w[:AUGMENTED]
-    exponential(M, dt, power, w)
+    matrix_exponential(M, dt, power, w)
     done = 1
     while done < samples:
         more = min(done, samples - done)
-        extend(power, states, done, more)
+        next_samples(power, states, done, more)
         done += more
         if done < samples:
-            multiply(power, power, other)
+            matrix_product(power, power, other)
             power, other = other, power
     for i in range(outputs.shape[0]):
-        combine(outputs[i], states, samples, traces[i], 0)
+        row_times_samples(outputs[i], states, samples, traces[i], 0)
 
 
 @kernel
-def extend(power, states, done, more):
+def next_samples(power, states, done, more):
     """The next `more` samples: `power` times the first ones."""
     for i in range(AUGMENTED - 1):
-        combine(power[i], states, more, states[i], done)
+        row_times_samples(power[i], states, more, states[i], done)
     for k in range(done, done + more):
         states[AUGMENTED - 1, k] = 1.0
 
 
 @kernel
-def combine(row, states, count, out, first):
+def row_times_samples(row, states, count, out, first):
     """`row` times the first `count` samples, whose last state is 1, into `out` from `first` on."""
     a, b, c, d, e, f, one = row[0], row[1], row[2], row[3], row[4], row[5], row[6]
     for k in range(count):
@@ -53,20 +53,20 @@ def combine(row, states, count, out, first):
 
 
 @kernel
-def exponential(M, dt, result, w):
+def matrix_exponential(M, dt, result, w):
     """exp(M dt) into `result`, by its series for M dt / 2ˢ, squared s times. Scratch: `w`, (42, 7)."""
-    squarings = halvings(M, dt)
-    series(M, dt * 0.5**squarings, result, w)
+    squarings = squarings_needed(M, dt)
+    exponential_series(M, dt * 0.5**squarings, result, w)
     scratch = w[:AUGMENTED]
     for _ in range(squarings):
-        multiply(result, result, scratch)
+        matrix_product(result, result, scratch)
         for i in range(AUGMENTED):
             for j in range(AUGMENTED):
                 result[i, j] = scratch[i, j]
 
 
 @kernel
-def halvings(M, dt):
+def squarings_needed(M, dt):
     """How often M dt must be halved for a 1-norm of at most 1/2."""
     norm = 0.0
     for j in range(AUGMENTED):
@@ -82,7 +82,7 @@ def halvings(M, dt):
 
 
 @kernel
-def series(M, factor, result, w):
+def exponential_series(M, factor, result, w):
     """Σ (M `factor`)ⁿ/n! up to n = TERMS into `result`, in four polynomials of degree 3 (Paterson and Stockmeyer)."""
     A, A2, A3 = w[:AUGMENTED], w[AUGMENTED : 2 * AUGMENTED], w[2 * AUGMENTED : 3 * AUGMENTED]
     A4, total = w[3 * AUGMENTED : 4 * AUGMENTED], w[4 * AUGMENTED : 5 * AUGMENTED]
@@ -90,9 +90,9 @@ def series(M, factor, result, w):
     for i in range(AUGMENTED):
         for j in range(AUGMENTED):
             A[i, j] = M[i, j] * factor
-    multiply(A, A, A2)
-    multiply(A, A2, A3)
-    multiply(A2, A2, A4)
+    matrix_product(A, A, A2)
+    matrix_product(A, A2, A3)
+    matrix_product(A2, A2, A4)
     weight = 1.0  # 1/n!
     for n in range(1, TERMS + 1):
         weight /= n
@@ -110,7 +110,7 @@ def series(M, factor, result, w):
                 total[i, j] += w1 * A[i, j] + w2 * A2[i, j] + w3 * A3[i, j]
             total[i, i] += weight
         if block > 0:
-            multiply(total, A4, product)
+            matrix_product(total, A4, product)
             for i in range(AUGMENTED):
                 for j in range(AUGMENTED):
                     total[i, j] = product[i, j]
@@ -120,7 +120,7 @@ def series(M, factor, result, w):
 
 
 @kernel
-def multiply(A, B, C):
+def matrix_product(A, B, C):
     """A B into C, which is neither."""
     for i in range(AUGMENTED):
         a, b, c, d, e, f, g = A[i, 0], A[i, 1], A[i, 2], A[i, 3], A[i, 4], A[i, 5], A[i, 6]

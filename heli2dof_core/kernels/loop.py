@@ -31,8 +31,8 @@ from .layout import (
 
 @entry_point(
     lambda: (
-        examples.zeros(2, 4),
-        examples.zeros(2, 2),
+        examples.given(2, 4),
+        examples.given(2, 2),
         1.0,
         *examples.plant(),
         PI,
@@ -46,7 +46,7 @@ from .layout import (
         examples.zeros(6, 2),
     )
 )
-def close(
+def loop_matrices(
     K,
     inverse,
     determinant,
@@ -77,7 +77,7 @@ def close(
                 feedforward[i, j] = inverse[i, j]
     if kind == PI:
         thrust = B[2, 0] * B[3, 1] - B[2, 1] * B[3, 0]
-        mix(inverse, determinant, thrust, gains, cross, decoupler, proportional, integral)
+        pi_gains(inverse, determinant, thrust, gains, cross, decoupler, proportional, integral)
     order = law.shape[1]
     for i in range(2):
         for j in range(4):
@@ -100,7 +100,7 @@ def close(
 
 
 @kernel
-def mix(inverse, determinant, thrust, gains, cross, decoupler, proportional, integral):
+def pi_gains(inverse, determinant, thrust, gains, cross, decoupler, proportional, integral):
     """Which motor each PI controller drives, and with which sign: V/rad and V/(rad·s) per error.
 
     Without steady state there is nothing to decouple, and signs are those that stable poles near 0 would give:
@@ -129,15 +129,15 @@ def mix(inverse, determinant, thrust, gains, cross, decoupler, proportional, int
         examples.rig(),
         examples.trim(),
         0.0,
-        examples.zeros(2, 6),
-        examples.zeros(2, 2),
-        examples.zeros(2, 2),
+        examples.given(2, 6),
+        examples.given(2, 2),
+        examples.given(2, 2),
         examples.experiment(),
         examples.constants(),
         examples.modes(),
     )
 )
-def compose(rig, trim, theta_0, law, by_reference, integral, x, c, m):
+def nonlinear_loop(rig, trim, theta_0, law, by_reference, integral, x, c, m):
     """Constants c and modes m of the loop around the nonlinear rig; its deviations become absolute angles."""
     order = law.shape[1]
     for k in range(len(rig)):
@@ -162,7 +162,7 @@ def compose(rig, trim, theta_0, law, by_reference, integral, x, c, m):
 
 
 @kernel
-def augment(theta_0, law, by_reference, whole, driven, x, M, outputs, states):
+def augmented_system(theta_0, law, by_reference, whole, driven, x, M, outputs, states):
     """The linear loop with the constant 1 as seventh state, in deviations from (θ₀, 0): M, voltages' rows, start."""
     order, reference = len(whole), (x[REFERENCE] - theta_0, x[REFERENCE + 1])
     for i in range(AUGMENTED):

@@ -32,7 +32,7 @@ def trajectories(states, done, c, course, voltages):
 
 
 @kernel
-def hold(states, voltages, bound):
+def hold_after_divergence(states, voltages, bound):
     """Freezes a response where an angle, states[:2], leaves ±bound or a number is not finite any more.
 
     Returns the first sample that is held, or the number of samples.

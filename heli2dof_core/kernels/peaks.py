@@ -37,7 +37,7 @@ ANGLES, DISKS = 1, 2  # rows of the grid, beside the frequencies
 
 
 @kernel
-def entry(f, i, j, first, w, x):
+def polynomial_entry(f, i, j, first, w, x):
     """An entry of M or N at s = jω, x = ω²."""
     return complex(f[i, j, first] - x * f[i, j, first + 2], w * (f[i, j, first + 1] - x * f[i, j, first + 3]))
 
@@ -46,14 +46,14 @@ def entry(f, i, j, first, w, x):
 def sensitivity(f, w):
     """The four entries of S(jω), row by row; the loop has no pole at jω."""
     x = w * w
-    m00, m01 = entry(f, 0, 0, M, w, x), entry(f, 0, 1, M, w, x)
-    m10, m11 = entry(f, 1, 0, M, w, x), entry(f, 1, 1, M, w, x)
+    m00, m01 = polynomial_entry(f, 0, 0, M, w, x), polynomial_entry(f, 0, 1, M, w, x)
+    m10, m11 = polynomial_entry(f, 1, 0, M, w, x), polynomial_entry(f, 1, 1, M, w, x)
     det = m00 * m11 - m01 * m10
     by = det.conjugate() * (1.0 / squared(det))  # a complex quotient raises at 0 even where compiled
     x00, x01 = m11 * f[0, 0, B] - m01 * f[1, 0, B], m11 * f[0, 1, B] - m01 * f[1, 1, B]
     x10, x11 = m00 * f[1, 0, B] - m10 * f[0, 0, B], m00 * f[1, 1, B] - m10 * f[0, 1, B]
-    n00, n01 = entry(f, 0, 0, N, w, x), entry(f, 0, 1, N, w, x)
-    n10, n11 = entry(f, 1, 0, N, w, x), entry(f, 1, 1, N, w, x)
+    n00, n01 = polynomial_entry(f, 0, 0, N, w, x), polynomial_entry(f, 0, 1, N, w, x)
+    n10, n11 = polynomial_entry(f, 1, 0, N, w, x), polynomial_entry(f, 1, 1, N, w, x)
     return (
         1.0 - (n00 * x00 + n01 * x10) * by,
         -(n00 * x01 + n01 * x11) * by,
@@ -78,7 +78,7 @@ def largest_singular_value(a, b, c, d):
 
 
 @kernel
-def structured(a, b, c, d):
+def structured_singular_value(a, b, c, d):
     """μ of [[a, b], [c, d]] for two scalars: its largest singular value after the best diagonal scaling.
 
     The best is that which makes both entries beside the diagonal equally large.
@@ -91,33 +91,33 @@ def structured(a, b, c, d):
 
 
 @kernel
-def size(f, w, disk):
+def frequency_gain(f, w, disk):
     """The largest singular value of S(jω), or μ of S − ½ = (S − T)/2."""
     a, b, c, d = sensitivity(f, w)
-    return structured(a - 0.5, b, c, d - 0.5) if disk else largest_singular_value(a, b, c, d)
+    return structured_singular_value(a - 0.5, b, c, d - 0.5) if disk else largest_singular_value(a, b, c, d)
 
 
 @entry_point(
     lambda: (
-        examples.zeros(*POLYNOMIALS),
+        examples.given(*POLYNOMIALS),
         examples.poles(),
         examples.zeros(3, FREQUENCIES),
         examples.zeros(SENSITIVITY),
     )
 )
-def peaks(f, poles, grid, both):
+def sensitivity_peaks(f, poles, grid, both):
     """Sensitivity peak and disk margin, each with its frequency, into `both`, (4,); the loop is stable.
 
     `poles` are the loop's, complex; scratch: `grid`, (3, FREQUENCIES).
     """
-    count = survey(f, poles, grid)
-    both[SENSITIVITY_PEAK], both[PEAK_FREQUENCY] = highest(f, grid, ANGLES, count)
-    mu, both[DISK_FREQUENCY] = highest(f, grid, DISKS, count)
+    count = sample_frequencies(f, poles, grid)
+    both[SENSITIVITY_PEAK], both[PEAK_FREQUENCY] = global_maximum(f, grid, ANGLES, count)
+    mu, both[DISK_FREQUENCY] = global_maximum(f, grid, DISKS, count)
     both[DISK_MARGIN] = 1.0 / mu
 
 
 @kernel
-def survey(f, poles, grid):
+def sample_frequencies(f, poles, grid):
     """Frequencies from 0 to infinity with both sizes there into `grid`; their number."""
     fastest = 0.0
     for pole in poles:
@@ -128,7 +128,7 @@ def survey(f, poles, grid):
         a, b, c, d = sensitivity(f, w)
         grid[0, count] = w
         grid[ANGLES, count] = largest_singular_value(a, b, c, d)
-        grid[DISKS, count] = structured(a - 0.5, b, c, d - 0.5)
+        grid[DISKS, count] = structured_singular_value(a - 0.5, b, c, d - 0.5)
         count += 1
         if w >= end:
             break
@@ -142,7 +142,7 @@ def survey(f, poles, grid):
 
 
 @kernel
-def highest(f, grid, row, count):
+def global_maximum(f, grid, row, count):
     """The highest of all maxima, and where: at infinity unless a frequency rises above that by more than rounding."""
     last = count - 1
     best, where = grid[row, last], inf
@@ -163,21 +163,21 @@ def highest(f, grid, row, count):
         if tail:
             low, high = (-1.0 / low if low > 0.0 else -inf), 0.0
         if low > -inf:
-            top, at = climb(f, low, high, tail, row == DISKS)
+            top, at = brent_maximum(f, low, high, tail, row == DISKS)
             if top > best * (1.0 + 4.0 * ROUNDING):
                 best, where = top, at
     return best, where
 
 
 @kernel
-def climb(f, low, high, tail, disk):
+def brent_maximum(f, low, high, tail, disk):
     """A maximum between two frequencies, or between two −1/ω: Brent's method, by parabolas or golden section.
 
     Source: Brent, Algorithms for Minimization without Derivatives (1973), chapter 5.
     """
     end = PRECISION * (high - low) + ROUNDING * max(abs(low), abs(high))
     place = second = third = low + (1.0 - GOLDEN) * (high - low)
-    top = at_second = at_third = size(f, -1.0 / place if tail else place, disk)
+    top = at_second = at_third = frequency_gain(f, -1.0 / place if tail else place, disk)
     step = before = 0.0
     for _ in range(100):
         if max(place - low, high - place) <= 2.0 * end:
@@ -197,7 +197,7 @@ def climb(f, low, high, tail, disk):
         if abs(step) < end:
             step = end if step > 0.0 else -end
         other = place + step
-        here = size(f, -1.0 / other if tail else other, disk)
+        here = frequency_gain(f, -1.0 / other if tail else other, disk)
         if here >= top:
             low, high = (place, high) if step > 0.0 else (low, place)
             third, second, place = second, place, other

@@ -26,8 +26,8 @@ HALF = 4
 """Coefficients of the even, or odd, half of a polynomial of degree 6."""
 
 
-@entry_point(lambda: (*examples.plant(), examples.zeros(2, 6), examples.zeros(*POLYNOMIALS)))
-def describe(A, inputs, law, f):
+@entry_point(lambda: (*examples.plant(), examples.given(2, 6), examples.zeros(*POLYNOMIALS)))
+def polynomial_matrices(A, inputs, law, f):
     """The matrices of polynomials into f: A (4, 4), inputs (4, 2), law = ∂u/∂[x, z], (2, 6) or (2, 4)."""
     for j in range(2):
         integrates = law.shape[1] == 6 and (law[0, 4 + j] != 0.0 or law[1, 4 + j] != 0.0)
@@ -41,12 +41,12 @@ def describe(A, inputs, law, f):
             f[i, j, D + shift + 2] = 1.0 if i == j else 0.0
             if integrates:
                 f[i, j, N] = law[i, 4 + j]  # z = −q/s
-    close(f, -1)
+    closed_loop_matrix(f, -1, f)
 
 
 @kernel
-def close(f, opened):
-    """M = D + B N and the sizes of its terms, without the motor `opened`."""
+def closed_loop_matrix(f, opened, g):
+    """M = D + B N and the sizes of its terms, without the motor `opened`, into g, which may be f."""
     for i in range(2):
         for j in range(2):
             for k in range(4):
@@ -57,7 +57,7 @@ def close(f, opened):
                         term = f[i, motor, B] * f[motor, j, N + k]
                         total += term
                         size += abs(term)
-                f[i, j, M + k], f[i, j, SIZE + k] = total, size
+                g[i, j, M + k], g[i, j, SIZE + k] = total, size
 
 
 @kernel
@@ -79,7 +79,7 @@ def determinant(f, r, sizes):
 
 
 @kernel
-def halves(p, row, even, odd):
+def even_and_odd_part(p, row, even, odd):
     """p(jω) = E(ω²) + jω O(ω²): the coefficients of E and O."""
     for k in range(2 * HALF):
         sign = 1.0 if k % 4 < 2 else -1.0
@@ -87,9 +87,9 @@ def halves(p, row, even, odd):
 
 
 @kernel
-def at(p, even, odd, x):
+def on_imaginary_axis(p, even, odd, x):
     """p(jω) from its halves, x = ω²."""
-    return complex(value(p[even], HALF - 1, x), sqrt(x) * value(p[odd], HALF - 1, x))
+    return complex(horner(p[even], HALF - 1, x), sqrt(x) * horner(p[odd], HALF - 1, x))
 
 
 @kernel
@@ -117,7 +117,7 @@ def drop_rounding(r, sizes):
 
 
 @kernel
-def value(p, degree, x):
+def horner(p, degree, x):
     """p(x) by Horner's scheme."""
     total = p[degree]
     for k in range(degree - 1, -1, -1):
@@ -169,10 +169,10 @@ def positive_roots(p, sizes, chain, roots, before):
         for i in range(found):
             before[i] = roots[i]
         extrema = found
-        count, left, sign = 0, low, value(chain, degree, low)
+        count, left, sign = 0, low, horner(chain, degree, low)
         for i in range(extrema + 1):
             right = before[i] if i < extrema else high
-            following = value(chain, degree, right)
+            following = horner(chain, degree, right)
             if (sign < 0.0) != (following < 0.0):
                 roots[count] = root_between(chain, degree, left, right, sign)
                 count += 1
@@ -180,7 +180,7 @@ def positive_roots(p, sizes, chain, roots, before):
         found = count
     touched = 0
     for i in range(extrema):
-        if abs(value(p, top, before[i])) <= ROUNDING * value(sizes, top, before[i]):
+        if abs(horner(p, top, before[i])) <= ROUNDING * horner(sizes, top, before[i]):
             roots[found + touched] = before[i]
             touched += 1
     return found, touched

@@ -10,9 +10,15 @@ from __future__ import annotations
 from math import ceil, cos, sin
 
 from . import examples
-from .digital import control, enter, sense, stand, without_controller
+from .digital import (
+    initialize_controller,
+    rig_without_feedback,
+    sample_controller,
+    sample_sensors,
+    stop_at_travel,
+)
 from .dormand_prince import integrate
-from .jit import entry_point, kernel, put
+from .jit import copy_into, entry_point, kernel
 from .layout import (
     ALPHA,
     B_P,
@@ -38,10 +44,10 @@ from .layout import (
 
 @entry_point(
     lambda: (
-        examples.zeros(1, 4),
+        examples.given(1, 4),
         examples.bounds(),
         examples.times(),
-        examples.zeros(2, 2),
+        examples.given(2, 2),
         examples.constants(),
         1e-2,
         examples.zeros(*RECORDED_WORKSPACE),
@@ -73,14 +79,16 @@ def run_segments(starts, bounds, t, volts, c, longest_step, w, outputs, slopes):
                 steps = max(1, ceil((t[k + 1] - t[k]) / longest_step))
                 h = (t[k + 1] - t[k]) / steps
                 for _ in range(steps):
-                    advance(h, volts[k, 0], volts[k, 1], c, SENSITIVITIES + 1, state, stage, slope, total)
+                    runge_kutta_4_step(
+                        h, volts[k, 0], volts[k, 1], c, SENSITIVITIES + 1, state, stage, slope, total
+                    )
 
 
 @entry_point(
     lambda: (
         examples.zeros(4),
         examples.times(),
-        examples.zeros(2, 2),
+        examples.given(2, 2),
         examples.constants(),
         1e-2,
         examples.zeros(*RECORDED_WORKSPACE),
@@ -93,15 +101,15 @@ def run_held(start, t, volts, c, longest_step, w, states):
     Scratch: `w`, (4, SENSITIVITIES + 1, 4).
     """
     state, stage, slope, total = w[0], w[1], w[2], w[3]
-    put(start, state[0])
-    enter(state[0], c)
+    copy_into(start, state[0])
+    stop_at_travel(state[0], c)
     for k in range(len(t)):
-        put(state[0], states[k])
+        copy_into(state[0], states[k])
         if k + 1 < len(t):
             steps = max(1, ceil((t[k + 1] - t[k]) / longest_step))
             h = (t[k + 1] - t[k]) / steps
             for _ in range(steps):
-                advance(h, volts[k, 0], volts[k, 1], c, 1, state, stage, slope, total)
+                runge_kutta_4_step(h, volts[k, 0], volts[k, 1], c, 1, state, stage, slope, total)
                 if abs(state[0, 0]) > c[TRAVEL]:
                     side = 1.0 if state[0, 0] > 0.0 else -1.0
                     state[0, 0] = side * c[TRAVEL]
@@ -110,28 +118,28 @@ def run_held(start, t, volts, c, longest_step, w, states):
 
 
 @kernel
-def advance(h, V_p, V_y, c, rows, state, stage, slope, total):
+def runge_kutta_4_step(h, V_p, V_y, c, rows, state, stage, slope, total):
     """One step of the classical Runge–Kutta method on the first `rows` of `state`."""
-    bend(state, V_p, V_y, c, rows, slope)
+    variational_equations(state, V_p, V_y, c, rows, slope)
     for row in range(rows):
         for j in range(4):
             total[row, j] = slope[row, j]
             stage[row, j] = state[row, j] + 0.5 * h * slope[row, j]
     for part in range(2):
-        bend(stage, V_p, V_y, c, rows, slope)
+        variational_equations(stage, V_p, V_y, c, rows, slope)
         share = 0.5 * h if part == 0 else h
         for row in range(rows):
             for j in range(4):
                 total[row, j] += 2.0 * slope[row, j]
                 stage[row, j] = state[row, j] + share * slope[row, j]
-    bend(stage, V_p, V_y, c, rows, slope)
+    variational_equations(stage, V_p, V_y, c, rows, slope)
     for row in range(rows):
         for j in range(4):
             state[row, j] += h / 6.0 * (total[row, j] + slope[row, j])
 
 
 @kernel
-def bend(x, V_p, V_y, c, rows, out):
+def variational_equations(x, V_p, V_y, c, rows, out):
     """Rates of the state x[0] and of its derivatives x[1:rows] (variational equations of Eqs. 9–12)."""
     theta, theta_dot, psi_dot = x[0, 0], x[0, 2], x[0, 3]
     sine, cosine, ml2 = sin(theta), cos(theta), c[ML2]
@@ -168,7 +176,7 @@ def bend(x, V_p, V_y, c, rows, out):
         examples.constants(),
         examples.modes(),
         examples.settings(),
-        *examples.zeros(3, 1, 2),
+        *(examples.given(1, 2) for _ in range(3)),
         *examples.NUMBERS,
         examples.zeros(*WORKSPACE),
         examples.constants(),
@@ -191,17 +199,17 @@ def run_recorder(
     row per sample: `measured` and `voltages` (n, 2), `states` (n, 6). Scratch: `w` of zeros, `own`, `plant` like c,
     `free` like m, `grid` (2,), `course` (2, 6). Returns the outcome, the samples filled and the impacts.
     """
-    put(c, own)
-    without_controller(c, m, plant, free)
+    copy_into(c, own)
+    rig_without_feedback(c, m, plant, free)
     filters, seen, held, waiting = w[16:18], w[18], w[19], w[20]
-    stand(y, c, d, filters, held)
+    initialize_controller(y, c, d, filters, held)
     impacts = 0
     for k in range(len(references)):
         for i in range(2):
             own[WANTED + i], own[OFFSET + i] = references[k, i], offsets[k, i]
-        put(y, states[k])
-        sense(y, d, filters, noise[k], seen)
-        control(y, own, m, d, seen, w[21], waiting)
+        copy_into(y, states[k])
+        sample_sensors(y, d, filters, noise[k], seen)
+        sample_controller(y, own, m, d, seen, w[21], waiting)
         if d[DELAY] == 0.0:
             held[0], held[1] = waiting[0], waiting[1]
         for i in range(2):

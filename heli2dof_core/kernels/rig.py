@@ -53,7 +53,7 @@ def accelerations(theta, theta_dot, psi_dot, V_p, V_y, c):
 
 
 @kernel
-def asked(y, motor, c):
+def commanded_voltage(y, motor, c):
     """The voltage that the loop asks of a motor, before its limit."""
     row = GAIN + 6 * motor
     u = c[OFFSET + motor]
@@ -63,16 +63,16 @@ def asked(y, motor, c):
 
 
 @kernel
-def given(u, motor, c, m):
+def saturated_voltage(u, motor, c, m):
     """What the motor gets of it, by its mode."""
     return u if m[motor] == INSIDE else m[SIDE + motor] * c[LIMIT + motor]
 
 
 @kernel
-def rates(y, c, m, k, row):
+def state_derivative(y, c, m, k, row):
     """ẏ into k[row]."""
-    u0, u1 = asked(y, 0, c), asked(y, 1, c)
-    v0, v1 = given(u0, 0, c, m), given(u1, 1, c, m)
+    u0, u1 = commanded_voltage(y, 0, c), commanded_voltage(y, 1, c)
+    v0, v1 = saturated_voltage(u0, 0, c, m), saturated_voltage(u1, 1, c, m)
     pitch, yaw = accelerations(y[0], y[2], y[3], v0 + c[DISTURBANCE], v1 + c[DISTURBANCE + 1], c)
     theta_dot = y[2]
     if m[REST] != 0:
@@ -80,7 +80,7 @@ def rates(y, c, m, k, row):
     k[row, 0], k[row, 1], k[row, 2], k[row, 3] = theta_dot, y[3], pitch, yaw
     e0, e1 = c[WANTED] - y[0], c[WANTED + 1] - y[1]
     if m[WINDUP] == CLAMPING and (m[0] != INSIDE or m[1] != INSIDE):
-        clamp(e0, e1, c, m, k, row)
+        clamped_integrators(e0, e1, c, m, k, row)
         return
     if m[WINDUP] == BACK_CALCULATION:
         cut0, cut1 = v0 - u0, v1 - u1
@@ -90,7 +90,7 @@ def rates(y, c, m, k, row):
 
 
 @kernel
-def clamp(e0, e1, c, m, k, row):
+def clamped_integrators(e0, e1, c, m, k, row):
     """Rates of the integrals under clamping: on, off, or sliding.
 
     An integrator pushes if it drives its motor farther beyond its limit; beyond, what pushes stands
@@ -137,15 +137,15 @@ def clamp(e0, e1, c, m, k, row):
 
 
 @kernel
-def watch(y, c, m, k, g):
+def event_functions(y, c, m, k, g):
     """Functions that stay positive while the modes hold, into g; which one does not, or −1.
 
     Two per motor (its distance from the limit; sliding: λ and 1 − λ) and one for the pitch stop (the
     way left; resting: the torque that presses).
     """
-    u0, u1 = asked(y, 0, c), asked(y, 1, c)
+    u0, u1 = commanded_voltage(y, 0, c), commanded_voltage(y, 1, c)
     if m[0] == SLIDING or m[1] == SLIDING:
-        rates(y, c, m, k, 7)
+        state_derivative(y, c, m, k, 7)
     for motor in range(2):
         limit = c[LIMIT + motor]
         u = u0 if motor == 0 else u1
@@ -160,8 +160,8 @@ def watch(y, c, m, k, g):
     if m[REST] == 0:
         g[4] = c[TRAVEL] - abs(y[0])
     else:
-        v0 = given(u0, 0, c, m) + c[DISTURBANCE]
-        v1 = given(u1, 1, c, m) + c[DISTURBANCE + 1]
+        v0 = saturated_voltage(u0, 0, c, m) + c[DISTURBANCE]
+        v1 = saturated_voltage(u1, 1, c, m) + c[DISTURBANCE + 1]
         pitch, _ = accelerations(y[0], 0.0, y[3], v0, v1, c)
         g[4] = m[REST] * pitch
     low = 0
@@ -172,10 +172,10 @@ def watch(y, c, m, k, g):
 
 
 @kernel
-def resolve(y, c, m):
+def saturation_modes(y, c, m):
     """The motors' modes afresh, at the start and after a jump of the state."""
     for motor in range(2):
-        u = asked(y, motor, c)
+        u = commanded_voltage(y, motor, c)
         m[SIDE + motor] = 1 if u > 0.0 else -1
         m[motor] = BEYOND if abs(u) > c[LIMIT + motor] else INSIDE
 
@@ -185,8 +185,8 @@ def meet_stop(y, c, m, k, g):
     """Pitch is at a stop: its rate is gone, and it rests there while the torque presses."""
     m[REST] = 1 if y[0] > 0.0 else -1
     y[0], y[2] = m[REST] * c[TRAVEL], 0.0
-    resolve(y, c, m)
-    watch(y, c, m, k, g)
+    saturation_modes(y, c, m)
+    event_functions(y, c, m, k, g)
     if g[4] <= 0.0:
         leave_stop(y, m)
 
@@ -199,8 +199,8 @@ def leave_stop(y, m):
 
 
 @kernel
-def switch(which, y, c, m, k, g):
-    """The modes after the function `which` of `watch` has turned negative."""
+def switch_mode(which, y, c, m, k, g):
+    """The modes after the function `which` of `event_functions` has turned negative."""
     motor = which // 2
     if which == 4:
         if m[REST] == 0:
@@ -208,10 +208,10 @@ def switch(which, y, c, m, k, g):
         else:
             leave_stop(y, m)
     elif m[motor] == INSIDE:
-        m[SIDE + motor] = 1 if asked(y, motor, c) > 0.0 else -1
+        m[SIDE + motor] = 1 if commanded_voltage(y, motor, c) > 0.0 else -1
         m[motor] = BEYOND
         if m[WINDUP] == CLAMPING:
-            rates(y, c, m, k, 7)
+            state_derivative(y, c, m, k, 7)
             rise = 0.0
             for j in range(6):
                 rise += c[GAIN + 6 * motor + j] * k[7, j]
@@ -223,6 +223,6 @@ def switch(which, y, c, m, k, g):
         m[motor] = INSIDE
         if m[WINDUP] == CLAMPING:
             m[motor] = SLIDING
-            rates(y, c, m, k, 7)
+            state_derivative(y, c, m, k, 7)
             if not k[7, 6 + motor] < 1.0:
                 m[motor] = INSIDE

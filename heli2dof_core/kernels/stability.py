@@ -16,15 +16,15 @@ from .layout import (
     POLYNOMIALS,
     ROUNDING,
 )
-from .polynomials import describe, determinant
+from .polynomials import determinant, polynomial_matrices
 
 # Rows of the scratch array, (13, 16), that are used here
 TOTAL, SIZES, UPPER, LOWER = 0, 1, 2, 3
 
 
-@entry_point(lambda: (examples.zeros(*POLYNOMIALS), examples.zeros(*POLYNOMIAL_WORKSPACE)))
-def stable(f, p):
-    """Whether every pole of the described loop lies left of the imaginary axis, and not by rounding."""
+@entry_point(lambda: (examples.given(*POLYNOMIALS), examples.zeros(*POLYNOMIAL_WORKSPACE)))
+def is_stable(f, p):
+    """Whether every pole of the loop lies left of the imaginary axis, and not by rounding."""
     determinant(f, p[TOTAL], p[SIZES])
     return hurwitz(p[TOTAL], p[SIZES], p[UPPER], p[LOWER])
 
@@ -78,14 +78,14 @@ def routh(upper, lower, degree):
     lambda: (
         np.array([examples.plant()[0]]),
         np.array([examples.plant()[1]]),
-        examples.zeros(2, 6),
+        examples.given(2, 6),
         examples.zeros(*POLYNOMIALS),
         examples.zeros(*POLYNOMIAL_WORKSPACE),
         examples.zeros(1),
     )
 )
-def count_stable(A, inputs, law, f, p, verdicts):
+def are_stable(A, inputs, law, f, p, verdicts):
     """The same of many rigs under one law: A (n, 4, 4), inputs (n, 4, 2); 1 or 0 into `verdicts`, (n,)."""
     for i in range(len(A)):
-        describe(A[i], inputs[i], law, f)
-        verdicts[i] = 1.0 if stable(f, p) else 0.0
+        polynomial_matrices(A[i], inputs[i], law, f)
+        verdicts[i] = 1.0 if is_stable(f, p) else 0.0

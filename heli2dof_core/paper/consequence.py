@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..frozen import Frozen
 from ..parameters import Parameters
 from ..plant import plant
 from ..presets import preset
@@ -15,7 +16,7 @@ from .printed import printed_gain, printed_poles
 
 
 @dataclass(frozen=True)
-class Outcome:
+class Outcome(Frozen):
     """The printed K on one plant.
 
     Attributes:

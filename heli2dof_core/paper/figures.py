@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from ..design import Design, design
+from ..frozen import Frozen
 from ..loop import close_loop
 from ..plant import plant
 from ..poles import PoleSet
@@ -18,7 +19,7 @@ from .printed import PI, UNIT_STEP, printed_gain, printed_poles
 
 
 @dataclass(frozen=True)
-class Curve:
+class Curve(Frozen):
     """One response of one axis: what it shows, in words, and the angle, rad."""
 
     name: str
@@ -27,7 +28,7 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Figure:
+class Figure(Frozen):
     """One redrawn figure: number, output, times in s and curves."""
 
     number: int

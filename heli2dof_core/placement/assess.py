@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..controllability import scan
 from ..findings import Finding
+from ..frozen import Frozen
 from ..signals import Complexes, Floats
 from ..tables import Shown, Table, number
 from ..tables import poles as pole_words
@@ -25,7 +26,7 @@ NOTICED = 1e-6
 
 
 @dataclass(frozen=True, repr=False)
-class Assessment(Shown):
+class Assessment(Frozen, Shown):
     """A placement and what it does.
 
     Attributes:

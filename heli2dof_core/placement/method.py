@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InvalidInputError
+from ..frozen import Frozen, read_only
 from ..rank import numeric_rank
 from ..signals import Complexes, Floats
 
@@ -32,7 +33,7 @@ class Weights:
 
 
 @dataclass(frozen=True)
-class Task:
+class Task(Frozen):
     """A system ẋ = Ax + Bu, y = Cx and what is wanted of it.
 
     Attributes:
@@ -47,9 +48,13 @@ class Task:
     C: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     weights: Weights | None = None
 
+    def __post_init__(self) -> None:
+        for name in ("A", "B", "poles", "C"):
+            object.__setattr__(self, name, read_only(getattr(self, name)))
+
 
 @dataclass(frozen=True)
-class Placement:
+class Placement(Frozen):
     """A state feedback u = −Kx + v, or u = −Kx + K_z z with integral action, z = ∫ (r − y) dt.
 
     Attributes:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..controllability import in_own_units
 from ..errors import MethodUnavailableError
+from ..frozen import Frozen
 from ..rank import equilibrated
 from ..signals import Floats
 from .exact import exact_matrix, roots
@@ -25,7 +26,7 @@ UNREACHED = 1e-8
 
 
 @dataclass(frozen=True)
-class Regulator:
+class Regulator(Frozen):
     """What is minimized: ẋ = Ax + Bu, ∫ (xᵀQx + uᵀRu) dt, Q and R diagonal.
 
     Attributes:

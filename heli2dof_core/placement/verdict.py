@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..eigenvalues import balanced, eigenvectors, spectrum
+from ..frozen import Frozen
 from ..poles import match_poles
 from ..signals import Complexes, Floats
 from .exact import exact_closed_loop, exact_eigenvalues, exact_eigenvectors
@@ -23,7 +24,7 @@ DOUBTFUL = 1e-8
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Verdict(Frozen):
     """The poles of A − BK, and how far they are from those asked for.
 
     Attributes:

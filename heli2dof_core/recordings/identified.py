@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..findings import Finding
+from ..frozen import Frozen
 from ..parameters import PARAMETER_INFO, Parameters
 from ..signals import Floats
 
@@ -46,7 +47,7 @@ class Progress:
 
 
 @dataclass(frozen=True)
-class Identification:
+class Identification(Frozen):
     """What a recording says about a rig.
 
     Attributes:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..errors import RecordingError
 from ..findings import Finding
+from ..frozen import Frozen
 from ..loop import Loop
 from ..parameters import Parameters
 from ..scenario import MOST_SAMPLE_TIMES, Digital, Limits
@@ -25,7 +26,7 @@ FARTHEST = 1e4
 
 
 @dataclass(frozen=True)
-class Overlay:
+class Overlay(Frozen):
     """What the model does under what was recorded.
 
     Attributes:

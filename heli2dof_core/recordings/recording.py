@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..checks import require_one_of, require_within
 from ..errors import RecordingError
 from ..findings import Finding
+from ..frozen import Frozen, read_only
 from ..quantities import Quantity, documented, require_valid
 from ..signals import Floats
 from .time_axis import judged_time, stretches, timing_remarks
@@ -44,7 +45,7 @@ _NEARLY = 0.25
 
 
 @dataclass(frozen=True)
-class Table:
+class Table(Frozen):
     """A file's columns.
 
     Attributes:
@@ -150,7 +151,7 @@ class Columns:
 
 
 @dataclass(frozen=True)
-class Recording:
+class Recording(Frozen):
     """What a rig did, in SI units and with our signs.
 
     Attributes:
@@ -171,7 +172,7 @@ class Recording:
         for name in ("t", "angles", "voltages", "references"):
             values = getattr(self, name)
             if values is not None:  # the compiled kernels take this layout alone
-                object.__setattr__(self, name, np.ascontiguousarray(values, dtype=np.float64))
+                object.__setattr__(self, name, read_only(np.ascontiguousarray(values, dtype=np.float64)))
 
     @property
     def sample_time(self) -> float:

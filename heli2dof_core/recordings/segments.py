@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import RecordingError
+from ..frozen import Frozen
 from ..parameters import Parameters
 from ..signals import Floats
 from ..simulation.recorded import Wanted, longest_step, nobody_leaves, run_segments
@@ -84,7 +85,7 @@ def _leaps(recording: Recording) -> NDArray[np.int64]:
 
 
 @dataclass(frozen=True)
-class Fitted:
+class Fitted(Frozen):
     """All segments under one set of parameters, their starting states fitted.
 
     Attributes:

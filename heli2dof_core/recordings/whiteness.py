@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..frozen import Frozen
 from ..signals import Floats
 
 LAGS = 25
@@ -16,7 +17,7 @@ FALSE_ALARMS = 1e-3
 
 
 @dataclass(frozen=True)
-class Whiteness:
+class Whiteness(Frozen):
     """What the residuals of one axis say.
 
     Attributes:

@@ -9,29 +9,20 @@ import numpy as np
 
 from ..engine import engine
 from ..figures import AXIS_METRICS
-from ..kernels.layout import (
-    AUGMENTED,
-    CONSTANTS,
-    COURSE,
-    LADDER,
-    LINEAR_WORKSPACE,
-    MODES,
-    MOTOR_METRICS,
-    STRETCH,
-    WORKSPACE,
-)
+from ..kernels.layout import AUGMENTED, COURSE, MOTOR_METRICS
 from ..loop import Loop
 from ..scenario import Limits, Model, Scenario
+from ..scratch import scratch
 from ..signals import Floats
-from .experiment import NOTHING, experiment
-from .linear import AT_REST, FOLLOWED_TWICE, linear_response
+from .experiment import NOTHING, numbers
+from .linear import AT_REST, linear_response
 from .nonlinear import ABSOLUTE_TOLERANCE, limited_response
 from .response import Measured, Response
 
 _MODELS: tuple[Model, ...] = ("linear", "nonlinear")
 
 
-@dataclass(frozen=True)
+@dataclass
 class Courses:
     """What the kernel `run_experiments` has filled for n experiments, laid out as it says."""
 
@@ -63,7 +54,7 @@ def run_experiments(
     """
     first, plant, kernels = scenarios[0], loop.design.plant, engine()
     t, n = first.times, len(scenarios)
-    experiments = np.array([experiment(loop, limits, scenario) for scenario in scenarios])
+    experiments = np.array([numbers(loop, limits, scenario) for scenario in scenarios])
     filled = (
         np.empty((n, AUGMENTED, len(t))),
         np.empty((n, 6, len(t))),
@@ -87,13 +78,7 @@ def run_experiments(
         first.rtol,
         ABSOLUTE_TOLERANCE * first.rtol,
         most_steps or kernels.most_steps,
-        np.empty(WORKSPACE),
-        np.empty(LINEAR_WORKSPACE),
-        np.empty(LADDER),
-        np.empty(STRETCH),
-        np.empty(FOLLOWED_TWICE),
-        np.empty(CONSTANTS),
-        np.empty(MODES, dtype=np.int64),
+        *scratch.experiments,
         np.empty((len(t) + 1, 6)),
         np.empty(len(t) + 1),
         AT_REST,

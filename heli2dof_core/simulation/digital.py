@@ -12,10 +12,10 @@ from ..findings import Finding
 from ..kernels.layout import FED, WORKSPACE
 from ..loop import Loop
 from ..scenario import Digital, Limits, Scenario
+from ..scratch import FOLLOWED_TWICE
 from ..signals import Floats
-from .linear import FOLLOWED_TWICE
 from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop, limited_response
-from .response import Measured, Response
+from .response import Measured, Response, room
 
 FILTER_FREQUENCY = 2 * np.pi * 20
 """Natural frequency of the rig's rate filters, rad/s (Quanser 2-DOF Helicopter, laboratory manual)."""
@@ -36,7 +36,7 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
     """
     system = NonlinearLoop.of(loop, limits, scenario)
     t = scenario.times
-    states, held, found = np.empty((scenario.samples, 6)), np.empty((scenario.samples, 2)), Measured.empty()
+    states, held, found = np.empty((scenario.samples, 6)), np.empty((scenario.samples, 2)), room()
     count = 1
     if digital.noise:  # for twice the window: settling is looked at beyond its end
         count = int(np.ceil(2 * scenario.duration / digital.sample_time)) + 2
@@ -64,12 +64,10 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
         np.empty(FOLLOWED_TWICE),
         states,
         held,
-        found.axes,
-        found.motors,
-        found.course,
+        *found,
     )
     course, voltages = np.ascontiguousarray(states.T), np.ascontiguousarray(held.T)
-    response = limited_response(system.experiment, t, course[: system.order], voltages, found)
+    response = limited_response(system.experiment, t, course[: system.order], voltages, Measured(*found))
     return replace(response, findings=(*response.findings, *_remarks(loop, scenario, digital)))
 
 

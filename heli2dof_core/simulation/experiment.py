@@ -9,19 +9,19 @@ import numpy as np
 from ..kernels.layout import BACK_CALCULATION, CLAMPING, NO_ANTI_WINDUP
 from ..loop import Loop
 from ..scenario import AntiWindup, Limits, Scenario
-from ..signals import Floats
+from ..signals import Floats, fixed
 
 _WINDUP: dict[AntiWindup, int] = {
     "none": NO_ANTI_WINDUP,
     "clamping": CLAMPING,
     "back-calculation": BACK_CALCULATION,
 }
-NOTHING = np.zeros((2, 2))
+NOTHING = fixed(np.zeros((2, 2)))
 """The integral action of a loop that integrates nothing."""
 
 
-def experiment(loop: Loop, limits: Limits | None, scenario: Scenario) -> Floats:
-    """The scenario on this loop as the kernels take it, shape (EXPERIMENT,), laid out as `layout` says.
+def numbers(loop: Loop, limits: Limits | None, scenario: Scenario) -> list[float]:
+    """The scenario on this loop, EXPERIMENT numbers, laid out as `layout` says.
 
     Without `limits` nothing saturates and pitch has no stops.
     """
@@ -36,7 +36,12 @@ def experiment(loop: Loop, limits: Limits | None, scenario: Scenario) -> Floats:
         stop = limits.theta
     volts = (0.0, 0.0) if disturbance is None else (disturbance.V_p, disturbance.V_y)
     fed = float(scenario.trim_feedforward)
-    return np.array([*scenario.resolved(theta_0), *bounds, stop, fed, windup, *back, *volts])
+    return [*scenario.resolved(theta_0), *bounds, stop, fed, windup, *back, *volts]
+
+
+def experiment(loop: Loop, limits: Limits | None, scenario: Scenario) -> Floats:
+    """`numbers` as an array, as the kernels take them."""
+    return np.array(numbers(loop, limits, scenario))
 
 
 def _tracking(loop: Loop, tracking_time: float | None) -> list[float]:

@@ -5,17 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from ..engine import engine
-from ..kernels.layout import AUGMENTED, FOLLOWED, LADDER, LINEAR_WORKSPACE, START, STRETCH
+from ..kernels.layout import AUGMENTED, LADDER, LINEAR_WORKSPACE, START, STRETCH
 from ..loop import Loop
 from ..scenario import Scenario
+from ..scratch import FOLLOWED_TWICE
 from ..signals import Floats, fixed
 from .experiment import experiment
-from .response import Measured, Response, course_findings
+from .response import Measured, Response, course_findings, room
 
 AT_REST = fixed(np.zeros(2))
 """Its voltages are deviations from the trim."""
-FOLLOWED_TWICE = (2 * FOLLOWED[0], FOLLOWED[1])
-"""Shape of the scratch array for figures: within the window, and beyond it."""
 
 
 def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = None) -> Response:
@@ -29,7 +28,7 @@ def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = Non
     states, voltages, found, kernels = (
         np.empty((AUGMENTED, len(t))),
         np.empty((2, len(t))),
-        Measured.empty(),
+        room(),
         engine(),
     )
     matrices = (loop.voltage_from_state, loop.voltage_from_reference, loop.A, loop.B, loop.poles)
@@ -46,11 +45,9 @@ def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = Non
         np.empty(FOLLOWED_TWICE),
         states,
         voltages,
-        found.axes,
-        found.motors,
-        found.course,
+        *found,
     )
-    return linear_response(x, t, states[: len(loop.A)], voltages, found)
+    return linear_response(x, t, states[: len(loop.A)], voltages, Measured(*found))
 
 
 def linear_response(x: Floats, t: Floats, states: Floats, voltages: Floats, found: Measured) -> Response:

@@ -28,18 +28,18 @@ from ..kernels.layout import (
 )
 from ..loop import Loop
 from ..scenario import Limits, Scenario
+from ..scratch import FOLLOWED_TWICE
 from ..signals import INPUTS, Floats
 from .experiment import NOTHING, experiment
-from .linear import FOLLOWED_TWICE
-from .response import Measured, Response, course_findings
+from .response import Measured, Response, course_findings, room
 
 ABSOLUTE_TOLERANCE = 0.1
 """Absolute tolerance of the integration as a share of the relative one (states are of order 1)."""
 
 
-@dataclass(frozen=True)
+@dataclass
 class NonlinearLoop:
-    """The loop around the nonlinear rig (Eqs. 9–12) as `kernels.rig` takes it.
+    """The loop around the nonlinear rig (Eqs. 9–12) as `kernels.rig` takes it; kernels write into it, too.
 
     Attributes:
         experiment: laid out as `layout` says.
@@ -62,7 +62,7 @@ class NonlinearLoop:
         plant, x = loop.design.plant, experiment(loop, limits, scenario)
         constants, modes, start = np.empty(CONSTANTS), np.empty(MODES, dtype=np.int64), np.zeros(6)
         integral = NOTHING if loop.integral is None else loop.integral
-        engine().compose(
+        engine().nonlinear_loop(
             plant.constants,
             plant.trim,
             plant.theta_0,
@@ -109,7 +109,7 @@ def simulate_nonlinear(
     `most_steps`, by default half a second's work or two, it is given up and a finding says so.
     """
     system, kernels = NonlinearLoop.of(loop, limits, scenario), engine()
-    t, found = scenario.times, Measured.empty()
+    t, found = scenario.times, room()
     states, voltages = np.empty((6, len(t))), np.empty((2, len(t)))
     kernels.run_nonlinear(
         system.constants,
@@ -128,32 +128,30 @@ def simulate_nonlinear(
         np.empty(FOLLOWED_TWICE),
         states,
         voltages,
-        found.axes,
-        found.motors,
-        found.course,
+        *found,
     )
-    return limited_response(system.experiment, t, states[: system.order], voltages, found)
+    return limited_response(system.experiment, t, states[: system.order], voltages, Measured(*found))
 
 
 def limited_response(x: Floats, t: Floats, states: Floats, voltages: Floats, found: Measured) -> Response:
     """The course of an experiment with its remarks."""
-    theta, psi, theta_start, psi_start = x[: START + 2].tolist()
+    numbers: list[float] = x.tolist()
+    theta, psi, theta_start, psi_start = numbers[: START + 2]
     ends = ((theta, psi), (theta_start, psi_start))
     pitch, yaw, _, _, impacts, *_ = found.course[SHARE:].tolist()
-    remarks = (*course_findings("nonlinear", t, found), *_remarks(x, (pitch, yaw), impacts))
+    remarks = (*course_findings("nonlinear", t, found), *_remarks(numbers, (pitch, yaw), impacts))
     return Response("nonlinear", t, states[:2], voltages, *ends, (pitch, yaw), remarks, states, found)
 
 
-def _remarks(x: Floats, saturated: tuple[float, float], impacts: float) -> Iterator[Finding]:
-    for signal, share, limit in zip(INPUTS, saturated, x[BOUND:STOP].tolist(), strict=True):
+def _remarks(x: list[float], saturated: tuple[float, float], impacts: float) -> Iterator[Finding]:
+    for signal, share, limit in zip(INPUTS, saturated, x[BOUND:STOP], strict=True):
         if share:
             yield Finding(
                 f"saturation_{signal.name}",
                 "warning",
                 f"The {signal.meaning} is at its limit of ±{limit:g} V for {100 * share:.0f} % of the time.",
             )
-    travel = float(x[STOP])
-    stop = f"±{degrees(travel):.1f}°"
+    travel = x[STOP]
     if abs(x[START]) > travel:
         yield Finding(
             "starts_on_stop",
@@ -161,10 +159,15 @@ def _remarks(x: Floats, saturated: tuple[float, float], impacts: float) -> Itera
             "The start angle lies beyond the pitch travel. The rig starts on its stop.",
         )
     if impacts:
-        yield Finding("travel_stop", "warning", f"Pitch hits a stop of its travel at {stop}.")
+        yield Finding("travel_stop", "warning", f"Pitch hits a stop of its travel at {_stop(travel)}.")
     if abs(x[REFERENCE]) > travel:
         yield Finding(
             "reference_beyond_stop",
             "warning",
-            f"The pitch reference lies beyond the travel of {stop} and cannot be reached. Choose a smaller step.",
+            f"The pitch reference lies beyond the travel of {_stop(travel)} and cannot be reached. Choose a "
+            "smaller step.",
         )
+
+
+def _stop(travel: float) -> str:
+    return f"±{degrees(travel):.1f}°"

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..engine import engine
 from ..errors import RecordingError
+from ..frozen import Frozen
 from ..kernels.layout import GAIN, RECORDED_WORKSPACE, SENSITIVITIES, TRAVEL, WORKSPACE
 from ..loop import Loop
 from ..parameters import Parameters
@@ -35,7 +36,7 @@ def nobody_leaves() -> None:
 
 
 @dataclass(frozen=True)
-class Recorded:
+class Recorded(Frozen):
     """A digital rig's run, a row per sample of its controller.
 
     Attributes:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..figures import AXIS_METRICS
 from ..findings import Finding
+from ..frozen import Frozen
 from ..kernels.layout import (
     COURSE,
     HELD,
@@ -24,7 +25,7 @@ from ..tables import Shown, number
 
 
 @dataclass(frozen=True)
-class Measured:
+class Measured(Frozen):
     """Figures of merit as the kernels fill them, laid out as `layout` says; `metrics` gives them names.
 
     Attributes:
@@ -37,14 +38,14 @@ class Measured:
     motors: Floats
     course: Floats
 
-    @classmethod
-    def empty(cls) -> Measured:
-        """Room for them."""
-        return cls(np.empty((2, AXIS_METRICS)), np.empty((2, MOTOR_METRICS)), np.empty(COURSE))
+
+def room() -> tuple[Floats, Floats, Floats]:
+    """What a kernel fills with the figures of a course, to be made `Measured` then."""
+    return np.empty((2, AXIS_METRICS)), np.empty((2, MOTOR_METRICS)), np.empty(COURSE)
 
 
 @dataclass(frozen=True, repr=False)
-class Response(Shown):
+class Response(Frozen, Shown):
     """Trajectories over t, all of shape (samples,).
 
     Attributes:
@@ -114,7 +115,8 @@ _GIVEN_UP = {
 
 def course_findings(model: Literal["linear", "nonlinear"], t: Floats, found: Measured) -> Iterator[Finding]:
     """How a course ended before its time: without bound, or given up."""
-    held, outcome, reached = (found.course[i] for i in (HELD, OUTCOME, REACHED))
+    course = found.course.tolist()
+    held, outcome, reached = course[HELD], course[OUTCOME], course[REACHED]
     if held < len(t):
         message = f"The response grows without bound. It is shown until t = {t[int(held) - 1]:.3g} s."
         yield Finding("diverges", "error", message)

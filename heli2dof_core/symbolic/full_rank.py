@@ -120,7 +120,7 @@ def steady_state_inverse(K: DomainMatrix, A: DomainMatrix, B: DomainMatrix) -> D
     return K.extract(angles, angles) - statics
 
 
-def to_field(matrix: sp.Matrix) -> DomainMatrix:
+def to_field(matrix: sp.MatrixBase) -> DomainMatrix:
     """A SymPy matrix as a dense DomainMatrix over `FIELD`."""
     return DomainMatrix.from_Matrix(matrix).convert_to(FIELD).to_dense()
 

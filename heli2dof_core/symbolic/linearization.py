@@ -22,10 +22,10 @@ class LinearModel:
         trim: voltages [V_p, V_y] that hold the rig at θ₀, 2×1, V.
     """
 
-    A: sp.Matrix
-    B: sp.Matrix
+    A: sp.ImmutableMatrix
+    B: sp.ImmutableMatrix
     definitions: dict[sp.Symbol, sp.Expr]
-    trim: sp.Matrix
+    trim: sp.ImmutableMatrix
 
     @property
     def short_names(self) -> sp.Matrix:
@@ -65,4 +65,4 @@ def linear_model() -> LinearModel:
     definitions[a] = A[2, 0]
     A[2, 0] = a
     trim = sp.Matrix([voltages[V_p], voltages[V_y]]).subs(point).applyfunc(sp.factor)
-    return LinearModel(A, B, definitions, trim)
+    return LinearModel(sp.ImmutableMatrix(A), sp.ImmutableMatrix(B), definitions, sp.ImmutableMatrix(trim))

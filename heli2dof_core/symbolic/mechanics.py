@@ -29,10 +29,10 @@ class Mechanics:
 
     kinetic: sp.Expr
     potential: sp.Expr
-    mass_matrix: sp.Matrix
-    bias: sp.Matrix
-    torque: sp.Matrix
-    accelerations: sp.Matrix
+    mass_matrix: sp.ImmutableMatrix
+    bias: sp.ImmutableMatrix
+    torque: sp.ImmutableMatrix
+    accelerations: sp.ImmutableMatrix
 
 
 @cache
@@ -59,7 +59,7 @@ def mechanics() -> Mechanics:
     torque = thrust * sp.Matrix([V_p, V_y]) - sp.Matrix([P["B_p"] * theta_dot, P["B_y"] * psi_dot])
 
     accelerations = mass_matrix.LUsolve(torque - bias)
-    return Mechanics(kinetic, potential, mass_matrix, bias, torque, accelerations)
+    return Mechanics(kinetic, potential, *map(sp.ImmutableMatrix, (mass_matrix, bias, torque, accelerations)))
 
 
 def _without_squared_sines(expression: sp.Expr) -> sp.Expr:

@@ -6,6 +6,7 @@ import asyncio
 import itertools
 import socket
 import threading
+from contextlib import ExitStack
 
 import httpx2
 import numpy as np
@@ -96,16 +97,14 @@ def test_too_many_requests_are_told_when_to_come_back(http):
 
 def test_too_many_sockets_are_closed_with_1013(server):
     url = server.socket("/api/v1/live")
-    peers = [connect(url, compression=None, proxy=None) for _ in range(SMALL["sockets_per_address"])]
-    try:
+    with ExitStack() as peers:
+        for _ in range(SMALL["sockets_per_address"]):
+            peers.enter_context(connect(url, compression=None, proxy=None))
         with connect(url, compression=None, proxy=None) as late, pytest.raises(ConnectionClosed) as closed:
             late.recv(10)
         assert closed.value.rcvd is not None
         assert closed.value.rcvd.code == 1013
         assert "4 sockets open" in closed.value.rcvd.reason
-    finally:
-        for peer in peers:
-            peer.close()
     until(lambda: server.app.state.socket_counts.total == 0, "all sockets are forgotten")
 
 

@@ -7,6 +7,7 @@ import json
 import math
 import struct
 from collections.abc import Iterator
+from contextlib import ExitStack
 from typing import Any
 
 import msgspec
@@ -151,15 +152,14 @@ def test_what_no_window_sends_ends_the_connection(server: SceneServer, message: 
 
 
 def test_room_is_full_at_some_point_and_says_so(server: SceneServer):
-    sockets = [join(server, "crowd", page=True) for _ in range(MOST_WINDOWS)]
-    hears(sockets[-1], "windows", others=MOST_WINDOWS - 1)
-    with join(server, "crowd", page=True) as late:
-        with pytest.raises(ConnectionClosed):
-            late.recv(timeout=20)
-        assert late.close_code == 1013
-        assert f"{MOST_WINDOWS} windows" in (late.close_reason or "")
-    for socket in sockets:
-        socket.close()
+    with ExitStack() as crowd:
+        sockets = [crowd.enter_context(join(server, "crowd", page=True)) for _ in range(MOST_WINDOWS)]
+        hears(sockets[-1], "windows", others=MOST_WINDOWS - 1)
+        with join(server, "crowd", page=True) as late:
+            with pytest.raises(ConnectionClosed):
+                late.recv(timeout=20)
+            assert late.close_code == 1013
+            assert f"{MOST_WINDOWS} windows" in (late.close_reason or "")
 
 
 def test_page_in_a_room_keeps_no_rig_running(server: SceneServer):

@@ -7,6 +7,7 @@ import threading
 import weakref
 from collections.abc import Coroutine, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from typing import Any
 
 import pytest
@@ -65,17 +66,18 @@ def test_session_lives_while_it_is_watched_and_not_much_longer():
 
 
 def test_stopping_the_app_stops_every_rig_and_tells_the_watchers():
-    with serving() as server:
-        socket = watch(server, "last")
-        replay(socket)
-        viser = server.sessions.server(session_id("last"))
-        assert viser is not None
-        port = viser.get_port()
-    with pytest.raises(ConnectionClosed):
-        socket.recv(timeout=PATIENCE)
+    with ExitStack() as watching:
+        with serving() as server:
+            socket = watching.enter_context(watch(server, "last"))
+            replay(socket)
+            viser = server.sessions.server(session_id("last"))
+            assert viser is not None
+            port = viser.get_port()
+        with pytest.raises(ConnectionClosed):
+            socket.recv(timeout=PATIENCE)
     assert len(server.sessions) == 0
-    with pytest.raises(ConnectionRefusedError):
-        connect(f"ws://127.0.0.1:{port}", proxy=None)
+    with pytest.raises(ConnectionRefusedError), connect(f"ws://127.0.0.1:{port}", proxy=None):
+        pass
 
 
 def test_watcher_is_told_when_its_rig_stops(server: SceneServer):
@@ -167,8 +169,7 @@ def test_stopped_rig_lets_go_of_its_scene_at_once():
 
 
 def test_client_that_is_killed_in_mid_frame_leaves_nothing():
-    with serving(idle_seconds=0.3) as server:
-        rude = watch(server, "killed")
+    with serving(idle_seconds=0.3) as server, watch(server, "killed") as rude:
         rude.recv(timeout=PATIENCE)
         raw = rude.socket
         raw.sendall(b"\x82\xfe\x10\x00")  # a frame's head that promises 4096 bytes, of which none come

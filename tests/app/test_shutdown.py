@@ -8,6 +8,7 @@ from __future__ import annotations
 import array
 import contextlib
 import fcntl
+import functools
 import json
 import signal
 import socket as sockets_module
@@ -40,6 +41,11 @@ def open_socket(server: Server, path: str, **more) -> Connection:
     return connect(f"{server.ws}{path}", compression=None, proxy=None, open_timeout=PATIENCE, **more)
 
 
+def enter(sockets: contextlib.ExitStack, server: Server, path: str, **more) -> Connection:
+    """The same, closed with all others."""
+    return sockets.enter_context(open_socket(server, path, **more))
+
+
 def farewell(socket: Connection) -> tuple[list[str | bytes], int | None]:
     """All that still comes, and the code at the end."""
     heard: list[str | bytes] = []
@@ -50,15 +56,13 @@ def farewell(socket: Connection) -> tuple[list[str | bytes], int | None]:
 
 
 def test_answers_in_flight_arrive_and_sockets_close_with_1001(tmp_path: Path):
-    with served(tmp_path, drain=0.5, grace=PATIENCE) as server:
+    with served(tmp_path, drain=0.5, grace=PATIENCE) as server, contextlib.ExitStack() as sockets:
+        opened = functools.partial(enter, sockets, server)
         until(lambda: server.warm, "the kernels are there")
-        live = [open_socket(server, "/api/v1/live") for _ in range(20)]
-        cloud = open_socket(server, "/api/v1/robustness")
-        idle = [
-            open_socket(server, "/api/v1/live"),
-            open_socket(server, f"/scene/{session_id('ends')}/hub?page=true"),
-        ]
-        scene = open_socket(server, f"/scene/{session_id('ends')}", subprotocols=[VISER], max_size=None)
+        live = [opened("/api/v1/live") for _ in range(20)]
+        cloud = opened("/api/v1/robustness")
+        idle = [opened("/api/v1/live"), opened(f"/scene/{session_id('ends')}/hub?page=true")]
+        scene = opened(f"/scene/{session_id('ends')}", subprotocols=[VISER], max_size=None)
         replies = []
 
         def post() -> None:
@@ -97,9 +101,9 @@ def test_answers_in_flight_arrive_and_sockets_close_with_1001(tmp_path: Path):
 
 
 def test_what_computes_for_long_does_not_hold_the_end_up(tmp_path: Path):
-    with served(tmp_path, grace=1.0, slow_seconds=10 * PATIENCE) as server:
+    with served(tmp_path, grace=1.0, slow_seconds=10 * PATIENCE) as server, contextlib.ExitStack() as sockets:
         until(lambda: server.warm, "the kernels are there")
-        peers = [open_socket(server, "/api/v1/robustness") for _ in range(3)]
+        peers = [enter(sockets, server, "/api/v1/robustness") for _ in range(3)]
         for peer in peers:
             peer.send(json.dumps(STIFF))
         until(lambda: waiting(server) == 1, "two are computed and the third waits")

@@ -41,7 +41,7 @@ def test_the_integrals_voltage_follows_the_limits_with_the_tracking_time(rig, po
     modes = system.modes.copy()
     modes[:2] = np.where(limited == asked, kernel.INSIDE, kernel.BEYOND)
     modes[2:4] = np.sign(asked)
-    kernel.rates(y, system.constants, modes, slopes, 0)
+    kernel.state_derivative(y, system.constants, modes, slopes, 0)
     followed = loop.integral @ (slopes[0, 4:6] - (system.reference - y[:2]))
     scale = np.max(np.abs(asked)) / tracking
     np.testing.assert_allclose(followed, (limited - asked) / tracking, atol=1e-9 * scale, rtol=1e-7)

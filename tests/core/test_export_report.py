@@ -8,11 +8,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from jinja2 import UndefinedError
 
 from heli2dof_core import PRESETS, OuterLoop, PoleSet, Scenario, Spec, Structure, evaluate, preset
+from heli2dof_core.evaluate import Report
 from heli2dof_core.export import FORMATS
+from heli2dof_core.export.report import _templates
 from heli2dof_core.export.report_figures import decibel, fixed, seconds, significant
 from heli2dof_core.export.svg import HEIGHT, LEFT, WIDTH, Curve, chart, number, thinned, ticks
+from heli2dof_core.findings import Finding
 
 BASE = Spec.from_preset(preset())
 SPECS = {
@@ -53,10 +57,27 @@ def test_the_report_is_well_formed_and_holds_the_design(name: str):
     assert "nan" not in words.lower().split() and "None°" not in words
 
 
-def test_a_link_is_shown_and_escaped():
-    text = FORMATS["report"].render(BASE, "http://127.0.0.1:8000/#a&b=<i>'")
-    anchor = next(tree(text).iter("a"))
-    assert anchor.get("href") == anchor.text == "http://127.0.0.1:8000/#a&b=<i>'"
+HOSTILE = """</pre></title></style><script>alert(1)</script>{{ 7*7 }}{% if %}'"&amp;"""
+
+
+def test_all_text_is_escaped(monkeypatch: pytest.MonkeyPatch):
+    plain = [element.tag for element in tree(FORMATS["report"].render(BASE, "x")).iter()]
+    hostile = replace(preset(), title=HOSTILE, source=HOSTILE)
+    told = Finding("x", "warning", HOSTILE)
+    monkeypatch.setattr(Report, "findings", (told, told))
+    monkeypatch.setattr("heli2dof_core.export.report.preset_of", lambda _: hostile)
+    page = tree(FORMATS["report"].render(BASE, HOSTILE))
+    found = [element.tag for element in page.iter() if element.tag not in ("li", "b", "ul", "p")]
+    assert found == [tag for tag in plain if tag not in ("li", "b", "ul", "p")]
+    anchor, title = next(page.iter("a")), next(page.iter("title"))
+    assert anchor.get("href") == anchor.text == HOSTILE and title.text == f"Pole placement: {HOSTILE}"
+    assert [bold.tail for bold in page.iter("b")] == [f" {HOSTILE}"] * 2
+    assert HOSTILE in "".join(next(page.iter("pre")).itertext())
+
+
+def test_a_name_that_nobody_gave_is_an_error():
+    with pytest.raises(UndefinedError):
+        _templates().get_template("report.html.jinja").render(title="")
 
 
 def test_a_curve_is_where_its_numbers_are():

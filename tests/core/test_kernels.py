@@ -39,7 +39,7 @@ def test_no_kernel_allocates():
 def test_kernels_do_not_compile_again_for_other_types():
     """Compiling takes seconds and holds Python's lock: better an error, which a test finds."""
     with pytest.raises(TypeError, match="No matching definition"):
-        engine().margins(np.zeros((2, 2, 16), dtype=np.float32), np.zeros((11, 16)), np.zeros((2, 4)))
+        engine().is_stable(np.zeros((2, 2, 20), dtype=np.float32), np.zeros((13, 16)))
 
 
 def test_compiled_and_interpreted_updates_agree(monkeypatch):

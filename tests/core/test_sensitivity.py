@@ -139,19 +139,19 @@ def test_no_peak_is_missed_or_cut_off(poles, outer, peak):
 
 def test_a_maximum_is_refined_in_few_steps_whatever_the_interval(monkeypatch):
     """Golden section would take 29 steps each; where rounding decides between neighbouring floats, it ends too."""
-    sizes, size = [], peaks.size
+    sizes, size = [], peaks.frequency_gain
 
     def counted(*arguments):
         sizes.append(arguments)
         return size(*arguments)
 
-    monkeypatch.setattr(peaks, "size", counted)
+    monkeypatch.setattr(peaks, "frequency_gain", counted)
     f, rng, steps = loop_of(next(iter(PRESETS))).polynomials, np.random.default_rng(10), []
     for w in 10 ** rng.uniform(-6, 6, 100):
         for width in (0, 1e-16, 1e-15, 1e-12, 1e-6, 1.0, 1e4):
             for low, high, tail in ((w, w + w * width, False), (-w - w * width, -w, True), (-w, 0.0, True)):
                 sizes.clear()
-                top, _ = peaks.climb(f, low, high, tail, False)
+                top, _ = peaks.brent_maximum(f, low, high, tail, False)
                 steps.append(len(sizes))
                 middle = low + 0.5 * (high - low)
                 assert top >= size(f, -1 / middle if tail else middle, False) - 1e-6

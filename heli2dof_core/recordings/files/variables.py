@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...findings import Finding
+from ...frozen import Frozen
 from ...signals import Floats
 from ..guess import role_of
 from ..recording import FEWEST_SAMPLES, Table
@@ -25,7 +26,7 @@ class Unreadable:
 
 
 @dataclass(eq=False)
-class Series:
+class Series(Frozen):
     """One signal.
 
     Attributes:
