@@ -178,8 +178,25 @@ export function drawReference(u, rules, color) {
   u.ctx.restore();
 }
 
+/**
+ * All with what they are called, after the lines are drawn.
+ * @param {any} u
+ * @param {Rule[]} rules
+ * @param {Color} color
+ * @param {1|-1} side of the line that its name stands on, 1: below it
+ */
+export function drawNamedRules(u, rules, color, side) {
+  u.ctx.save();
+  for (const rule of rulesSeen(u, rules)) {
+    const [y, stroke] = [heightOf(u, rule), color(rule.danger ? 'danger' : 'ink')];
+    drawRule(u, y, stroke, rule.danger ? [] : [1, 5]);
+    drawLabel(u, y, rule.label, side, stroke, color('panel'));
+  }
+  u.ctx.restore();
+}
+
 /** A horizontal line. @param {any} u @param {number} y @param {string} stroke @param {number[]} dash */
-export function drawRule({ ctx, bbox }, y, stroke, dash) {
+function drawRule({ ctx, bbox }, y, stroke, dash) {
   const size = devicePixelRatio * pictureScale().line;
   Object.assign(ctx, { strokeStyle: stroke, lineWidth: 1.25 * size, lineCap: 'round' });
   ctx.setLineDash(dash.map((d) => d * size));
@@ -198,7 +215,7 @@ export function drawRule({ ctx, bbox }, y, stroke, dash) {
  * @param {string} ink
  * @param {string} paper
  */
-export function drawLabel({ ctx, bbox }, y, label, side, ink, paper) {
+function drawLabel({ ctx, bbox }, y, label, side, ink, paper) {
   const size = devicePixelRatio * pictureScale().type;
   const [x, foot] = [bbox.left + bbox.width - 4 * size, y + side * 3 * size];
   Object.assign(ctx, {
