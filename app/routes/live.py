@@ -19,6 +19,7 @@ from ..contract.problems import TEXT_START, problem_of
 from ..contract.replies import report_reply
 from ..contract.requests import LiveRequest
 from ..edge.connections import connection_of
+from ..edge.messages import Mailbox, received
 from ..jobs.compute import Compute
 from ..ops.metrics import Metrics
 
@@ -30,34 +31,8 @@ MEDIUM_STEPS = 40_000
 INLINE_LENGTH = 16_384
 """Length of a message that is read in the event loop."""
 MOST_SAMPLES = 1001
-
-
-class Mailbox:
-    """A mailbox for one item: a newer item replaces one that was not yet taken."""
-
-    def __init__(self) -> None:
-        self._item: str | bytes | None = None
-        self._arrived = asyncio.Event()
-        self.since = 0.0
-
-    def put(self, item: str | bytes) -> None:
-        """Leaves an item, in place of one that waits."""
-        self._item = item
-        self.since = perf_counter()
-        self._arrived.set()
-
-    @property
-    def empty(self) -> bool:
-        """Whether nothing waits."""
-        return self._item is None
-
-    async def take(self) -> str | bytes:
-        """Waits for an item and takes it."""
-        while self._item is None:
-            self._arrived.clear()
-            await self._arrived.wait()
-        item, self._item = self._item, None
-        return item
+_Request = tuple[float, str | bytes]
+"""When it came, and its text."""
 
 
 def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
@@ -68,15 +43,13 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
     async def live(socket: WebSocket) -> None:
         binary = BINARY_SUBPROTOCOL in socket.scope["subprotocols"]
         await socket.accept(subprotocol=BINARY_SUBPROTOCOL if binary else None)
-        mailbox, connection = Mailbox(), connection_of(socket)
+        mailbox, connection = Mailbox[_Request](), connection_of(socket)
         answers = asyncio.create_task(_answer(socket, mailbox, compute, metrics, binary=binary))
         try:
             while True:
-                message = await socket.receive()
-                if message["type"] == "websocket.disconnect":
-                    break
+                request = await received(socket)
                 connection.busy = True
-                mailbox.put(message.get("text") or message.get("bytes") or "")
+                mailbox.put((perf_counter(), request))
         except WebSocketDisconnect:
             pass
         finally:
@@ -87,12 +60,11 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
 
 
 async def _answer(
-    socket: WebSocket, mailbox: Mailbox, compute: Compute, metrics: Metrics, *, binary: bool
+    socket: WebSocket, mailbox: Mailbox[_Request], compute: Compute, metrics: Metrics, *, binary: bool
 ) -> None:
     connection = connection_of(socket)
     while True:
-        text = await mailbox.take()
-        since = mailbox.since
+        since, text = await mailbox.take()
         try:
             answer = _evaluate_inline(text, binary) if compute.compiled else None
             if answer is None:

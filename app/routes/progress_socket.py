@@ -13,6 +13,7 @@ from fastapi import WebSocket, WebSocketDisconnect
 from ..contract.encoding import json_bytes
 from ..contract.problems import problem_of
 from ..edge.connections import connection_of
+from ..edge.messages import received
 
 _log = logging.getLogger(__name__)
 Send = Callable[[str], Awaitable[None]]
@@ -28,25 +29,17 @@ async def serve_with_progress(socket: WebSocket, answer: Callable[[Any, Send], A
 
     await socket.accept()
     try:
-        text = await _received(socket)
+        text = await received(socket)
         while True:
             connection.busy = True
             answering = asyncio.create_task(answered(text))
             try:
-                text = await _received(socket)
+                text = await received(socket)
             finally:
                 answering.cancel()
                 await asyncio.gather(answering, return_exceptions=True)
     except WebSocketDisconnect:
         pass
-
-
-async def _received(socket: WebSocket) -> str | bytes:
-    """The next message; JSON may come in binary frames too."""
-    message = await socket.receive()
-    if message["type"] == "websocket.disconnect":
-        raise WebSocketDisconnect(message.get("code", 1000))
-    return message.get("text") or message.get("bytes") or ""
 
 
 async def _answer(

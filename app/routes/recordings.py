@@ -34,6 +34,7 @@ from ..contract.recording_models import (
     preview_reply,
     progress_reply,
 )
+from ..edge.messages import Mailbox
 from ..jobs.compute import Compute, check_cancelled, current_caller
 from ..jobs.recording_store import RecordingStore
 from ..ops.settings import Settings
@@ -139,13 +140,11 @@ async def _identify(
 ) -> None:
     """Runs in the pool for what takes seconds; progress comes from there, of which only the newest waits."""
     table, loop = store.get(request.recording), asyncio.get_running_loop()
-    newest: list[Progress] = []
-    updated = asyncio.Event()
+    news = Mailbox[Progress | None]()
 
     def report(progress: Progress) -> None:
         check_cancelled()
-        newest[:] = [progress]
-        loop.call_soon_threadsafe(updated.set)
+        loop.call_soon_threadsafe(news.put, progress)
 
     def work() -> Reply:
         recording = recording_of(table, request.columns.to_columns())
@@ -161,13 +160,10 @@ async def _identify(
         return identification_reply(found)
 
     running = asyncio.ensure_future(compute.run_slow(work))
-    running.add_done_callback(lambda _: updated.set())
+    running.add_done_callback(lambda _: news.put(None))
     try:
-        while not running.done():
-            await updated.wait()
-            updated.clear()
-            if newest and not running.done():
-                await send(_text(progress_reply(newest.pop())))
+        while (progress := await news.take()) is not None:
+            await send(_text(progress_reply(progress)))
         await send(_text(await running))
     finally:
         if not running.done():
