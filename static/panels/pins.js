@@ -2,7 +2,7 @@
  * The table of the pinned designs: their figures, how far each is from the present design's, and the best of each
  * column.
  */
-import { complex } from '../text/index.js';
+import { polesText } from '../text/index.js';
 import { differenceTable, FIGURES, nameOf } from '../model/index.js';
 import { h, printed, setAttr, setText } from '../ui/index.js';
 import { badge } from './pin_bar.js';
@@ -12,14 +12,7 @@ const PAIRS = { theta: 'pitch', psi: 'yaw' };
 
 /** @param {Design} design */
 const described = (design) =>
-  [
-    design.poles
-      .filter((p) => p.im >= 0)
-      .map((p) => complex(p).replace('+', '±'))
-      .join(', '),
-    nameOf(design),
-    design.outer === 'pi' ? 'PI' : 'inner loop alone',
-  ].join(' · ');
+  [polesText(design.poles), nameOf(design), design.outer === 'pi' ? 'PI' : 'inner loop alone'].join(' · ');
 
 /** @param {import('../model/pins.js').Figure} f */
 const heading = (f) =>

@@ -1,5 +1,5 @@
 /** Where the printed K really puts the poles, as a table and in the s-plane. */
-import { fixed } from '../text/index.js';
+import { complex, fixed } from '../text/index.js';
 import { h, svg } from '../ui/index.js';
 import { dampingRatio, polesText } from './math.js';
 import { arrow, drawing } from './drawing.js';
@@ -61,13 +61,7 @@ function plane(wanted, landed) {
     }),
     ...moved.map((p) => {
       const [x, y] = at(p);
-      return label(
-        x + 13,
-        y + 5,
-        `${fixed(p.re, 2)} ${p.im > 0 ? '+' : '−'} ${fixed(Math.abs(p.im), 2)}j`,
-        'start',
-        'strong',
-      );
+      return label(x + 13, y + 5, complex(p), 'start', 'strong');
     }),
   );
 }

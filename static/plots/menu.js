@@ -1,5 +1,5 @@
 /** The small menu of a plot: its picture and its numbers as files. */
-import { fixed, say } from '../text/index.js';
+import { polesText, say } from '../text/index.js';
 import { nameOf } from '../model/index.js';
 import { h, icon, popupButton, saveFile } from '../ui/index.js';
 import { drawPicture } from './picture.js';
@@ -16,11 +16,7 @@ import { drawPlot, fileName } from './image.js';
 export function subtitle(store) {
   const { design } = store.state;
   if (!design) return '';
-  const poles = design.poles
-    .filter((p) => p.im >= 0)
-    .map((p) => (p.im ? `${fixed(p.re)} ± ${fixed(p.im)}j` : fixed(p.re)))
-    .join(', ');
-  const about = say`${store.preset?.title ?? design.preset} · poles ${poles} rad/s · ${nameOf(design)}`;
+  const about = say`${store.preset?.title ?? design.preset} · poles ${polesText(design.poles)} rad/s · ${nameOf(design)}`;
   return design.outer === 'pi' ? say`${about}, PI loops` : about;
 }
 

@@ -5,7 +5,7 @@
  * @typedef {import('../model/traces.js').Signal} Signal
  */
 import { marksOf } from './characteristics.js';
-import { fixed, say, t as word } from '../text/index.js';
+import { fixed, say, t as word, typographic } from '../text/index.js';
 import { extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from '../model/index.js';
 import { h, pictureScale, setText, symbol } from '../ui/index.js';
 import { chartBody, ink, makeChart, scaled } from '../charts/index.js';
@@ -175,7 +175,7 @@ export class Plots {
     });
     texts = new PlotTexts(chart, {
       time: (v, end) => (last() ? `${Number(v.toFixed(3))}${end ? ' s' : ''}` : ''),
-      axis: (v) => String(Number(v.toPrecision(6))).replace('-', '\u2212'),
+      axis: (v) => typographic(String(Number(v.toPrecision(6)))),
     });
     ghosts = new PlotGhosts(chart, signal);
     marks = new PlotMarks(chart, this.onSeek);

@@ -7,7 +7,7 @@
  * @typedef {{left: number, right: number, inner: number, outer: number}} Region s, and in the plot's unit: the border,
  *   and how far it is drawn
  */
-import { DEGREE, fixed, say } from '../text/index.js';
+import { DEGREE, fixed, say, typographic } from '../text/index.js';
 import { isVoltage } from '../model/index.js';
 import { pictureScale } from '../ui/index.js';
 
@@ -36,8 +36,6 @@ export function limitOf(reply, signal) {
   return signal === 'psi' ? undefined : limits?.[signal];
 }
 
-const minus = (/** @type {number} */ v) => `${v < 0 ? '\u2212' : ''}${Math.abs(v)}`;
-
 /** The lines across a plot, with what they say. @param {Reply|null} reply @param {Signal} signal @returns {Rule[]} */
 export function rulesOf(reply, signal) {
   const [limit, reference] = [limitOf(reply, signal), referenceOf(reply, signal)];
@@ -46,7 +44,7 @@ export function rulesOf(reply, signal) {
       ? []
       : [limit, -limit].map((value) => ({
           value,
-          label: signal === 'theta' ? say`stop ${fixed(value, 1)}°` : say`limit ${minus(value)} V`,
+          label: signal === 'theta' ? say`stop ${fixed(value, 1)}°` : say`limit ${typographic(String(value))} V`,
           danger: true,
         }));
   return reference
