@@ -72,8 +72,9 @@ steady: $(VENV)/.tools node_modules/.installed browser kernels ## the browser te
 mutation: $(VENV)/.tools node_modules/.installed ## change the core and the page in forty places, one by one: which changes does no test see?
 	$(BIN)/python -m tests.mutation --jobs 2 $(if $(SEED),--seed $(SEED))
 
-figures: $(VENV)/.tools ## make the page's module of the figures of merit from the core's registry
+figures: $(VENV)/.tools ## make the page's modules of the figures of merit and of the methods' names from the core's registries
 	$(BIN)/python -m tests.page_figures
+	$(BIN)/python -m tests.page_methods
 
 screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.screenshot docs/screenshot.png

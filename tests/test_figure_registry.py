@@ -8,6 +8,7 @@ import subprocess
 import sys
 from dataclasses import fields
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -17,14 +18,15 @@ from heli2dof_core.export.report_figures import ROWS, told
 from heli2dof_core.figures import KINDS, RESPONSE, Figure
 from heli2dof_core.kernels import figures as kernel
 from heli2dof_core.sensitivity import Sensitivity
-from tests.page_figures import PAGE, module
+from tests import page_figures, page_methods
 
 ALL = {f"{kind}.{name}": figure for kind, known in KINDS.items() for name, figure in known.items()}
 
 
-def test_the_pages_module_is_current():
-    """`python -m tests.page_figures` writes it anew."""
-    assert PAGE.read_text("utf-8") == module()
+@pytest.mark.parametrize("made", [page_figures, page_methods], ids=lambda made: made.__name__)
+def test_the_pages_modules_are_current(made: ModuleType):
+    """`make figures` writes them anew."""
+    assert made.PAGE.read_text("utf-8") == made.module()
 
 
 @pytest.mark.parametrize("name", ALL)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 
-from heli2dof_core.comparison import STRUCTURES, Comparison, Row, Split
+from heli2dof_core.comparison import Comparison, Row, Split
+from heli2dof_core.couplings import STRUCTURES
 from heli2dof_core.placement.assess import Assessment
 from heli2dof_core.placement.method import Method
 from heli2dof_core.placement.registry import METHODS

@@ -12,6 +12,7 @@ from fastapi.responses import RedirectResponse
 from heli2dof_core import Spec, close_loop, place, preset, simulate
 from heli2dof_core.geometry import RigName
 from heli2dof_core.scenario import Model
+from heli2dof_core.tables import poles
 
 from ..contract.models import described
 from ..contract.requests import StepRequest
@@ -76,13 +77,7 @@ def _motion(spec: Spec, model: Model) -> Motion:
 
 
 def _title(rig: str, spec: Spec) -> str:
-    poles = ", ".join(_pole(p) for p in spec.poles.values)
-    return f"{rig}: poles {poles} rad/s"
-
-
-def _pole(p: complex) -> str:
-    imaginary = f"{p.imag:+.4g}j" if p.imag else ""
-    return f"{p.real:.4g}{imaginary}".replace("-", "−")
+    return f"{rig}: poles {poles(spec.poles.values)} rad/s"
 
 
 def _described() -> dict[str, Any]:

@@ -6,14 +6,12 @@ from collections.abc import Iterable, Sequence
 from html import escape
 
 from ..signals import Floats
-from .svg import number
+from ..tables import number
 
 
 def pole(p: complex) -> str:
     """A pole for people."""
-    if not p.imag:
-        return number(p.real, 6)
-    return f"{number(p.real, 6)} {'−' if p.imag < 0 else '+'} {number(abs(p.imag), 6)}j"
+    return number(p, 6)
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]], caption: str = "") -> str:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..controllability import controllability_matrix
 from ..signals import Floats
-from .dyadic import krylov, place_dyadic
+from .dyadic import place_dyadic
 from .method import Method, Placement, Task
 
 
@@ -14,6 +15,7 @@ class Ackermann(Method):
 
     name = "ackermann"
     title = "Ackermann's formula, dyadic input"
+    short = "Ackermann’s formula"
     source = "J. Ackermann, Regelungstechnik 20 (1972) 297–300; dyadic: Gopinath, IEEE TAC 16 (1971) 230"
 
     def place(self, task: Task) -> Placement:
@@ -32,4 +34,4 @@ def ackermann(A: Floats, b: Floats, wanted: Floats) -> Floats:
         polynomial = polynomial @ A + coefficient * np.eye(len(A))
     last = np.zeros(len(A))
     last[-1] = 1.0
-    return np.linalg.solve(krylov(A, b).T, last) @ polynomial
+    return np.linalg.solve(controllability_matrix(A, b).T, last) @ polynomial

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..controllability import controllability_matrix
 from ..signals import Floats
-from .dyadic import krylov, place_dyadic
+from .dyadic import place_dyadic
 from .method import Method, Placement, Task
 
 
@@ -14,6 +15,7 @@ class BassGura(Method):
 
     name = "bass-gura"
     title = "Bass–Gura formula, dyadic input"
+    short = "Bass–Gura formula"
     source = "R. W. Bass and I. Gura, Proc. Joint Automatic Control Conf. (1965) 233–240"
 
     def place(self, task: Task) -> Placement:
@@ -31,6 +33,6 @@ def bass_gura(A: Floats, b: Floats, wanted: Floats) -> Floats:
 
     own = np.asarray(np.poly(A).real, dtype=np.float64)
     W = toeplitz(np.eye(len(A))[0], own[:-1])  # upper triangular: 1, a₁, a₂ … along the rows
-    basis = np.asarray(krylov(A, b) @ W, dtype=np.float64)
+    basis = np.asarray(controllability_matrix(A, b) @ W, dtype=np.float64)
     change = np.asarray(wanted[1:] - own[1:], dtype=np.float64)
     return np.asarray(np.linalg.solve(basis.T, change), dtype=np.float64)

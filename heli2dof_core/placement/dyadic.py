@@ -121,14 +121,6 @@ def _repeated(A: Floats, B: Floats) -> tuple[str, int]:
     )
 
 
-def krylov(A: Floats, b: Floats) -> Floats:
-    """Controllability matrix [b, Ab, …, A^(n−1) b] of one input, n×n."""
-    columns = [b]
-    for _ in range(len(A) - 1):
-        columns.append(A @ columns[-1])
-    return np.column_stack(columns)
-
-
 def _directions(p: int) -> Floats:
     """Unit vectors, (m, p): evenly over the half circle for two inputs, seeded at random beyond."""
     if p == 1:

@@ -20,7 +20,7 @@
  * @typedef {{presets: Preset[], methods: {name: string}[]}} Known
  */
 import { differences, escaped, leafOf, polesLink, polesOf, setLeaf, unescaped } from './link_values.js';
-import { asking, designOf, LOCKS, NONE } from '../model/index.js';
+import { asking, COUPLINGS, designOf, LEADS, LOCKS, NONE } from '../model/index.js';
 
 const VERSION = 1;
 /** Longer links are cut by some mail programs; pins that make it longer are left out. */
@@ -35,8 +35,8 @@ const SHORT = /** @type {const} */ ([
 ]);
 /** @type {Record<string, string[]>} */
 const CHOICES = {
-  coupling: ['triangular', 'input-diagonal', 'axis-decoupled'],
-  lead: ['pitch', 'yaw'],
+  coupling: COUPLINGS,
+  lead: LEADS,
   outer: ['pi', 'none'],
   pairing: ['diagonal', 'cross'],
 };
