@@ -89,7 +89,7 @@ def test_the_report_has_the_pages_rows():
     own = [({**figures.AXIS, **figures.STEP})[name].titled for name in RESPONSE]
     motors = [f"{v} {f.titled}" for v in ("V_p", "V_y") for f in figures.MOTOR.values() if f.title]
     assert [row.name for row in ROWS] == own + motors
-    text = PAGE.read_text("utf-8")
+    text = page_figures.PAGE.read_text("utf-8")
     assert re.findall(r"^  \w+: (?:AXIS|STEP)\.(\w+),$", text, re.MULTILINE) == [
         ({**figures.AXIS, **figures.STEP})[name].key or name for name in RESPONSE
     ]
@@ -101,9 +101,9 @@ VALUES = (0.0, 1e-9, 0.0123, 0.0951, 0.7, 1.0, 1.0049, 2.347, 12.347, 99.96, 123
 def test_the_page_and_the_report_write_alike():
     """Every figure that both write, small and large and absent, by the page's own module."""
     values = [*VALUES, *(-value for value in VALUES if value is not None)]
-    texts = (PAGE.with_name("figure_texts.js")).as_uri()
+    texts = (page_figures.PAGE.with_name("figure_texts.js")).as_uri()
     script = f"""
-        const known = await import({json.dumps(PAGE.as_uri())});
+        const known = await import({json.dumps(page_figures.PAGE.as_uri())});
         const {{ textOf }} = await import({json.dumps(texts)});
         const values = {json.dumps(values)}.map((v) => v ?? undefined);
         const kinds = {json.dumps([kind.upper() for kind in KINDS])};
