@@ -3,7 +3,7 @@
  * says what differs from the standard.
  */
 import { bringsIntegralAction, experimentWords, isStandard, presetOf, standard } from '../model/index.js';
-import { h, setAttr, setText } from '../ui/index.js';
+import { button, h, setAttr, setText } from '../ui/index.js';
 import {
   AccuracyPart,
   DigitalPart,
@@ -22,10 +22,8 @@ export class ExperimentPanel {
   constructor(root, store) {
     this.store = store;
     const fields = new ScenarioFields(store);
-    const close = h(
-      'button',
+    const close = button(
       {
-        type: 'button',
         class: 'quiet close',
         'data-testid': 'experiment-close',
         'aria-label': 'Close the experiment',
@@ -40,10 +38,8 @@ export class ExperimentPanel {
     this.disturbance = new DisturbancePart(fields);
     this.accuracy = new AccuracyPart(fields);
     this.words = h('span', { class: 'experiment-words', 'data-testid': 'experiment-words' });
-    this.reset = h(
-      'button',
+    this.reset = button(
       {
-        type: 'button',
         class: 'quiet',
         'data-testid': 'experiment-reset',
         title: 'Back to the standard experiment; the steps stay',

@@ -2,7 +2,7 @@
 import { fixed, significant } from '../text/index.js';
 import { bodyOf, bringsIntegralAction } from '../model/index.js';
 import { suggestLoops } from '../net/index.js';
-import { GAIN, gainMatrix, h, relativeGains, setAttr, setText } from '../ui/index.js';
+import { button, GAIN, gainMatrix, h, relativeGains, setAttr, setText } from '../ui/index.js';
 
 /** @typedef {'diagonal'|'cross'} Pairing */
 
@@ -70,8 +70,7 @@ export class NumbersPanel {
     this.k = gainMatrix('k-matrix', () => copied(store.state));
     this.rga = relativeGains('rga-matrix');
     this.words = h('span', { class: 'pairing-words', 'data-testid': 'pairing-words' });
-    this.pair = h('button', {
-      type: 'button',
+    this.pair = button({
       class: 'pair-advised',
       hidden: true,
       'data-testid': 'pair-advised',

@@ -14,7 +14,7 @@ import {
   without,
   withValue,
 } from '../model/index.js';
-import { h, NumberField, setAttr, setText, symbol } from '../ui/index.js';
+import { button, h, designField, setAttr, setText, symbol } from '../ui/index.js';
 
 const CONCERNED = /^(parameters|limits)(\.|$)/;
 
@@ -31,23 +31,17 @@ class Row {
     const { store } = panel;
     const id = `rig-${q.kind === 'limits' ? 'limit-' : ''}${q.name}`;
     this.was = h('span', { class: 'was', 'data-testid': `${id}-preset` });
-    this.field = new NumberField({
+    this.field = designField(store, id, (d, v) => (panel.preset ? withValue(d, panel.preset, q, v) : d), {
       label: `${q.name}: ${q.meaning}, ${q.unit === '°' ? 'degrees; empty: free' : q.unit}`,
-      testid: id,
       field: `${q.kind}.${q.name}`,
       unit: q.unit,
       min: q.min,
       max: q.max,
       optional: q.free,
       mark: h('span', { class: 'about' }, symbolOf(q.name), h('span', { class: 'meaning' }, q.meaning), this.was),
-      onInput: (v, stamp) =>
-        store.edit((d) => (panel.preset ? withValue(d, panel.preset, q, v) : d), { gesture: id, stamp }),
-      onCommit: () => store.commit(),
     });
-    this.reset = h(
-      'button',
+    this.reset = button(
       {
-        type: 'button',
         class: 'quiet',
         'data-testid': `rig-reset-${q.kind}-${q.name}`,
         onclick: () => {
@@ -84,10 +78,8 @@ export class RigPanel {
     this.name = h('span');
     this.summary = h('summary', { 'data-testid': 'rig', title: 'The rig’s parameters and limits' }, this.name);
     this.source = h('p', { class: 'rig-source', 'data-testid': 'rig-source' });
-    this.all = h(
-      'button',
+    this.all = button(
       {
-        type: 'button',
         class: 'quiet',
         'data-testid': 'rig-reset',
         title: 'All parameters and limits back to the preset’s; poles and loops stay',
@@ -95,10 +87,8 @@ export class RigPanel {
       },
       'Reset all',
     );
-    const close = h(
-      'button',
+    const close = button(
       {
-        type: 'button',
         class: 'quiet',
         'data-testid': 'rig-close',
         'aria-label': 'Close the parameters',

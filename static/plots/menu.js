@@ -1,7 +1,7 @@
 /** The small menu of a plot: its picture and its numbers as files. */
 import { polesText, say } from '../text/index.js';
 import { nameOf } from '../model/index.js';
-import { h, icon, popupButton, saveFile } from '../ui/index.js';
+import { button, h, icon, popupButton, saveFile } from '../ui/index.js';
 import { drawPicture } from './picture.js';
 import { csvOf, linesOf, tableOf } from './export.js';
 import { drawPlot, fileName } from './image.js';
@@ -38,11 +38,7 @@ function saveButton(testid, title, save) {
       { class: 'row' },
       h('span', { class: 'caption' }, `Save ${title}`),
       .../** @type {('PNG'|'CSV')[]} */ (['PNG', 'CSV']).map((kind) =>
-        h(
-          'button',
-          { type: 'button', title: WORDS[kind], 'data-testid': `save-${testid}-${kind}`, onclick: save[kind] },
-          kind,
-        ),
+        button({ title: WORDS[kind], 'data-testid': `save-${testid}-${kind}`, onclick: save[kind] }, kind),
       ),
     ),
   ];

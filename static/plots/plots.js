@@ -7,7 +7,7 @@
 import { marksOf } from './characteristics.js';
 import { fixed, say, t as word, typographic } from '../text/index.js';
 import { extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from '../model/index.js';
-import { h, pictureScale, setText, symbol } from '../ui/index.js';
+import { button, h, pictureScale, setText, symbol } from '../ui/index.js';
 import { chartBody, ink, makeChart, scaled } from '../charts/index.js';
 import { PlotGhosts } from './ghosts.js';
 import { PlotMarks } from './marks.js';
@@ -60,10 +60,8 @@ export class Plots {
     this.at = h('span');
     this.played = h('span', { class: 'played' });
     this.when = h('span', { class: 'when', 'data-testid': 'plot-time' }, this.at, this.played);
-    this.unzoom = h(
-      'button',
+    this.unzoom = button(
       {
-        type: 'button',
         class: 'unzoom',
         hidden: true,
         'data-testid': 'unzoom',

@@ -1,7 +1,7 @@
 /** The small menu beside the transport: the rig in a window of its own, and its motion as a file to take away. */
 import { bodyOf, scenarioOf } from '../model/index.js';
 import { motionFile, windowAddress } from '../net/index.js';
-import { copyText, h, popupButton, saveFile, setText, svg } from '../ui/index.js';
+import { button, copyText, h, popupButton, saveFile, setText, svg } from '../ui/index.js';
 
 const arrow = () =>
   svg(
@@ -57,35 +57,29 @@ export function sceneMenu(store, session) {
       h(
         'div',
         { class: 'row' },
-        h(
-          'button',
+        button(
           {
-            type: 'button',
             'data-testid': 'open-window',
             onclick: () => open(address, '_blank', 'popup,width=1100,height=760,noopener'),
           },
           'Open',
         ),
-        h('button', { type: 'button', 'data-testid': 'copy-window-link', onclick: copy }, 'Copy link'),
+        button({ 'data-testid': 'copy-window-link', onclick: copy }, 'Copy link'),
       ),
       h('h3', {}, 'Take the motion away'),
       h(
         'div',
         { class: 'row' },
-        h(
-          'button',
+        button(
           {
-            type: 'button',
             title: 'One file that plays in any browser, without a network',
             'data-testid': 'save-motion-html',
             onclick: () => save('html'),
           },
           '3D page',
         ),
-        h(
-          'button',
+        button(
           {
-            type: 'button',
             title: 'Viser’s own recording',
             'data-testid': 'save-motion-viser',
             onclick: () => save('viser'),
