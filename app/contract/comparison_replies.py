@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from importlib.util import find_spec
+from typing import get_args
 
 from heli2dof_core.comparison import Comparison, Row, Split
-from heli2dof_core.couplings import STRUCTURES
+from heli2dof_core.couplings import Coupling, Lead
 from heli2dof_core.placement.assess import Assessment
 from heli2dof_core.placement.method import Method
 from heli2dof_core.placement.registry import METHODS
 
+from . import comparison_models as models
 from .problems import problem_of
 from .replies import (
     Reply,
@@ -18,6 +20,7 @@ from .replies import (
     margins_reply,
     metrics_reply,
     poles_reply,
+    reply_of,
     rga_reply,
     sensitivity_reply,
 )
@@ -31,21 +34,14 @@ def methods_reply() -> list[Reply]:
 def assessment_reply(result: Assessment) -> Reply:
     """A placement of any system."""
     placement = result.placement
-    reply: Reply = {
-        "K": placement.K.tolist(),
-        "closed_loop_poles": poles_reply(result.closed_loop_poles),
-        "norm": result.norm,
-        "spectral_norm": result.spectral_norm,
-        "findings": findings_reply(result.findings),
-    }
-    if result.pole_error is not None:
-        reply["pole_error"] = result.pole_error
-        reply["pole_error_bound"] = result.pole_error_bound
-    if result.eigenvector_condition is not None:
-        reply["eigenvector_condition"] = result.eigenvector_condition
-    if placement.integral is not None:
-        reply["integral"] = placement.integral.tolist()
-    return reply | placement.construction()
+    return reply_of(
+        models.Placement,
+        result,
+        K=placement.K,
+        integral=placement.integral,
+        pole_error_bound=None if result.pole_error is None else result.pole_error_bound,
+        **placement.construction(),
+    )
 
 
 def comparison_reply(comparison: Comparison) -> Reply:
@@ -56,31 +52,25 @@ def comparison_reply(comparison: Comparison) -> Reply:
 def splits_reply(splits: tuple[Split, ...]) -> list[Reply]:
     """Every way to deal the poles, with its gain and relative gains."""
     return [
-        {
-            "split": [list(pair) for pair in split.pairs],
-            "poles": poles_reply(split.design.poles.values),
-            "K": split.design.K.tolist(),
-            "norm": split.design.norm,
-            "pole_error": split.design.pole_error,
-            **({} if split.interaction.rga is None else {"rga": split.interaction.rga.tolist()}),
-        }
+        reply_of(
+            models.Split,
+            split.design,
+            split=split.pairs,
+            poles=split.design.poles.values,
+            rga=split.interaction.rga,
+        )
         for split in splits
     ]
 
 
 def _method(method: Method) -> Reply:
-    needs = {} if method.needs is None else {"needs": method.needs}
-    return {
-        "name": method.name,
-        "title": method.title,
-        "source": method.source,
-        "places_poles": method.places_poles,
-        "integrates": method.integrates,
-        "available": method.needs is None or find_spec(method.needs) is not None,
-        "couplings": list(dict.fromkeys(s.coupling for s in STRUCTURES)) if method.structured else [],
-        "leads": ["pitch", "yaw"] if method.structured else [],
-        **needs,
-    }
+    return reply_of(
+        models.Method,
+        method,
+        available=method.needs is None or find_spec(method.needs) is not None,
+        couplings=get_args(Coupling) if method.structured else (),
+        leads=get_args(Lead) if method.structured else (),
+    )
 
 
 def _row(row: Row) -> Reply:

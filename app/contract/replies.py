@@ -6,17 +6,19 @@ What does not exist is left out; the models that describe these replies are in `
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, is_dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from pydantic import BaseModel
 
 from heli2dof_core import (
     Design,
     Finding,
     Interaction,
     Loop,
+    OuterLoop,
     Parameters,
     Preset,
     Report,
@@ -40,10 +42,31 @@ from heli2dof_core.signals import AXES, INPUTS, INTEGRALS, OUTPUTS, STATES, Floa
 from heli2dof_core.tuning import Suggestion
 from heli2dof_core.walkthrough import walk_through
 
+from . import models
+from .paper_models import Walkthrough
+
 if TYPE_CHECKING:  # it would import SymPy before the first page
     from heli2dof_core.symbolic.render import SymbolicReport
 
 Reply = dict[str, Any]
+
+
+def reply_of(model: type[BaseModel], source: object, **own: Any) -> Reply:
+    """The model's fields: what `source` has by their names, or what is given; what is None is left out."""
+    found = {name: own[name] if name in own else getattr(source, name, None) for name in model.model_fields}
+    return {name: plain(value) for name, value in found.items() if value is not None}
+
+
+def plain(value: Any) -> Any:
+    """A value of the core in JSON's own kinds; complex numbers as ``{"re", "im"}``."""
+    if isinstance(value, np.ndarray):
+        numbers = value.tolist()
+        return [plain(p) for p in numbers] if value.dtype.kind == "c" else numbers
+    if isinstance(value, complex):
+        return {"re": value.real, "im": value.imag}
+    if isinstance(value, tuple):
+        return [plain(item) for item in value]
+    return {name: plain(item) for name, item in vars(value).items()} if is_dataclass(value) else value
 
 
 def poles_reply(poles: Iterable[complex]) -> list[Reply]:
@@ -66,23 +89,14 @@ def findings_reply(findings: Iterable[Finding]) -> list[Reply]:
 
 def gains_reply(design: Design) -> Reply:
     """K and what it does to the poles."""
-    return present(
-        {
-            "method": design.method,
-            "K": design.K.tolist(),
-            "integral": None if design.integral is None else design.integral.tolist(),
-            "A": design.plant.A.tolist(),
-            "B": design.plant.B.tolist(),
-            "poles": poles_reply(design.poles.values),
-            "closed_loop_poles": poles_reply(design.closed_loop_poles),
-            "pole_error": design.pole_error,
-            "pole_error_bound": design.pole_error_bound if design.aims else None,
-            "norm": design.norm,
-            "spectral_norm": design.spectral_norm,
-            "eigenvector_condition": design.eigenvector_condition,
-            "controllability_indices": list(_indices(design.plant.parameters, design.plant.theta_0)),
-            "findings": findings_reply(design.findings),
-        }
+    return reply_of(
+        models.Gains,
+        design,
+        A=design.plant.A,
+        B=design.plant.B,
+        poles=design.poles.values,
+        pole_error_bound=design.pole_error_bound if design.aims else None,
+        controllability_indices=_indices(design.plant.parameters, design.plant.theta_0),
     )
 
 
@@ -151,21 +165,18 @@ def metrics_reply(metrics: StepMetrics) -> Reply:
 
 def walkthrough_reply(design: Design) -> Reply:
     """The derivation's steps in numbers; what only full-rank placement has is left out for other methods."""
-    steps = asdict(walk_through(design))
-    rga = interaction(design).rga
-    return present(
-        {
-            **{name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in steps.items()},
-            "A": design.plant.A.tolist(),
-            "B": design.plant.B.tolist(),
-            "trim": _voltages(design.plant.trim),
-            "K": design.K.tolist(),
-            "integral": None if design.integral is None else design.integral.tolist(),
-            "closed_loop": design.A_closed.tolist(),
-            "closed_loop_poles": poles_reply(design.closed_loop_poles),
-            "pole_error": design.pole_error,
-            "rga": None if rga is None else rga.tolist(),
-        }
+    return reply_of(
+        Walkthrough,
+        walk_through(design),
+        A=design.plant.A,
+        B=design.plant.B,
+        trim=_voltages(design.plant.trim),
+        K=design.K,
+        integral=design.integral,
+        closed_loop=design.A_closed,
+        closed_loop_poles=design.closed_loop_poles,
+        pole_error=design.pole_error,
+        rga=interaction(design).rga,
     )
 
 
@@ -191,13 +202,18 @@ def report_reply(report: Report, spec: Spec) -> Reply:
 
 def suggestion_reply(suggestion: Suggestion) -> Reply:
     """PI values, the whole loop's poles with them, and the rule in words."""
-    outer = suggestion.outer
-    return {
-        "loops": {"pitch": asdict(outer.pitch), "yaw": asdict(outer.yaw)},
-        "loop_poles": poles_reply(suggestion.loop.poles),
-        "stable": suggestion.loop.stable,
-        "rule": suggestion.rule,
-    }
+    loop = suggestion.loop
+    return reply_of(
+        models.Suggestion,
+        suggestion,
+        loops=_loops(suggestion.outer),
+        loop_poles=loop.poles,
+        stable=loop.stable,
+    )
+
+
+def _loops(outer: OuterLoop) -> Reply:
+    return {axis: asdict(getattr(outer, axis)) for axis in AXES}
 
 
 def _ranges(infos: dict[str, dict[str, Any]]) -> Reply:
@@ -215,32 +231,27 @@ def _ranges(infos: dict[str, dict[str, Any]]) -> Reply:
 def preset_reply(preset: Preset) -> Reply:
     """A preset with everything that a design may change."""
     scenario = preset.scenario
-    return {
-        "name": preset.name,
-        "title": preset.title,
-        "source": preset.source,
-        "rig": preset.rig,
-        "parameters": preset.parameters.as_dict(),
-        "parameter_info": _ranges(PARAMETER_INFO),
-        "components": {} if preset.components is None else preset.components.as_dict(),
-        "component_info": COMPONENT_INFO,
-        "limits": _limits(preset.limits),
-        "limit_info": _ranges(LIMIT_INFO),
-        "encoders": {"theta": preset.encoders[0], "psi": preset.encoders[1]},
-        "operating_point": {"theta": preset.theta_0},
-        "poles": poles_reply(preset.poles.values),
-        "coupling": preset.structure.coupling,
-        "lead": preset.structure.lead,
-        "outer": preset.outer.outer,
-        "pairing": preset.outer.pairing,
-        "decoupler": preset.outer.decoupler,
-        "loops": {"pitch": asdict(preset.outer.pitch), "yaw": asdict(preset.outer.yaw)},
-        "scenario": {
+    return reply_of(
+        models.Preset,
+        preset,
+        **vars(preset.structure),
+        **vars(preset.outer),
+        parameters=preset.parameters.as_dict(),
+        parameter_info=_ranges(PARAMETER_INFO),
+        components={} if preset.components is None else preset.components.as_dict(),
+        component_info=COMPONENT_INFO,
+        limits=_limits(preset.limits),
+        limit_info=_ranges(LIMIT_INFO),
+        encoders=dict(zip(("theta", "psi"), preset.encoders, strict=True)),
+        operating_point={"theta": preset.theta_0},
+        poles=preset.poles.values,
+        loops=_loops(preset.outer),
+        scenario={
             "reference": present({"theta": scenario.theta, "psi": scenario.psi}),
             "duration": scenario.duration,
             "samples": scenario.samples,
         },
-    }
+    )
 
 
 def symbolic_reply(report: SymbolicReport) -> Reply:
