@@ -10,15 +10,14 @@ import click
 
 from .fields import DESIGN, LOOPS, SCENARIO, Option, body, takes
 from .output import console, print_json, refusals, show
-from .values import Assignment, Name
+from .values import Assignment, Name, Words
 
 if TYPE_CHECKING:
     from heli2dof_core import Cloud
 
 
 class _Methods(Name):
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[str]:
-        return [word.strip() for word in value.split(",")]
+    convert = Words.convert
 
 
 def _method_names() -> Iterator[str]:

@@ -6,25 +6,7 @@ import numpy as np
 
 from ..controllability import controllability_matrix
 from ..signals import Floats
-from .dyadic import place_dyadic
-from .method import Method, Placement, Task
-
-
-class BassGura(Method):
-    """k = (d − a)(𝒞 W)⁻¹ from the open-loop polynomial, along the direction with the smallest gain."""
-
-    name = "bass-gura"
-    title = "Bass–Gura formula, dyadic input"
-    short = "Bass–Gura formula"
-    source = "R. W. Bass and I. Gura, Proc. Joint Automatic Control Conf. (1965) 233–240"
-
-    def place(self, task: Task) -> Placement:
-        """K = f k of rank one.
-
-        Raises:
-            MethodUnavailableError: A is not cyclic.
-        """
-        return Placement(place_dyadic(bass_gura, task.A, task.B, task.poles))
+from .dyadic import Dyadic
 
 
 def bass_gura(A: Floats, b: Floats, wanted: Floats) -> Floats:
@@ -36,3 +18,13 @@ def bass_gura(A: Floats, b: Floats, wanted: Floats) -> Floats:
     basis = np.asarray(controllability_matrix(A, b) @ W, dtype=np.float64)
     change = np.asarray(wanted[1:] - own[1:], dtype=np.float64)
     return np.asarray(np.linalg.solve(basis.T, change), dtype=np.float64)
+
+
+class BassGura(Dyadic):
+    """k = (d − a)(𝒞 W)⁻¹ from the open-loop polynomial, along the direction with the smallest gain."""
+
+    name = "bass-gura"
+    title = "Bass–Gura formula, dyadic input"
+    short = "Bass–Gura formula"
+    source = "R. W. Bass and I. Gura, Proc. Joint Automatic Control Conf. (1965) 233–240"
+    formula = staticmethod(bass_gura)

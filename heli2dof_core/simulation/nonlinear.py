@@ -31,7 +31,7 @@ from ..scenario import Limits, Scenario
 from ..signals import INPUTS, Floats
 from .experiment import NOTHING, experiment
 from .linear import FOLLOWED_TWICE
-from .response import Measured, Response, course_findings
+from .response import Measured, Response, course_response
 
 ABSOLUTE_TOLERANCE = 0.1
 """Absolute tolerance of the integration as a share of the relative one (states are of order 1)."""
@@ -137,11 +137,11 @@ def simulate_nonlinear(
 
 def limited_response(x: Floats, t: Floats, states: Floats, voltages: Floats, found: Measured) -> Response:
     """The course of an experiment with its remarks."""
-    theta, psi, theta_start, psi_start = x[: START + 2].tolist()
-    ends = ((theta, psi), (theta_start, psi_start))
     pitch, yaw, _, _, impacts, *_ = found.course[SHARE:].tolist()
-    remarks = (*course_findings("nonlinear", t, found), *_remarks(x, (pitch, yaw), impacts))
-    return Response("nonlinear", t, states[:2], voltages, *ends, (pitch, yaw), remarks, states, found)
+    remarks = tuple(_remarks(x, (pitch, yaw), impacts))
+    return course_response(
+        "nonlinear", x, t, found, states=states, voltages=voltages, saturated=(pitch, yaw), remarks=remarks
+    )
 
 
 def _remarks(x: Floats, saturated: tuple[float, float], impacts: float) -> Iterator[Finding]:

@@ -18,6 +18,7 @@ from ..kernels.layout import (
     OUT_OF_SWITCHES,
     OUTCOME,
     REACHED,
+    START,
 )
 from ..signals import Floats
 from ..tables import Shown, number
@@ -112,7 +113,25 @@ _GIVEN_UP = {
 }
 
 
-def course_findings(model: Literal["linear", "nonlinear"], t: Floats, found: Measured) -> Iterator[Finding]:
+def course_response(
+    model: Literal["linear", "nonlinear"],
+    x: Floats,
+    t: Floats,
+    found: Measured,
+    *,
+    states: Floats,
+    voltages: Floats,
+    saturated: tuple[float, float] = (0.0, 0.0),
+    remarks: tuple[Finding, ...] = (),
+) -> Response:
+    """The course of an experiment, laid out as `layout` says, with what is to be said of its end first."""
+    theta, psi, *start = x[: START + 2].tolist()
+    remarks = (*_end_of(model, t, found), *remarks)
+    ends = (theta, psi), (start[0], start[1])
+    return Response(model, t, states[:2], voltages, *ends, saturated, remarks, states, found)
+
+
+def _end_of(model: Literal["linear", "nonlinear"], t: Floats, found: Measured) -> Iterator[Finding]:
     """How a course ended before its time: without bound, or given up."""
     held, outcome, reached = (found.course[i] for i in (HELD, OUTCOME, REACHED))
     if held < len(t):
