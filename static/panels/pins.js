@@ -4,7 +4,7 @@
  */
 import { polesText } from '../text/index.js';
 import { differenceTable, FIGURES, nameOf } from '../model/index.js';
-import { button, groupedHead, h, printed, setAttr, setText, wide } from '../ui/index.js';
+import { button, groupedHead, h, printed, setAttr, setText, whileSeen, wide } from '../ui/index.js';
 import { badge } from './pin_bar.js';
 
 /** @typedef {import('../types.js').Pin} Pin @typedef {import('../types.js').Design} Design */
@@ -72,10 +72,10 @@ export class PinsPanel {
       ),
       wide('Table of the pinned designs', table),
     );
-    new IntersectionObserver((entries) => {
-      this.#visible = entries[entries.length - 1].isIntersecting;
+    whileSeen(table, (seen) => {
+      this.#visible = seen;
       this.render(store.state);
-    }).observe(table);
+    });
   }
 
   /** @param {import('../types.js').State} state */

@@ -15,6 +15,7 @@ import {
   withValue,
 } from '../model/index.js';
 import { button, h, designField, setAttr, setText, symbol } from '../ui/index.js';
+import { folded } from './folded.js';
 
 const CONCERNED = /^(parameters|limits)(\.|$)/;
 
@@ -87,42 +88,20 @@ export class RigPanel {
       },
       'Reset all',
     );
-    const close = button(
-      {
-        class: 'quiet',
-        'data-testid': 'rig-close',
-        'aria-label': 'Close the parameters',
-        title: 'Close (Esc)',
-        onclick: () => this.#close(),
-      },
-      '✕',
-    );
     this.problem = h('p', { class: 'experiment-warning', role: 'status', 'data-testid': 'rig-problem' });
     this.parameters = h('fieldset', { 'aria-label': 'Parameters' });
     this.limits = h('fieldset', { 'aria-label': 'Limits' });
-    this.node = h(
-      'details',
-      { class: 'rig-details' },
-      this.summary,
-      h(
-        'div',
-        { class: 'rig-body', 'data-testid': 'rig-body' },
-        h('div', { class: 'row' }, this.source, this.all, close),
-        this.problem,
-        this.parameters,
-        this.limits,
-      ),
-    );
-    this.node.addEventListener('keydown', (e) => e.key === 'Escape' && this.#close());
+    const how = { testid: 'rig', kind: 'rig-details', summary: this.summary, what: 'parameters' };
+    this.node = folded(how, (close) => [
+      h('div', { class: 'row' }, this.source, this.all, close),
+      this.problem,
+      this.parameters,
+      this.limits,
+    ]);
   }
 
   #reset() {
     this.store.edit(asProposed);
-    this.summary.focus();
-  }
-
-  #close() {
-    this.node.open = false;
     this.summary.focus();
   }
 

@@ -5,7 +5,7 @@
 import { significant } from '../text/index.js';
 import { bodyOf, FULL_RANK, presetOf } from '../model/index.js';
 import { getSymbolic } from '../net/index.js';
-import { copyButton, formula, h, Lazy, setText } from '../ui/index.js';
+import { copyButton, formula, h, Lazy, setText, whileSeen } from '../ui/index.js';
 import { SymbolCards } from './symbol_cards.js';
 import { walk } from './walk.js';
 
@@ -46,10 +46,10 @@ export class FormulasPanel {
         this.cards.refresh();
       },
     });
-    new IntersectionObserver((entries) => {
-      this.#visible = entries.some((e) => e.isIntersecting);
+    whileSeen(root, (seen) => {
+      this.#visible = seen;
       this.render(store.state);
-    }).observe(root);
+    });
   }
 
   /** @param {import('../types.js').State} state */

@@ -4,7 +4,7 @@ export { copyButton } from './copy_menu.js';
 export { button, byId, check, h, printed, setAttr, setText, svg, symbol } from './dom.js';
 export { Choice, designField, NumberField } from './fields.js';
 export { isolated } from './isolated.js';
-export { Lazy } from './lazy.js';
+export { Lazy, whileSeen } from './lazy.js';
 export { formula } from './mathml.js';
 export { GAIN, gainMatrix, integralMatrix, Matrix, relativeGains } from './matrix.js';
 export { recall, remember } from './memory.js';

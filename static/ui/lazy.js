@@ -7,6 +7,10 @@ import { h, setText } from './dom.js';
 
 const DELAY_MS = 300;
 
+/** Tells whether it is seen, whenever that changes. @param {Element} node @param {(seen: boolean) => void} tell */
+export const whileSeen = (node, tell) =>
+  new IntersectionObserver((entries) => tell(entries[entries.length - 1].isIntersecting)).observe(node);
+
 export class Lazy {
   #key = '';
   #visible = false;
@@ -28,10 +32,10 @@ export class Lazy {
     this.status = h('p', { class: 'status', role: 'status' }, how.wait);
     root.append(this.status);
     content.hidden = true;
-    new IntersectionObserver((entries) => {
-      this.#visible = entries[entries.length - 1].isIntersecting;
+    whileSeen(root, (seen) => {
+      this.#visible = seen;
       this.render(store.state);
-    }).observe(root);
+    });
   }
 
   /** @param {import('../types.js').State} state */
