@@ -13,7 +13,7 @@ export const shape = (name) => h('span', { class: `shape ${name}`, 'aria-hidden'
 export const wide = (label, table, kind = 'scroll sideways') =>
   h('div', { class: kind, tabindex: 0, role: 'group', 'aria-label': label }, table);
 
-/** A head of one row. @param {(string|Node)[]} cells words, or cells with attributes of their own */
+/** A head of one row. @param {(string|Node)[]} cells what they hold, or cells with attributes of their own */
 export const head = (cells) =>
   h(
     'thead',
@@ -21,7 +21,7 @@ export const head = (cells) =>
     h(
       'tr',
       {},
-      cells.map((cell) => (typeof cell === 'string' ? h('th', { scope: 'col' }, cell) : cell)),
+      cells.map((cell) => (cell instanceof HTMLTableCellElement ? cell : h('th', { scope: 'col' }, cell))),
     ),
   );
 
