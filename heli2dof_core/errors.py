@@ -14,6 +14,8 @@ A design that is legal but unwise raises nothing; it carries findings (see `find
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 
 class Heli2DofError(ValueError):
     """Base of every error that the core raises on purpose.
@@ -74,3 +76,11 @@ class CancelledError(Heli2DofError):
     """The work was called off by whoever asked for it."""
 
     code = "cancelled"
+
+
+Wanted = Callable[[], None]
+"""Called now and then in long work; raises where nobody waits for the outcome any more."""
+
+
+def nobody_leaves() -> None:
+    """A `Wanted` for whoever waits to the end."""

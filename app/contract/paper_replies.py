@@ -6,7 +6,6 @@ from dataclasses import asdict
 from functools import cache
 from typing import Any
 
-import sympy as sp
 from latex2mathml.converter import convert
 
 from heli2dof_core.paper.consequence import consequence
@@ -16,7 +15,7 @@ from heli2dof_core.paper.errata import ERRATA, Erratum
 from heli2dof_core.paper.figures import figures
 from heli2dof_core.paper.glossary import TERMS
 from heli2dof_core.paper.reproduce import Row, reproduce, significant_digits
-from heli2dof_core.symbolic.names import LATEX
+from heli2dof_core.symbolic.names import latex
 
 from . import paper_models as models
 from .replies import Reply, reply_of
@@ -79,4 +78,4 @@ def _evidence(value: Any) -> Reply:
     """A residual as a formula, or a figure in words."""
     if isinstance(value, str):
         return {"text": value}
-    return {"text": str(value), **_typeset(sp.latex(value, symbol_names=LATEX, mat_delim="["))}
+    return {"text": str(value), **_typeset(latex(value))}

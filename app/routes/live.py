@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from heli2dof_core import Heli2DofError, Spec, evaluate
 from heli2dof_core.design import FULL_RANK
 
-from ..contract.encoding import BINARY_SUBPROTOCOL, binary_frame, json_bytes
+from ..contract.encoding import BINARY_SUBPROTOCOL, binary_frame, json_text
 from ..contract.problems import TEXT_START, problem_of
 from ..contract.replies import report_reply
 from ..contract.requests import LiveRequest
@@ -75,7 +75,7 @@ async def _answer(
             body = problem_of(error)
             if body["status"] == 500:
                 _log.exception("live request failed")
-            answer = _text({**body, **_seq_of(text)})
+            answer = json_text({**body, **_seq_of(text)})
         if isinstance(answer, str):
             await socket.send_text(answer)
         else:
@@ -86,10 +86,6 @@ async def _answer(
         if mailbox.empty:
             await connection.set_idle()
         await asyncio.sleep(0)  # others' turn, even where nothing above had to wait
-
-
-def _text(value: Any) -> str:
-    return json_bytes(value).decode()
 
 
 def _evaluate_inline(text: str | bytes, binary: bool) -> str | bytes | None:
@@ -136,5 +132,5 @@ def _evaluate(text: str | bytes, binary: bool, most_steps: int | None = None, *,
             return None
         reply = {**seq, **report_reply(report, spec)}
     except (orjson.JSONDecodeError, ValidationError, Heli2DofError) as error:
-        return _text({**problem_of(error), **seq})
-    return binary_frame(reply) if binary else _text(reply)
+        return json_text({**problem_of(error), **seq})
+    return binary_frame(reply) if binary else json_text(reply)

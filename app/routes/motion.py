@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Annotated, Any
+from typing import Annotated
 from urllib.parse import quote
 
 from fastapi import APIRouter, HTTPException, Query, Request, Response
@@ -14,7 +14,7 @@ from heli2dof_core.geometry import RigName
 from heli2dof_core.scenario import Model
 from heli2dof_core.tables import poles
 
-from ..contract.models import described
+from ..contract.encoding import described_files
 from ..contract.requests import StepRequest
 from ..jobs.compute import Compute
 from ..scene.motion import MotionFormat, motion_file
@@ -35,7 +35,12 @@ def build_router(compute: Compute) -> APIRouter:
     free = asyncio.Lock()
     waiting = 0
 
-    @router.post("/motion", **_described())
+    content = {kind.partition(";")[0]: {"schema": {"type": "string"}} for kind in _TYPES.values()}
+
+    @router.post(
+        "/motion",
+        **described_files("The motion as a file: an HTML page that plays offline, or a .viser file", content),
+    )
     async def motion(request: StepRequest, kind: Kind = "html") -> Response:
         nonlocal waiting
         if waiting >= MOST_WAITING:
@@ -78,12 +83,3 @@ def _motion(spec: Spec, model: Model) -> Motion:
 
 def _title(rig: str, spec: Spec) -> str:
     return f"{rig}: poles {poles(spec.poles.values)} rad/s"
-
-
-def _described() -> dict[str, Any]:
-    """Route options for the schema: a file instead of JSON."""
-    options = described(None, "The motion as a file: an HTML page that plays offline, or a .viser file")
-    content = {kind.partition(";")[0]: {"schema": {"type": "string"}} for kind in _TYPES.values()}
-    del options["responses"][200]["model"]
-    options["responses"][200]["content"] = content
-    return {**options, "response_class": Response}

@@ -10,7 +10,7 @@ from typing import Any
 import orjson
 from fastapi import WebSocket, WebSocketDisconnect
 
-from ..contract.encoding import json_bytes
+from ..contract.encoding import json_text
 from ..contract.problems import problem_of
 from ..edge.connections import connection_of
 from ..edge.messages import received
@@ -48,7 +48,7 @@ async def _answer(
     try:
         data = orjson.loads(text)
         if isinstance(data, dict) and data.get("cancel"):
-            await socket.send_text(json_bytes({"cancelled": True}).decode())
+            await socket.send_text(json_text({"cancelled": True}))
             return
         await answer(data, socket.send_text)
     except WebSocketDisconnect:
@@ -57,4 +57,4 @@ async def _answer(
         body = problem_of(error)
         if body["status"] == 500:
             _log.exception("a request on %s failed", socket.url.path)
-        await socket.send_text(json_bytes(body).decode())
+        await socket.send_text(json_text(body))

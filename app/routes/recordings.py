@@ -18,7 +18,7 @@ from heli2dof_core.recordings.recording import Table, recording_of
 from heli2dof_core.recordings.samples import deviating_rig, named_columns, sample_recording
 from heli2dof_core.scenario import Digital
 
-from ..contract.encoding import json_bytes, json_response
+from ..contract.encoding import described_files, json_response, json_text
 from ..contract.models import described
 from ..contract.overlays import overlaid
 from ..contract.recording_models import (
@@ -71,7 +71,12 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
             preview_reply(store.put(table, current_caller.get().client[0], name), name, table)
         )
 
-    @router.post("/sample", **_csv_options())
+    @router.post(
+        "/sample",
+        **described_files(
+            "A recording of the design's digital rig, CSV", {"text/csv": {"schema": {"type": "string"}}}
+        ),
+    )
     async def sample(request: SampleRequest) -> Response:
         await _wait_for_kernels()
         content = await compute.run_slow(_sample, request)
@@ -163,17 +168,13 @@ async def _identify(
     running.add_done_callback(lambda _: news.put(None))
     try:
         while (progress := await news.take()) is not None:
-            await send(_text(progress_reply(progress)))
-        await send(_text(await running))
+            await send(json_text(progress_reply(progress)))
+        await send(json_text(await running))
     finally:
         if not running.done():
             running.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await asyncio.gather(running, return_exceptions=True)
-
-
-def _text(value: Reply) -> str:
-    return json_bytes(value).decode()
 
 
 def _upload_options() -> dict[str, Any]:
@@ -183,10 +184,3 @@ def _upload_options() -> dict[str, Any]:
         "requestBody": {"required": True, "description": "CSV, .xlsx, .mat, HDF5, JSON", "content": content}
     }
     return {**options, "openapi_extra": extra}
-
-
-def _csv_options() -> dict[str, Any]:
-    options = described(None, "A recording of the design's digital rig, CSV")
-    del options["responses"][200]["model"]
-    options["responses"][200]["content"] = {"text/csv": {"schema": {"type": "string"}}}
-    return {**options, "response_class": Response}

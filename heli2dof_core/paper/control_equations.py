@@ -9,9 +9,10 @@ from ..couplings import Structure
 from ..symbolic.full_rank import full_rank, indices, plant
 from ..symbolic.grouping import grouped
 from ..symbolic.luenberger import controllability_matrix
+from ..symbolic.names import latex
 from ..symbolic.rga import relative_gain_array, steady_state, transfer_matrix
 from . import as_printed
-from .equation import Equation, latex, named
+from .equation import Equation, named
 
 
 def _form(name: str) -> str:

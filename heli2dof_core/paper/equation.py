@@ -6,9 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-import sympy as sp
-
-from ..symbolic.names import LATEX
+from ..symbolic.names import latex
 
 Status = Literal["reproduced", "corrected", "explained"]
 Chapter = Literal["machine", "mechanics", "linear", "feedback", "interaction", "loops"]
@@ -42,11 +40,6 @@ class Equation:
     errata: tuple[str, ...] = ()
     formulas: tuple[str, ...] = ()
     chapter: Chapter | None = None
-
-
-def latex(expression: Any) -> str:
-    """LaTeX in the derivation's own names."""
-    return sp.latex(expression, symbol_names=LATEX, mat_delim="[")
 
 
 def named(name: str, value: Callable[[], Any]) -> Callable[[], str]:

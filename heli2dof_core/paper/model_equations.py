@@ -9,9 +9,9 @@ import sympy as sp
 
 from ..symbolic.linearization import linear_model
 from ..symbolic.mechanics import mechanics
-from ..symbolic.names import psi, psi_dot, theta, theta_dot
+from ..symbolic.names import latex, psi, psi_dot, theta, theta_dot
 from . import as_printed
-from .equation import Equation, latex, named
+from .equation import Equation, named
 
 
 def _coriolis() -> sp.Matrix:

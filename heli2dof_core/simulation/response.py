@@ -20,7 +20,7 @@ from ..kernels.layout import (
     REACHED,
     START,
 )
-from ..signals import Floats
+from ..signals import INPUTS, INTEGRALS, STATES, Floats, Signal
 from ..tables import Shown, number
 
 
@@ -93,6 +93,11 @@ class Response(Shown):
     def V_y(self) -> Floats:
         """Voltage of the yaw motor, V; see `voltages`."""
         return self.voltages[1]
+
+    def by_signal(self) -> Iterator[tuple[Signal, Floats]]:
+        """States and voltages, each with what it is."""
+        yield from zip((*STATES, *INTEGRALS), self.states, strict=False)
+        yield from zip(INPUTS, self.voltages, strict=True)
 
     def columns(self) -> dict[str, Floats]:
         """t, theta, psi, V_p and V_y by name, as a data frame takes them."""
