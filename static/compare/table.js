@@ -20,7 +20,7 @@ import {
   worseMargins,
 } from '../model/index.js';
 import { compareMethods } from '../net/index.js';
-import { button, groupedHead, h, Lazy, printed, setAttr, setText, wide } from '../ui/index.js';
+import { button, groupedHead, h, keepingFocus, Lazy, printed, setAttr, setText, wide } from '../ui/index.js';
 import { motorText } from '../panels/index.js';
 import { rowDetail } from './detail.js';
 
@@ -170,7 +170,6 @@ export class CompareTable {
 
   /** @param {{rows: any[], claim: string}} answer */
   #show({ rows, claim }) {
-    const focused = document.activeElement?.getAttribute('data-testid');
     const cross = this.store.state.design?.pairing === 'cross';
     const able = rows.filter((r) => !r.unavailable);
     const marks = COLUMNS.map((c) => {
@@ -184,13 +183,11 @@ export class CompareTable {
       return new Set(able.filter((_r, i) => found.has(i)));
     });
     this.#rows.clear();
-    this.rows.replaceChildren(...rows.flatMap((row, i) => this.#row(row, marks, rows[i - 1])));
+    keepingFocus(this.rows, () =>
+      this.rows.replaceChildren(...rows.flatMap((row, i) => this.#row(row, marks, rows[i - 1]))),
+    );
     setText(this.claim, claim);
     this.render(this.store.state);
-    if (focused && !document.activeElement?.getAttribute('data-testid'))
-      /** @type {HTMLElement|null} */ (this.rows.querySelector(`[data-testid="${CSS.escape(focused)}"]`))?.focus({
-        preventScroll: true,
-      });
   }
 
   /** @param {any} row @param {Set<any>[]} marks @param {any} above @returns {HTMLElement[]} */

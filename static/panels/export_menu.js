@@ -1,5 +1,5 @@
 /** "Export": the design as a file for other programs, as numbers, or as a report to print. */
-import { say } from '../text/index.js';
+import { messageOf, say } from '../text/index.js';
 import { bodyOf, scenarioOf } from '../model/index.js';
 import { exportDesign } from '../net/index.js';
 import { button, h, icon, popupButton, saveFile, setText } from '../ui/index.js';
@@ -33,7 +33,7 @@ function menu(store, address) {
         scenario: scenarioOf(design),
       });
     } catch (error) {
-      setText(told, error instanceof Error ? error.message : String(error));
+      setText(told, messageOf(error));
       return null;
     }
   }

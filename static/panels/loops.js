@@ -1,6 +1,7 @@
 /**
  * The outer loops: on or off, their PI values, how they are paired; and the method that makes the inner loop's gain.
  */
+import { messageOf } from '../text/index.js';
 import { bodyOf, bringsIntegralAction, FULL_RANK, keyOf, nameOf, partOf, STRUCTURES } from '../model/index.js';
 import { suggestLoops } from '../net/index.js';
 import { button, check, Choice, h, designField, setText, shape, symbol } from '../ui/index.js';
@@ -156,7 +157,7 @@ export class LoopsPanel {
       this.#set({ loops: answer.loops, outer: 'pi' });
       this.#tell(answer.rule ?? '');
     } catch (error) {
-      this.#tell(error instanceof Error ? error.message : String(error));
+      this.#tell(messageOf(error));
     }
     this.suggest.disabled = false;
   }

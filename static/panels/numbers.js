@@ -1,5 +1,5 @@
 /** K and the RGA as matrices, what the RGA says, in words, and the one step that heeds it. */
-import { fixed, significant } from '../text/index.js';
+import { fixed, messageOf, significant } from '../text/index.js';
 import { bodyOf, bringsIntegralAction } from '../model/index.js';
 import { suggestLoops } from '../net/index.js';
 import { button, GAIN, gainMatrix, h, relativeGains, setAttr, setText } from '../ui/index.js';
@@ -97,7 +97,7 @@ export class NumbersPanel {
       const { loops } = await suggestLoops(bodyOf({ ...design, pairing }));
       part = { pairing, loops };
     } catch (error) {
-      trouble = `Paired, but the PI values are the old ones: ${error instanceof Error ? error.message : error}`;
+      trouble = `Paired, but the PI values are the old ones: ${messageOf(error)}`;
     }
     this.pair.disabled = false;
     if (this.store.state.design?.preset !== design.preset) return;

@@ -4,7 +4,7 @@
  */
 import { polesText } from '../text/index.js';
 import { differenceTable, FIGURES, nameOf } from '../model/index.js';
-import { button, groupedHead, h, printed, setAttr, setText, whileSeen, wide } from '../ui/index.js';
+import { button, groupedHead, h, keepingFocus, printed, setAttr, setText, whileSeen, wide } from '../ui/index.js';
 import { badge } from './pin_bar.js';
 
 /** @typedef {import('../types.js').Pin} Pin @typedef {import('../types.js').Design} Design */
@@ -95,24 +95,18 @@ export class PinsPanel {
   /** @param {Pin[]} pins */
   #build(pins) {
     this.#pins = pins;
-    const focused = document.activeElement?.getAttribute('data-testid');
     this.#cells = ['present', ...pins.map((p) => String(p.index))].map((id) =>
       FIGURES.map((f) => new Cell(`pin-${id}-${f.id}`)),
     );
     const nodes = (/** @type {number} */ i) => this.#cells[i].map((c) => c.node);
-    this.rows.replaceChildren(
-      h(
-        'tr',
-        { class: 'current', 'data-testid': 'pin-row-present' },
-        h('th', { scope: 'row', class: 'method-name' }, h('span', {}, 'Present design'), ' ', this.unstable),
-        nodes(0),
-      ),
-      ...pins.map((pin, i) => this.#row(pin, nodes(i + 1))),
+    const present = h(
+      'tr',
+      { class: 'current', 'data-testid': 'pin-row-present' },
+      h('th', { scope: 'row', class: 'method-name' }, h('span', {}, 'Present design'), ' ', this.unstable),
+      nodes(0),
     );
-    if (focused)
-      /** @type {HTMLElement|null} */ (this.rows.querySelector(`[data-testid="${CSS.escape(focused)}"]`))?.focus({
-        preventScroll: true,
-      });
+    const rows = pins.map((pin, i) => this.#row(pin, nodes(i + 1)));
+    keepingFocus(this.rows, () => this.rows.replaceChildren(present, ...rows));
   }
 
   /** @param {Pin} pin @param {HTMLElement[]} cells */

@@ -16,7 +16,8 @@ import { drawPlot, fileName } from './image.js';
 export function subtitle(store) {
   const { design } = store.state;
   if (!design) return '';
-  const about = say`${store.preset?.title ?? design.preset} · poles ${polesText(design.poles)} rad/s · ${nameOf(design)}`;
+  const rig = store.preset?.title ?? design.preset;
+  const about = say`${rig} · poles ${polesText(design.poles)} rad/s · ${nameOf(design)}`;
   return design.outer === 'pi' ? say`${about}, PI loops` : about;
 }
 

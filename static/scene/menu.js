@@ -1,4 +1,5 @@
 /** The small menu beside the transport: the rig in a window of its own, and its motion as a file to take away. */
+import { messageOf } from '../text/index.js';
 import { bodyOf, scenarioOf } from '../model/index.js';
 import { motionFile, windowAddress } from '../net/index.js';
 import { button, copyText, h, popupButton, saveFile, setText, svg } from '../ui/index.js';
@@ -46,7 +47,7 @@ export function sceneMenu(store, session) {
         saveFile(`heli2dof-motion.${format}`, await motionFile(format, request));
         setText(told, 'Saved.');
       } catch (error) {
-        setText(told, error instanceof Error ? error.message : String(error));
+        setText(told, messageOf(error));
       }
     };
     return [

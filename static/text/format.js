@@ -97,7 +97,11 @@ export const complex = (p, decimals = 2) => complexIn(p, { number: (v) => fixed(
 export const conjugates = (p, decimals = 2) =>
   complexIn(p, { number: (v) => fixed(v, decimals), plus: '±', minus: '±' });
 
-/** A conjugate pair is written once. @param {readonly import('../types.js').Complex[]} poles @param {number} [decimals] */
+/**
+ * A conjugate pair is written once.
+ * @param {readonly import('../types.js').Complex[]} poles
+ * @param {number} [decimals]
+ */
 export const polesText = (poles, decimals = 2) =>
   poles
     .filter((p) => p.im >= 0)

@@ -20,4 +20,4 @@ export {
   significant,
   typographic,
 } from './format.js';
-export { count, languageOf, loadWords, say, SPOKEN, t, translatePage } from './words.js';
+export { count, languageOf, loadWords, messageOf, say, SPOKEN, t, translatePage } from './words.js';

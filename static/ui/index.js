@@ -13,5 +13,5 @@ export { drawingUnit, followsPage, pictureScale } from './picture_scale.js';
 export { icon, popupButton } from './popup.js';
 export { Projector } from './projector.js';
 export { Stats } from './stats.js';
-export { groupedHead, head, shape, wide } from './tables.js';
+export { groupedHead, head, keepingFocus, shape, wide } from './tables.js';
 export { watched } from './watch.js';

@@ -2,6 +2,7 @@
  * Asks the server for what a card shows: only while the card is seen, shortly after the last change of the design, and
  * never during a drag.
  */
+import { messageOf } from '../text/index.js';
 import { ProblemError } from '../net/index.js';
 import { h, setText } from './dom.js';
 
@@ -65,9 +66,7 @@ export class Lazy {
       this.#failed = !(error instanceof ProblemError);
       if (this.#failed) this.#key = '';
       const hint = error instanceof ProblemError ? error.problem.hint : 'It is tried again with the next change.';
-      refused = [`This could not be computed: ${error instanceof Error ? error.message : error}`, hint]
-        .filter(Boolean)
-        .join(' ');
+      refused = [`This could not be computed: ${messageOf(error)}`, hint].filter(Boolean).join(' ');
     }
     if (!refused && key !== this.#key) return;
     if (!refused) this.how.show(answer);

@@ -1,4 +1,4 @@
-/** What the page's tables share: their heads, and that they scroll by themselves where they are wider than their place. */
+/** What the page's tables share: heads, scrolling by themselves where they are wide, the focus where rows are new. */
 import { h } from './dom.js';
 
 const AXES = /** @type {const} */ ([
@@ -8,6 +8,19 @@ const AXES = /** @type {const} */ ([
 
 /** What is pitch's or yaw's is told apart by a shape. @param {string} name */
 export const shape = (name) => h('span', { class: `shape ${name}`, 'aria-hidden': 'true' });
+
+/**
+ * Changes what is in a node; what had the focus, has it again in its new form.
+ * @param {Element} root
+ * @param {() => void} change
+ */
+export function keepingFocus(root, change) {
+  const testid = document.activeElement?.getAttribute('data-testid');
+  change();
+  if (!testid || document.activeElement?.getAttribute('data-testid')) return;
+  const again = /** @type {HTMLElement|null} */ (root.querySelector(`[data-testid="${CSS.escape(testid)}"]`));
+  again?.focus({ preventScroll: true });
+}
 
 /** Scrolls by the keys too. @param {string} label @param {Node} table @param {string} [kind] */
 export const wide = (label, table, kind = 'scroll sideways') =>
