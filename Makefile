@@ -72,8 +72,9 @@ steady: $(VENV)/.tools node_modules/.installed browser kernels ## the browser te
 mutation: $(VENV)/.tools node_modules/.installed ## change the core and the page in forty places, one by one: which changes does no test see?
 	$(BIN)/python -m tests.mutation --jobs 2 $(if $(SEED),--seed $(SEED))
 
-contract: $(VENV)/.tools ## make the modules of the page that follow from the core: figures of merit, quantities
+contract: $(VENV)/.tools ## make the modules of the page that follow from the core: figures of merit, quantities, methods' names
 	$(BIN)/python -m tests.page_figures
+	$(BIN)/python -m tests.page_methods
 	$(BIN)/python -m tests.page_quantities
 
 screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew

@@ -7,6 +7,7 @@ const FLOORS = [
   ['text'],
   ['model', 'net'],
   ['ui', 'link'],
+  ['charts'],
   ['plots', 'splane', 'scene', 'recordings', 'tour', 'panels'],
   ['paper', 'compare'],
 ];

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .couplings import Structure
+from .couplings import STRUCTURES, Structure
 from .design import FULL_RANK, Design
 from .errors import Heli2DofError, MethodUnavailableError, StructureUnavailableError
 from .evaluate import Report, evaluate, place
@@ -19,13 +19,6 @@ from .poles import PoleSet
 from .spec import Spec
 from .tables import NOTHING, Shown, Table, number
 
-STRUCTURES = (
-    Structure("triangular", "pitch"),
-    Structure("triangular", "yaw"),
-    Structure("input-diagonal"),
-    Structure("axis-decoupled"),
-)
-"""The named members of the full-rank family."""
 DYADIC = ("ackermann", "bass-gura")
 
 
@@ -50,8 +43,7 @@ class Row(Shown):
         """The method, with its structure where it has one."""
         if self.structure is None:
             return self.method
-        lead = f", {self.structure.lead} leads" if self.structure.coupling == "triangular" else ""
-        return f"{self.method} {self.structure.coupling}{lead}"
+        return f"{self.method} {self.structure.title}"
 
     def summary(self) -> str:
         """The method and what came of it."""

@@ -84,6 +84,14 @@ def controllability_indices(A: Floats, B: Floats) -> tuple[int, ...]:
     return scan(A, B).indices
 
 
+def controllability_matrix(A: Floats, B: Floats) -> Floats:
+    """[B, AB, …, A^(n−1) B], n×(n p); B may be one column, of shape (n,)."""
+    blocks = [B]
+    for _ in range(len(A) - 1):
+        blocks.append(A @ blocks[-1])
+    return np.column_stack(blocks)
+
+
 def in_own_units(A: Floats, B: Floats) -> tuple[Floats, Floats, Floats, float]:
     """(D⁻¹AD/ω, D⁻¹B/ω, D's diagonal, ω): the pair in units of its own, in which rank, if exact, stays as it is.
 

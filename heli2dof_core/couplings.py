@@ -16,6 +16,12 @@ from .quantities import Quantity, documented, require_valid
 Coupling = Literal["triangular", "input-diagonal", "axis-decoupled"]
 Lead = Literal["pitch", "yaw"]
 
+_MEANINGS = {
+    "triangular, pitch leads": "pitch has exactly its own pair and drives yaw: the paper’s",
+    "triangular, yaw leads": "yaw has exactly its own pair and drives pitch",
+    "input-diagonal": "standard Luenberger: diagonal in B₂⁻¹[θ, ψ]",
+    "axis-decoupled": "pitch and yaw do not feel each other",
+}
 NEGLIGIBLE = 1e-9
 """γ or a thrust constant counts as 0 below this share of the terms it is made of."""
 
@@ -52,6 +58,16 @@ class Structure:
         """The structure without a shift of its own: what the derivation is made for."""
         return Structure(self.coupling, self.lead)
 
+    @property
+    def title(self) -> str:
+        """The family, for people: coupling, and where it matters who leads."""
+        return f"{self.coupling}, {self.lead} leads" if self.coupling == "triangular" else self.coupling
+
+    @property
+    def meaning(self) -> str:
+        """What the family makes of the closed loop, in a few words."""
+        return _MEANINGS[self.title]
+
     def __post_init__(self) -> None:
         require_valid(self)
         if self.coupling != "triangular":  # the lead says nothing there; one value keeps caches small
@@ -63,6 +79,15 @@ class Structure:
                 value=self.shift,
                 hint="Leave the shift out, or choose triangular or input-diagonal.",
             )
+
+
+STRUCTURES = (
+    Structure("triangular", "pitch"),
+    Structure("triangular", "yaw"),
+    Structure("input-diagonal"),
+    Structure("axis-decoupled"),
+)
+"""The named members of the full-rank family."""
 
 
 def require_controllable(parameters: Parameters) -> None:

@@ -14,7 +14,7 @@ A design that is legal but unwise raises nothing; it carries findings (see `find
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 
@@ -95,3 +95,11 @@ def within_field(path: str) -> Iterator[None]:
     except Heli2DofError as error:
         error.name_field(f"{path}.{error.field}" if error.field else path)
         raise
+
+
+Wanted = Callable[[], None]
+"""Called now and then in long work; raises where nobody waits for the outcome any more."""
+
+
+def nobody_leaves() -> None:
+    """A `Wanted` for whoever waits to the end."""

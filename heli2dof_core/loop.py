@@ -20,7 +20,7 @@ from .kernels.layout import OWN, PI, POLYNOMIALS, ROUNDING, STATIC
 from .scenario import OuterLoop
 from .scratch import scratch
 from .signals import AXES, INPUTS, INTEGRALS, OUTPUTS, STATES, Complexes, Floats
-from .tables import Shown, Table, number, poles
+from .tables import Shown, Table, conjugates, number, poles
 
 if TYPE_CHECKING:
     import control
@@ -221,7 +221,7 @@ def _instability(loop: Loop) -> Finding:
     """What the connected loops have done."""
     slowest = loop.connected_poles[0]
     crosses = slowest.real > sqrt(ROUNDING) * max(abs(loop.connected_poles))
-    where = f"lies at {_words(slowest)} rad/s"
+    where = f"lies at {conjugates(slowest, 3)} rad/s"
     if not crosses:
         height = (
             "0"
@@ -253,8 +253,3 @@ def _instability(loop: Loop) -> Finding:
         f"{loops} the helicopter unstable: a pole of the whole loop {where}, although the placed poles are stable. "
         + advice,
     )
-
-
-def _words(pole: complex) -> str:
-    text = f"{pole.real:.3g}" + (f" ± {abs(pole.imag):.3g}j" if pole.imag else "")
-    return text.replace("-", "−")

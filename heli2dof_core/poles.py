@@ -10,6 +10,7 @@ import numpy as np
 
 from .errors import InvalidInputError, UnpairedPolesError
 from .signals import Complexes
+from .tables import number
 
 LARGEST = 1e5
 """Largest magnitude of a pole's real or imaginary part, rad/s."""
@@ -72,7 +73,7 @@ class PoleSet:
         return cls(values[i] for i in order)
 
     def __repr__(self) -> str:
-        return f"PoleSet([{', '.join(f'{p.real:g}{p.imag:+g}j' if p.imag else f'{p.real:g}' for p in self.values)}])"
+        return f"PoleSet([{', '.join(number(p, 6, minus='-', gap='') for p in self.values)}])"
 
     @property
     def coefficients(self) -> tuple[float, float, float, float]:

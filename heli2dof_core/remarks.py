@@ -10,6 +10,7 @@ import numpy as np
 from .findings import Finding
 from .plant import NEARLY_PARALLEL, Plant
 from .signals import Floats
+from .tables import conjugates
 
 COINCIDENT = 1e-6
 """Poles closer than this share of their size count as one."""
@@ -77,7 +78,7 @@ def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Fi
         yield Finding(
             "repeated_poles",
             "info",
-            f"Two poles coincide at {_words(repeated[0])} rad/s. This works, but is sensitive: a model error ε "
+            f"Two poles coincide at {conjugates(repeated[0])} rad/s. This works, but is sensitive: a model error ε "
             "moves a double pole by about √ε.",
         )
     own = plant.poles.tolist()
@@ -86,7 +87,7 @@ def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Fi
         yield Finding(
             "open_loop_pole",
             "info",
-            f"The pole at {_words(at_open[0])} rad/s is a pole of the open loop: feedback leaves it where it is.",
+            f"The pole at {conjugates(at_open[0])} rad/s is a pole of the open loop: feedback leaves it where it is.",
         )
     if largest > FAR_OUT:
         volts = float(np.max(np.abs(K[:, :2]))) * np.pi / 180
@@ -117,8 +118,3 @@ def _on_accuracy(poles: Sequence[complex], error: float) -> Iterator[Finding]:
             f"The computed poles miss the requested ones by up to {error:.2g} rad/s: repeated or very fast poles are "
             "sensitive to rounding.",
         )
-
-
-def _words(pole: complex) -> str:
-    text = f"{pole.real:.4g}" + (f" ± {abs(pole.imag):.4g}j" if pole.imag else "")
-    return text.replace("-", "−")

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+MINUS = "−"
 NOTHING = "—"
 """Stands where there is no value."""
 
@@ -73,20 +74,31 @@ class Shown:
         return f"<div><p><b>{type(self).__name__}</b>: {escape(self.summary())}</p>{parts}</div>"
 
 
-def number(value: complex | None, digits: int = 4) -> str:
+def number(value: complex | None, digits: int = 4, *, minus: str = MINUS, gap: str = " ") -> str:
     """A number as people write it, with a true minus; `NOTHING` for None.
 
-    >>> number(-0.000012345), number(-3 + 4j), number(None)
-    ('−1.234e-05', '−3 + 4j', '—')
+    >>> number(-0.000012345), number(-3 + 4j), number(None), number(-3 - 4j, minus="-", gap="")
+    ('−1.234e−05', '−3 + 4j', '—', '-3-4j')
     """
     if value is None:
         return NOTHING
-    if isinstance(value, complex):
-        if value.imag == 0:
-            return number(value.real, digits)
-        sign = "+" if value.imag > 0 else "−"
-        return f"{number(value.real, digits)} {sign} {abs(value.imag):.{digits}g}j"
-    return f"{value:.{digits}g}".replace("-", "−", 1) if value < 0 else f"{value:.{digits}g}"
+    if isinstance(value, complex) and value.imag:
+        sign = "+" if value.imag > 0 else minus
+        return gap.join((number(value.real, digits, minus=minus), sign, _imaginary(value, digits, minus)))
+    return f"{value.real + 0.0:.{digits}g}".replace("-", minus)  # + 0.0: no negative zero
+
+
+def conjugates(p: complex, digits: int = 4) -> str:
+    """A pole that stands for its conjugate, too.
+
+    >>> conjugates(-3 - 4j), conjugates(-12)
+    ('−3 ± 4j', '−12')
+    """
+    return f"{number(p.real, digits)} ± {_imaginary(p, digits)}" if p.imag else number(p.real, digits)
+
+
+def _imaginary(p: complex, digits: int, minus: str = MINUS) -> str:
+    return number(abs(p.imag), digits, minus=minus) + "j"
 
 
 def poles(values: Iterable[complex], digits: int = 4) -> str:
@@ -100,7 +112,7 @@ def poles(values: Iterable[complex], digits: int = 4) -> str:
         p, *left = left
         if p.imag and left and abs(left[0] - p.conjugate()) <= 1e-9 * abs(p):
             left.pop(0)
-            words.append(f"{number(p.real, digits)} ± {abs(p.imag):.{digits}g}j")
+            words.append(conjugates(p, digits))
         else:
             words.append(number(p, digits))
     return ", ".join(words)

@@ -7,11 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .compiled import construction
-from .controllability import scan
+from .controllability import controllability_matrix, scan
 from .couplings import Structure
 from .design import Design
 from .frozen import Frozen
-from .plant import Plant
 from .signals import Floats
 
 
@@ -59,7 +58,7 @@ def walk_through(design: Design) -> Walkthrough:
             **dict(zip(("alpha", "beta_0", "gamma_", "a"), map(float, constants), strict=True)),
             "gravity_torque": float(np.dot([plant.parameters.K_pp, plant.parameters.K_py], plant.trim)),
         },
-        controllability_matrix=_controllability_matrix(plant),
+        controllability_matrix=controllability_matrix(plant.A, plant.B),
         controllability_indices=scan(plant.A, plant.B).indices,
         G_0=design.steady_state,
     )
@@ -80,10 +79,3 @@ def walk_through(design: Design) -> Walkthrough:
 
 def _in_basis(matrix: Floats, T: Floats) -> Floats:
     return np.asarray(np.linalg.solve(T.T, (T @ matrix).T).T, dtype=np.float64)
-
-
-def _controllability_matrix(plant: Plant) -> Floats:
-    blocks = [plant.B]
-    for _ in range(3):
-        blocks.append(plant.A @ blocks[-1])
-    return np.hstack(blocks)

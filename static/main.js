@@ -3,7 +3,7 @@
  * module.
  * @typedef {import('./types.js').State} State
  */
-import { languageOf, loadWords, say, translatePage } from './text/index.js';
+import { languageOf, loadWords, messageOf, say, translatePage } from './text/index.js';
 import { requestOf, Store } from './model/index.js';
 import { backoff, getMethods, getPresets, Live } from './net/index.js';
 import { byId, isolated, Projector, recall, remember, Stats, Turns, watched } from './ui/index.js';
@@ -154,7 +154,7 @@ function viewOf(view) {
 /** Quietly, once for each part. @param {unknown} error */
 function report(error) {
   console.error(error);
-  const words = error instanceof Error ? error.message : error;
+  const words = messageOf(error);
   queueMicrotask(() =>
     store.set({
       fault: say`A part of this page could not be drawn: ${words}. Everything else works.`,

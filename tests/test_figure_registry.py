@@ -8,6 +8,7 @@ import subprocess
 import sys
 from dataclasses import fields
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -20,14 +21,15 @@ from heli2dof_core.export.report_figures import ROWS, told
 from heli2dof_core.figures import KINDS, RESPONSE, Figure
 from heli2dof_core.kernels import figures as kernel
 from heli2dof_core.sensitivity import Sensitivity
-from tests.page_figures import PAGE, module
+from tests import page_figures, page_methods
 
 ALL = {f"{kind}.{name}": figure for kind, known in KINDS.items() for name, figure in known.items()}
 
 
-def test_the_pages_module_is_current():
-    """`python -m tests.page_figures` writes it anew."""
-    assert PAGE.read_text("utf-8") == module()
+@pytest.mark.parametrize("made", [page_figures, page_methods], ids=lambda made: made.__name__)
+def test_the_pages_modules_are_current(made: ModuleType):
+    """`make contract` writes them anew."""
+    assert made.PAGE.read_text("utf-8") == made.module()
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -90,7 +92,7 @@ def test_the_report_has_the_pages_rows():
     own = [({**figures.AXIS, **figures.STEP})[name].titled for name in RESPONSE]
     motors = [f"{v} {f.titled}" for v in ("V_p", "V_y") for f in figures.MOTOR.values() if f.title]
     assert [row.name for row in ROWS] == own + motors
-    text = PAGE.read_text("utf-8")
+    text = page_figures.PAGE.read_text("utf-8")
     assert re.findall(r"^  \w+: (?:AXIS|STEP)\.(\w+),$", text, re.MULTILINE) == [
         ({**figures.AXIS, **figures.STEP})[name].key or name for name in RESPONSE
     ]
@@ -102,9 +104,9 @@ VALUES = (0.0, 1e-9, 0.0123, 0.0951, 0.7, 1.0, 1.0049, 2.347, 12.347, 99.96, 123
 def test_the_page_and_the_report_write_alike():
     """Every figure that both write, small and large and absent, by the page's own module."""
     values = [*VALUES, *(-value for value in VALUES if value is not None)]
-    texts = (PAGE.with_name("figure_texts.js")).as_uri()
+    texts = (page_figures.PAGE.with_name("figure_texts.js")).as_uri()
     script = f"""
-        const known = await import({json.dumps(PAGE.as_uri())});
+        const known = await import({json.dumps(page_figures.PAGE.as_uri())});
         const {{ textOf }} = await import({json.dumps(texts)});
         const values = {json.dumps(values)}.map((v) => v ?? undefined);
         const kinds = {json.dumps([kind.upper() for kind in KINDS])};

@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import IO, TYPE_CHECKING, Any
 
 import click
 
 from .fields import DESIGN, LOOPS, SCENARIO, Option, body, takes
-from .output import console, print_json, refusals, show
-from .values import Assignment, Name
+from .output import console, load_kernels, print_json, refusals, show
+from .values import Assignment, Name, Words
 
 if TYPE_CHECKING:
     from heli2dof_core import Cloud
 
 
 class _Methods(Name):
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[str]:
-        return [word.strip() for word in value.split(",")]
+    convert = Words.convert
 
 
 def _method_names() -> Iterator[str]:
@@ -59,8 +57,8 @@ def compare(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     with refusals(as_json):
         request = CompareRequest.model_validate(body(base, values))
         spec = request.to_spec()
-        with _kernels():
-            result = compare_methods(spec, request.methods)
+        load_kernels()
+        result = compare_methods(spec, request.methods)
         if as_json:
             return print_json(comparison_reply(result))
         show(result.tables())
@@ -79,22 +77,12 @@ def robustness(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     with refusals(as_json):
         request = RobustnessRequest.model_validate(body(base, values))
         spec, uncertainty = request.to_spec(), request.to_uncertainty()
-        with _kernels():
-            result = _followed(cloud_in_parts(spec, uncertainty), uncertainty.samples)
+        load_kernels()
+        result = _followed(cloud_in_parts(spec, uncertainty), uncertainty.samples)
         if as_json:
             return print_json(cloud_reply(result))
         show(result.tables(), result.summary())
     return None
-
-
-@contextmanager
-def _kernels() -> Iterator[None]:
-    """With the compiled kernels; the first time on a machine they take some twenty seconds."""
-    from heli2dof_core import warm_up
-
-    with console(stderr=True).status("Loading the kernels; the first time they are compiled, about 20 s"):
-        warm_up()
-    yield
 
 
 def _followed(parts: Iterator[Cloud], samples: int) -> Cloud:

@@ -27,6 +27,14 @@ def console(*, stderr: bool = False) -> Console:
     return Console(file=stream, width=width, highlight=False, markup=False, emoji=False)
 
 
+def load_kernels() -> None:
+    """Has the compiled kernels ready; the first time on a machine they take some twenty seconds."""
+    from heli2dof_core import warm_up
+
+    with console(stderr=True).status("Loading the kernels; the first time they are compiled, about 20 s"):
+        warm_up()
+
+
 def show(tables: Iterable[Table], *lines: str, findings: Iterable[Finding] = ()) -> None:
     """Prints lines, tables and findings."""
     from rich import box

@@ -8,7 +8,7 @@ from typing import IO, TYPE_CHECKING, Any
 import click
 
 from .fields import COLUMNS, DECIMAL, DESIGN, DRIVER, FREE, LOOPS, SCENARIO, SEGMENT, SEPARATOR, body, takes
-from .output import console, print_json, refusals, show
+from .output import load_kernels, print_json, refusals, show
 
 if TYPE_CHECKING:
     from heli2dof_core import Columns, Identification, Overlay, Recording
@@ -59,7 +59,6 @@ def read(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **values:
 @takes(*DESIGN, *LOOPS, *SCENARIO, *COLUMNS, *_TEXT, DRIVER, SEGMENT)
 def overlay(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **values: Any) -> None:
     """Simulate what FILES recorded and print how near the model comes, axis by axis."""
-    from heli2dof_core import warm_up
     from heli2dof_core.recordings.recording import recording_of
     from heli2dof_core.tables import Table as Shown
     from heli2dof_core.tables import number
@@ -70,8 +69,7 @@ def overlay(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **valu
         table, columns, request = _opened(files, base, values)
         asked = OverlayRequest.model_validate(request)
         recording = recording_of(table, columns)
-        with _loading():
-            warm_up()
+        load_kernels()
         result: Overlay = overlaid(asked, recording)
         if as_json:
             return print_json(overlay_reply(asked.driver, recording, result))
@@ -88,7 +86,6 @@ def overlay(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **valu
 def identify(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **values: Any) -> None:
     """Find the rig's damping, stiffness and thrust constants from FILES, with 95 % intervals."""
     from heli2dof_core import identify as identify_rig
-    from heli2dof_core import warm_up
     from heli2dof_core.recordings.recording import recording_of
 
     from ..contract.recordings import IdentifyRequest, identification_reply
@@ -97,8 +94,7 @@ def identify(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **val
         table, columns, request = _opened(files, base, values)
         asked = IdentifyRequest.model_validate({**request, "recording": "file"})
         spec, recording = asked.to_spec(), recording_of(table, columns)
-        with _loading():
-            warm_up()
+        load_kernels()
         found: Identification = identify_rig(
             spec.parameters, recording, asked.free, segment=asked.segment, travel=spec.limits.theta
         )
@@ -157,7 +153,3 @@ def _estimates(found: Identification) -> Any:
         for e in found.estimates
     ]
     return Shown.of("estimates", ("parameter", "unit", "before", "found", "low (95 %)", "high"), rows)
-
-
-def _loading() -> Any:
-    return console(stderr=True).status("Loading the kernels; the first time they are compiled, about 20 s")

@@ -45,13 +45,27 @@ class Numbers(click.ParamType):
             self.fail(f"{value!r} is no list of numbers; write 0,1,10", param, ctx)
 
 
-class Assignment(click.ParamType):
-    """``name=number``."""
+class Name(click.ParamType):
+    """One of some names. The core refuses others, and says which there are."""
 
-    name = "name=number"
+    name = "name"
+    mark = ""
+    """What the shell writes behind a name."""
 
     def __init__(self, names: Callable[[], Iterable[str]]) -> None:
         self.names = names
+
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[CompletionItem]:
+        """The names that begin so."""
+        return [CompletionItem(name + self.mark) for name in self.names() if name.startswith(incomplete)]
+
+
+class Assignment(Name):
+    """``name=number``."""
+
+    name, mark = "name=number", "="
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """(name, number)."""
@@ -61,20 +75,11 @@ class Assignment(click.ParamType):
         except ValueError:
             self.fail(f"{value!r} gives no number; write it like J_p=0.04", param, ctx)
 
-    def shell_complete(
-        self, ctx: click.Context, param: click.Parameter, incomplete: str
-    ) -> list[CompletionItem]:
-        """Names, with their ``=``."""
-        return [CompletionItem(f"{name}=") for name in self.names() if name.startswith(incomplete)]
 
-
-class Choice(click.ParamType):
+class Choice(Name):
     """``name=text``, such as ``theta=Pitch (deg)``."""
 
-    name = "name=text"
-
-    def __init__(self, names: Callable[[], Iterable[str]]) -> None:
-        self.names = names
+    name, mark = "name=text", "="
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """(name, text)."""
@@ -85,12 +90,6 @@ class Choice(click.ParamType):
             )
         return name, text
 
-    def shell_complete(
-        self, ctx: click.Context, param: click.Parameter, incomplete: str
-    ) -> list[CompletionItem]:
-        """Names, with their ``=``."""
-        return [CompletionItem(f"{name}=") for name in self.names() if name.startswith(incomplete)]
-
 
 class Words(click.ParamType):
     """Words with commas between them."""
@@ -100,21 +99,6 @@ class Words(click.ParamType):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """A list."""
         return [word.strip() for word in value.split(",")]
-
-
-class Name(click.ParamType):
-    """One of some names. The core refuses others, and says which there are."""
-
-    name = "name"
-
-    def __init__(self, names: Callable[[], Iterable[str]]) -> None:
-        self.names = names
-
-    def shell_complete(
-        self, ctx: click.Context, param: click.Parameter, incomplete: str
-    ) -> list[CompletionItem]:
-        """The names that begin so."""
-        return [CompletionItem(name) for name in self.names() if name.startswith(incomplete)]
 
 
 class Split(click.ParamType):

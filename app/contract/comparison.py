@@ -15,7 +15,7 @@ from heli2dof_core.placement.registry import METHODS
 from .design import Gains, gains_reply
 from .experiment import Metrics, StepRequest, metrics_reply
 from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, rga_reply, sensitivity_reply
-from .model import Complex, Model, Reply, findings_reply, parts_of, poles_reply
+from .model import Complex, Model, Reply, findings_reply, parts_of, poles_reply, reply_of
 from .problems import problem_of
 
 
@@ -115,13 +115,12 @@ def _row(row: Row) -> Reply:
 def splits_reply(splits: tuple[CoreSplit, ...]) -> list[Reply]:
     """Every way to deal the poles, with its gain and relative gains."""
     return [
-        {
-            "split": [list(pair) for pair in split.pairs],
-            "poles": poles_reply(split.design.poles.values),
-            "K": split.design.K.tolist(),
-            "norm": split.design.norm,
-            "pole_error": split.design.pole_error,
-            **({} if split.interaction.rga is None else {"rga": split.interaction.rga.tolist()}),
-        }
+        reply_of(
+            Split,
+            split.design,
+            split=split.pairs,
+            poles=split.design.poles.values,
+            rga=split.interaction.rga,
+        )
         for split in splits
     ]

@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
-import numpy as np
 from pydantic import Field
 
 from heli2dof_core import Design, interaction
 from heli2dof_core.walkthrough import walk_through
 
-from .model import Complex, Model, Reply, poles_reply, present, voltages_reply
+from .model import Complex, Model, Reply, reply_of, voltages_reply
 
 if TYPE_CHECKING:  # it would import SymPy before the first page
     from heli2dof_core.symbolic.render import SymbolicReport
@@ -109,19 +108,16 @@ def symbolic_reply(report: SymbolicReport) -> Reply:
 
 def walkthrough_reply(design: Design) -> Reply:
     """The derivation's steps in numbers; what only full-rank placement has is left out for other methods."""
-    steps = asdict(walk_through(design))
-    rga = interaction(design).rga
-    return present(
-        {
-            **{name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in steps.items()},
-            "A": design.plant.A.tolist(),
-            "B": design.plant.B.tolist(),
-            "trim": voltages_reply(design.plant.trim),
-            "K": design.K.tolist(),
-            "integral": None if design.integral is None else design.integral.tolist(),
-            "closed_loop": design.A_closed.tolist(),
-            "closed_loop_poles": poles_reply(design.closed_loop_poles),
-            "pole_error": design.pole_error,
-            "rga": None if rga is None else rga.tolist(),
-        }
+    return reply_of(
+        Walkthrough,
+        walk_through(design),
+        A=design.plant.A,
+        B=design.plant.B,
+        trim=voltages_reply(design.plant.trim),
+        K=design.K,
+        integral=design.integral,
+        closed_loop=design.A_closed,
+        closed_loop_poles=design.closed_loop_poles,
+        pole_error=design.pole_error,
+        rga=interaction(design).rga,
     )

@@ -42,10 +42,8 @@ from .model import (
     Finding,
     Model,
     Reply,
-    findings_reply,
-    poles_reply,
-    present,
     proposed,
+    reply_of,
     told_by,
 )
 
@@ -173,23 +171,14 @@ def _indices(parameters: Parameters, theta_0: float) -> tuple[int, ...]:
 
 def gains_reply(design: Design) -> Reply:
     """K and what it does to the poles."""
-    return present(
-        {
-            "method": design.method,
-            "K": design.K.tolist(),
-            "integral": None if design.integral is None else design.integral.tolist(),
-            "A": design.plant.A.tolist(),
-            "B": design.plant.B.tolist(),
-            "poles": poles_reply(design.poles.values),
-            "closed_loop_poles": poles_reply(design.closed_loop_poles),
-            "pole_error": design.pole_error,
-            "pole_error_bound": design.pole_error_bound if design.aims else None,
-            "norm": design.norm,
-            "spectral_norm": design.spectral_norm,
-            "eigenvector_condition": design.eigenvector_condition,
-            "controllability_indices": list(_indices(design.plant.parameters, design.plant.theta_0)),
-            "findings": findings_reply(design.findings),
-        }
+    return reply_of(
+        Gains,
+        design,
+        A=design.plant.A,
+        B=design.plant.B,
+        poles=design.poles.values,
+        pole_error_bound=design.pole_error_bound if design.aims else None,
+        controllability_indices=_indices(design.plant.parameters, design.plant.theta_0),
     )
 
 
@@ -200,10 +189,7 @@ def loops_reply(outer: OuterLoop) -> Reply:
 
 def suggestion_reply(suggestion: CoreSuggestion) -> Reply:
     """PI values, the whole loop's poles with them, and the rule in words."""
-    outer = suggestion.outer
-    return {
-        "loops": loops_reply(outer),
-        "loop_poles": poles_reply(suggestion.loop.poles),
-        "stable": suggestion.loop.stable,
-        "rule": suggestion.rule,
-    }
+    loop = suggestion.loop
+    return reply_of(
+        Suggestion, suggestion, loops=loops_reply(suggestion.outer), loop_poles=loop.poles, stable=loop.stable
+    )

@@ -23,6 +23,17 @@ def json_response(value: Any, status: int = 200) -> Response:
     return Response(json_bytes(value), status, media_type="application/json")
 
 
+def json_text(value: Any) -> str:
+    """JSON for a text frame."""
+    return json_bytes(value).decode()
+
+
+def described_files(summary: str, content: dict[str, Any]) -> dict[str, Any]:
+    """Route options that put files into the schema instead of JSON: the schema of each media type."""
+    replies = {200: {"description": summary, "content": content}}
+    return {"summary": summary, "responses": replies, "response_class": Response}
+
+
 def binary_frame(reply: dict[str, Any]) -> bytes:
     """uint32 header length, JSON header, then float32 arrays, all little endian.
 

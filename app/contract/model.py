@@ -7,6 +7,7 @@ is left out.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
+from dataclasses import is_dataclass
 from typing import Any, Optional
 
 import numpy as np
@@ -75,6 +76,24 @@ def described(model: Any, summary: str) -> dict[str, Any]:
 def present(values: Reply) -> Reply:
     """What exists: None is left out."""
     return {name: value for name, value in values.items() if value is not None}
+
+
+def reply_of(model: type[BaseModel], source: object, **own: Any) -> Reply:
+    """The model's fields: what `source` has by their names, or what is given; what is None is left out."""
+    found = {name: own[name] if name in own else getattr(source, name, None) for name in model.model_fields}
+    return {name: plain(value) for name, value in found.items() if value is not None}
+
+
+def plain(value: Any) -> Any:
+    """A value of the core in JSON's own kinds; complex numbers as ``{"re", "im"}``."""
+    if isinstance(value, np.ndarray):
+        numbers = value.tolist()
+        return [plain(p) for p in numbers] if value.dtype.kind == "c" else numbers
+    if isinstance(value, complex):
+        return {"re": value.real, "im": value.imag}
+    if isinstance(value, tuple):
+        return [plain(item) for item in value]
+    return {name: plain(item) for name, item in vars(value).items()} if is_dataclass(value) else value
 
 
 class Complex(Model):

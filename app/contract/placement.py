@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from importlib.util import find_spec
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 import numpy as np
 from pydantic import Field
 
-from heli2dof_core.comparison import STRUCTURES
+from heli2dof_core.couplings import Coupling, Lead
 from heli2dof_core.design import FULL_RANK
 from heli2dof_core.errors import InvalidInputError
 from heli2dof_core.placement.assess import Assessment, assess, place_poles
@@ -21,7 +21,7 @@ from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.signals import Floats
 
 from .fields import Pole, PositiveWeight, Strict, Weight, Whole
-from .model import OF_GAINS, Complex, Finding, Model, Reply, findings_reply, poles_reply, told_by
+from .model import OF_GAINS, Complex, Finding, Model, Reply, reply_of, told_by
 
 Row = Annotated[list[float], Field(min_length=1, max_length=MOST_STATES)]
 
@@ -168,35 +168,23 @@ def methods_reply() -> list[Reply]:
 
 
 def _method(method: CoreMethod) -> Reply:
-    needs = {} if method.needs is None else {"needs": method.needs}
-    return {
-        "name": method.name,
-        "title": method.title,
-        "source": method.source,
-        "places_poles": method.places_poles,
-        "integrates": method.integrates,
-        "available": method.needs is None or find_spec(method.needs) is not None,
-        "couplings": list(dict.fromkeys(s.coupling for s in STRUCTURES)) if method.structured else [],
-        "leads": ["pitch", "yaw"] if method.structured else [],
-        **needs,
-    }
+    return reply_of(
+        Method,
+        method,
+        available=method.needs is None or find_spec(method.needs) is not None,
+        couplings=get_args(Coupling) if method.structured else (),
+        leads=get_args(Lead) if method.structured else (),
+    )
 
 
 def assessment_reply(result: Assessment) -> Reply:
     """A placement of any system."""
     placement = result.placement
-    reply: Reply = {
-        "K": placement.K.tolist(),
-        "closed_loop_poles": poles_reply(result.closed_loop_poles),
-        "norm": result.norm,
-        "spectral_norm": result.spectral_norm,
-        "findings": findings_reply(result.findings),
-    }
-    if result.pole_error is not None:
-        reply["pole_error"] = result.pole_error
-        reply["pole_error_bound"] = result.pole_error_bound
-    if result.eigenvector_condition is not None:
-        reply["eigenvector_condition"] = result.eigenvector_condition
-    if placement.integral is not None:
-        reply["integral"] = placement.integral.tolist()
-    return reply | placement.construction()
+    return reply_of(
+        Placement,
+        result,
+        K=placement.K,
+        integral=placement.integral,
+        pole_error_bound=None if result.pole_error is None else result.pole_error_bound,
+        **placement.construction(),
+    )

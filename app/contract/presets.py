@@ -10,10 +10,10 @@ from heli2dof_core import Preset as CorePreset
 from heli2dof_core.components import COMPONENT_INFO
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.quantities import Quantity
-from heli2dof_core.request import LIMITS, OUTER, REFERENCE, SCENARIO, STRUCTURE
+from heli2dof_core.request import LIMITS, OUTER, POINT, REFERENCE, SCENARIO, STRUCTURE
 
 from .design import Loops, loops_reply
-from .model import Angles, Complex, Model, Reply, poles_reply, proposed
+from .model import Angles, Complex, Model, Reply, proposed, reply_of
 
 
 class Limits(proposed(LIMITS)):
@@ -73,25 +73,23 @@ def _ranges(quantities: Mapping[str, Quantity]) -> Reply:
 def preset_reply(preset: CorePreset) -> Reply:
     """A preset with everything that a design may change."""
     scenario = preset.scenario
-    return {
-        "name": preset.name,
-        "title": preset.title,
-        "source": preset.source,
-        "rig": preset.rig,
-        "parameters": preset.parameters.as_dict(),
-        "parameter_info": _ranges(PARAMETER_INFO),
-        "components": {} if preset.components is None else preset.components.as_dict(),
-        "component_info": {
+    return reply_of(
+        Preset,
+        preset,
+        **STRUCTURE.proposal(preset.structure),
+        **OUTER.proposal(preset.outer),
+        parameters=preset.parameters.as_dict(),
+        parameter_info=_ranges(PARAMETER_INFO),
+        components={} if preset.components is None else preset.components.as_dict(),
+        component_info={
             name: {"meaning": q.meaning, "unit": q.unit, "printed": q.symbol}
             for name, q in COMPONENT_INFO.items()
         },
-        "limits": LIMITS.proposal(preset.limits),
-        "limit_info": _ranges({name: known.quantity for name, known in LIMITS.fields.items()}),
-        "encoders": {"theta": preset.encoders[0], "psi": preset.encoders[1]},
-        "operating_point": {"theta": preset.theta_0},
-        "poles": poles_reply(preset.poles.values),
-        **STRUCTURE.proposal(preset.structure),
-        **OUTER.proposal(preset.outer),
-        "loops": loops_reply(preset.outer),
-        "scenario": {"reference": REFERENCE.proposal(scenario), **SCENARIO.proposal(scenario)},
-    }
+        limits=LIMITS.proposal(preset.limits),
+        limit_info=_ranges({name: known.quantity for name, known in LIMITS.fields.items()}),
+        encoders=dict(zip(("theta", "psi"), preset.encoders, strict=True)),
+        operating_point=POINT.proposal(preset),
+        poles=preset.poles.values,
+        loops=loops_reply(preset.outer),
+        scenario={"reference": REFERENCE.proposal(scenario), **SCENARIO.proposal(scenario)},
+    )

@@ -7,6 +7,7 @@ import asyncio.selector_events
 import contextlib
 from collections import Counter, OrderedDict
 from collections.abc import Callable, Iterator
+from functools import partial
 from ipaddress import IPv6Address, ip_address
 from time import monotonic
 from typing import Any
@@ -18,6 +19,7 @@ from heli2dof_core.recordings.files import MOST_BYTES
 from ..contract.problems import problem, problem_response
 from ..jobs.compute import Caller, current_caller
 from ..ops.settings import Settings
+from .bucket import Bucket
 
 _POLICY, _TRY_LATER = 1008, 1013
 _READ_BYTES = 16 * 1024
@@ -49,22 +51,18 @@ def read_in_small_parts() -> None:
 
 
 class Buckets:
-    """Tokens by address: `rate` of them come back in a second of `clock`, up to `burst`."""
+    """A bucket for each address."""
 
     def __init__(self, rate: float, burst: float, clock: Callable[[], float] = monotonic) -> None:
-        self._rate, self._burst, self._clock = rate, burst, clock
-        self._left: OrderedDict[str, tuple[float, float]] = OrderedDict()
+        self._new = partial(Bucket, rate, burst, clock)
+        self._by_address: OrderedDict[str, Bucket] = OrderedDict()
 
     def take(self, address: str) -> float:
-        """Takes one; returns 0, or after how many seconds there is one again."""
-        now = self._clock()
-        left, last = self._left.pop(address, (self._burst, now))
-        left = min(self._burst, left + (now - last) * self._rate)
-        wait = 0.0 if left >= 1 else (1 - left) / self._rate
-        self._left[address] = (left if wait else left - 1, now)
-        if len(self._left) > _MOST_ADDRESSES:
-            self._left.popitem(last=False)
-        return wait
+        """Takes one of the address'; returns 0, or after how many seconds there is one again."""
+        bucket = self._by_address[address] = self._by_address.pop(address, None) or self._new()
+        if len(self._by_address) > _MOST_ADDRESSES:
+            self._by_address.popitem(last=False)
+        return bucket.take()
 
 
 class SocketCounts:
@@ -154,13 +152,13 @@ class Limits:
 
     def _rate_limited(self, receive: Receive, send: Send) -> Receive:
         """`receive`, until the client sends more messages than any hand or page would; then the socket is closed."""
-        bucket = Buckets(self._settings.message_rate, 2 * self._settings.message_rate)
+        bucket = Bucket(self._settings.message_rate, 2 * self._settings.message_rate)
         over = False
 
         async def receive_limited() -> Message:
             nonlocal over
             message = await receive()
-            if message["type"] != "websocket.receive" or not (over or bucket.take("")):
+            if message["type"] != "websocket.receive" or not (over or bucket.take()):
                 return message
             if not over:
                 over = True

@@ -12,7 +12,9 @@ NOTHING = "default-src 'none'; frame-ancestors 'none'"
 """Of what is no page, as JSON: shown by itself it loads nothing."""
 
 
-def _joined(ancestors: Iterable[str], **sources: str) -> str:
+def _joined(ancestors: Iterable[str], *, form_action: str = "'none'", **sources: str) -> str:
+    """Nothing is allowed but what is named."""
+    sources = {"default_src": "'none'", **sources, "base_uri": "'none'", "form_action": form_action}
     directives = [f"{name.replace('_', '-')} {value}" for name, value in sources.items()]
     return "; ".join([*directives, f"frame-ancestors {' '.join(ancestors)}"])
 
@@ -29,14 +31,11 @@ def page(ancestors: Iterable[str]) -> str:
     """
     return _joined(
         ancestors,
-        default_src="'none'",
         script_src="'self'",
         style_src=f"'self' {hash_source(STYLE.encode())}",
         img_src="'self'",
         connect_src="'self'",
         frame_src="'self'",
-        base_uri="'none'",
-        form_action="'none'",
     )
 
 
@@ -44,13 +43,10 @@ def api_docs(ancestors: Iterable[str]) -> str:
     """Of /docs: Swagger UI shows its icons as data."""
     return _joined(
         ancestors,
-        default_src="'none'",
         script_src="'self'",
         style_src="'self'",
         img_src="'self' data:",
         connect_src="'self'",
-        base_uri="'none'",
-        form_action="'none'",
     )
 
 
@@ -58,10 +54,8 @@ def login(ancestors: Iterable[str]) -> str:
     """Of the form that asks for the access token."""
     return _joined(
         ancestors,
-        default_src="'none'",
         style_src="'self'",
         img_src="'self'",
-        base_uri="'none'",
         form_action="'self'",
     )
 
@@ -80,13 +74,10 @@ def viewer(ancestors: Iterable[str], scripts: Iterable[bytes]) -> str:
     hashes = " ".join(hash_source(script) for script in scripts)
     return _joined(
         ancestors,
-        default_src="'none'",
         script_src=f"'self' {hashes} 'wasm-unsafe-eval'",
         worker_src="blob:",
         style_src="'self' 'unsafe-inline'",
         img_src="'self' data: blob:",
         connect_src="'self' data: blob:",
         font_src="data:",
-        base_uri="'none'",
-        form_action="'none'",
     )

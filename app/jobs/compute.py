@@ -19,8 +19,8 @@ from typing import Any, TypeVar
 
 from threadpoolctl import threadpool_limits
 
-from heli2dof_core.comparison import STRUCTURES
 from heli2dof_core.compiled import warm_up
+from heli2dof_core.couplings import STRUCTURES
 from heli2dof_core.engine import engine
 from heli2dof_core.errors import CancelledError
 

@@ -8,9 +8,9 @@ from fastapi import APIRouter, Path, Query, Response
 
 from heli2dof_core.checks import require_known
 
+from ..contract.encoding import described_files
 from ..contract.experiment import StepRequest
 from ..contract.exports import FORMATS
-from ..contract.model import described
 from ..jobs.compute import Compute
 
 # The characters of RFC 3986 alone: none of them ends a line, a comment or an attribute of the files.
@@ -41,11 +41,12 @@ def build_router(compute: Compute) -> APIRouter:
 
 def _described() -> dict[str, Any]:
     """Route options for the schema: a file instead of JSON."""
-    options = described(None, "The design as a file for another program, or for print")
-    kinds = {each.media_type.partition(";")[0] for each in FORMATS.values()}
+    kinds = sorted({each.media_type.partition(";")[0] for each in FORMATS.values()})
     binary = {"schema": {"type": "string", "format": "binary"}}
-    del options["responses"][200]["model"]
     # What is JSON may be anything but text in the schema's sense.
-    options["responses"][200]["content"] = {k: {} if k.endswith("json") else binary for k in sorted(kinds)}
+    options = described_files(
+        "The design as a file for another program, or for print",
+        {kind: {} if kind.endswith("json") else binary for kind in kinds},
+    )
     names = ", ".join(f"`{each.name}` ({each.title})" for each in FORMATS.values())
-    return {**options, "description": f"Formats: {names}.", "response_class": Response}
+    return {**options, "description": f"Formats: {names}."}

@@ -14,10 +14,11 @@ from pydantic import ValidationError
 from heli2dof_core import Heli2DofError, Spec, evaluate
 from heli2dof_core.design import FULL_RANK
 
-from ..contract.encoding import BINARY_SUBPROTOCOL, binary_frame, json_bytes
+from ..contract.encoding import BINARY_SUBPROTOCOL, binary_frame, json_text
 from ..contract.evaluation import LiveRequest, report_reply
 from ..contract.problems import TEXT_START, problem_of
 from ..edge.connections import connection_of
+from ..edge.messages import Mailbox, received
 from ..jobs.compute import Compute
 from ..ops.metrics import Metrics
 
@@ -29,34 +30,8 @@ MEDIUM_STEPS = 40_000
 INLINE_LENGTH = 16_384
 """Length of a message that is read in the event loop."""
 MOST_SAMPLES = 1001
-
-
-class Mailbox:
-    """A mailbox for one item: a newer item replaces one that was not yet taken."""
-
-    def __init__(self) -> None:
-        self._item: str | bytes | None = None
-        self._arrived = asyncio.Event()
-        self.since = 0.0
-
-    def put(self, item: str | bytes) -> None:
-        """Leaves an item, in place of one that waits."""
-        self._item = item
-        self.since = perf_counter()
-        self._arrived.set()
-
-    @property
-    def empty(self) -> bool:
-        """Whether nothing waits."""
-        return self._item is None
-
-    async def take(self) -> str | bytes:
-        """Waits for an item and takes it."""
-        while self._item is None:
-            self._arrived.clear()
-            await self._arrived.wait()
-        item, self._item = self._item, None
-        return item
+_Request = tuple[float, str | bytes]
+"""When it came, and its text."""
 
 
 def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
@@ -67,15 +42,13 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
     async def live(socket: WebSocket) -> None:
         binary = BINARY_SUBPROTOCOL in socket.scope["subprotocols"]
         await socket.accept(subprotocol=BINARY_SUBPROTOCOL if binary else None)
-        mailbox, connection = Mailbox(), connection_of(socket)
+        mailbox, connection = Mailbox[_Request](), connection_of(socket)
         answers = asyncio.create_task(_answer(socket, mailbox, compute, metrics, binary=binary))
         try:
             while True:
-                message = await socket.receive()
-                if message["type"] == "websocket.disconnect":
-                    break
+                request = await received(socket)
                 connection.busy = True
-                mailbox.put(message.get("text") or message.get("bytes") or "")
+                mailbox.put((perf_counter(), request))
         except WebSocketDisconnect:
             pass
         finally:
@@ -86,12 +59,11 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
 
 
 async def _answer(
-    socket: WebSocket, mailbox: Mailbox, compute: Compute, metrics: Metrics, *, binary: bool
+    socket: WebSocket, mailbox: Mailbox[_Request], compute: Compute, metrics: Metrics, *, binary: bool
 ) -> None:
     connection = connection_of(socket)
     while True:
-        text = await mailbox.take()
-        since = mailbox.since
+        since, text = await mailbox.take()
         try:
             answer = _evaluate_inline(text, binary) if compute.compiled else None
             if answer is None:
@@ -102,7 +74,7 @@ async def _answer(
             body = problem_of(error)
             if body["status"] == 500:
                 _log.exception("live request failed")
-            answer = _text({**body, **_seq_of(text)})
+            answer = json_text({**body, **_seq_of(text)})
         if isinstance(answer, str):
             await socket.send_text(answer)
         else:
@@ -113,10 +85,6 @@ async def _answer(
         if mailbox.empty:
             await connection.set_idle()
         await asyncio.sleep(0)  # others' turn, even where nothing above had to wait
-
-
-def _text(value: Any) -> str:
-    return json_bytes(value).decode()
 
 
 def _evaluate_inline(text: str | bytes, binary: bool) -> str | bytes | None:
@@ -163,5 +131,5 @@ def _evaluate(text: str | bytes, binary: bool, most_steps: int | None = None, *,
             return None
         reply = {**seq, **report_reply(report, spec)}
     except (orjson.JSONDecodeError, ValidationError, Heli2DofError) as error:
-        return _text({**problem_of(error), **seq})
-    return binary_frame(reply) if binary else _text(reply)
+        return json_text({**problem_of(error), **seq})
+    return binary_frame(reply) if binary else json_text(reply)

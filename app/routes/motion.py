@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Annotated, Any
+from typing import Annotated
 from urllib.parse import quote
 
 from fastapi import APIRouter, HTTPException, Query, Request, Response
@@ -12,9 +12,10 @@ from fastapi.responses import RedirectResponse
 from heli2dof_core import Spec, close_loop, place, preset, simulate
 from heli2dof_core.geometry import RigName
 from heli2dof_core.scenario import Model
+from heli2dof_core.tables import poles
 
+from ..contract.encoding import described_files
 from ..contract.experiment import StepRequest
-from ..contract.model import described
 from ..jobs.compute import Compute
 from ..scene.motion import MotionFormat, motion_file
 from ..scene.poses import Motion
@@ -34,7 +35,12 @@ def build_router(compute: Compute) -> APIRouter:
     free = asyncio.Lock()
     waiting = 0
 
-    @router.post("/motion", **_described())
+    content = {kind.partition(";")[0]: {"schema": {"type": "string"}} for kind in _TYPES.values()}
+
+    @router.post(
+        "/motion",
+        **described_files("The motion as a file: an HTML page that plays offline, or a .viser file", content),
+    )
     async def motion(request: StepRequest, kind: Kind = "html") -> Response:
         nonlocal waiting
         if waiting >= MOST_WAITING:
@@ -76,19 +82,4 @@ def _motion(spec: Spec, model: Model) -> Motion:
 
 
 def _title(rig: str, spec: Spec) -> str:
-    poles = ", ".join(_pole(p) for p in spec.poles.values)
-    return f"{rig}: poles {poles} rad/s"
-
-
-def _pole(p: complex) -> str:
-    imaginary = f"{p.imag:+.4g}j" if p.imag else ""
-    return f"{p.real:.4g}{imaginary}".replace("-", "−")
-
-
-def _described() -> dict[str, Any]:
-    """Route options for the schema: a file instead of JSON."""
-    options = described(None, "The motion as a file: an HTML page that plays offline, or a .viser file")
-    content = {kind.partition(";")[0]: {"schema": {"type": "string"}} for kind in _TYPES.values()}
-    del options["responses"][200]["model"]
-    options["responses"][200]["content"] = content
-    return {**options, "response_class": Response}
+    return f"{rig}: poles {poles(spec.poles.values)} rad/s"

@@ -10,9 +10,10 @@ from typing import Any
 import orjson
 from fastapi import WebSocket, WebSocketDisconnect
 
-from ..contract.encoding import json_bytes
+from ..contract.encoding import json_text
 from ..contract.problems import problem_of
 from ..edge.connections import connection_of
+from ..edge.messages import received
 
 _log = logging.getLogger(__name__)
 Send = Callable[[str], Awaitable[None]]
@@ -28,25 +29,17 @@ async def serve_with_progress(socket: WebSocket, answer: Callable[[Any, Send], A
 
     await socket.accept()
     try:
-        text = await _received(socket)
+        text = await received(socket)
         while True:
             connection.busy = True
             answering = asyncio.create_task(answered(text))
             try:
-                text = await _received(socket)
+                text = await received(socket)
             finally:
                 answering.cancel()
                 await asyncio.gather(answering, return_exceptions=True)
     except WebSocketDisconnect:
         pass
-
-
-async def _received(socket: WebSocket) -> str | bytes:
-    """The next message; JSON may come in binary frames too."""
-    message = await socket.receive()
-    if message["type"] == "websocket.disconnect":
-        raise WebSocketDisconnect(message.get("code", 1000))
-    return message.get("text") or message.get("bytes") or ""
 
 
 async def _answer(
@@ -55,7 +48,7 @@ async def _answer(
     try:
         data = orjson.loads(text)
         if isinstance(data, dict) and data.get("cancel"):
-            await socket.send_text(json_bytes({"cancelled": True}).decode())
+            await socket.send_text(json_text({"cancelled": True}))
             return
         await answer(data, socket.send_text)
     except WebSocketDisconnect:
@@ -64,4 +57,4 @@ async def _answer(
         body = problem_of(error)
         if body["status"] == 500:
             _log.exception("a request on %s failed", socket.url.path)
-        await socket.send_text(json_bytes(body).decode())
+        await socket.send_text(json_text(body))

@@ -18,7 +18,7 @@ from heli2dof_core.recordings.recording import Table, recording_of
 from heli2dof_core.recordings.samples import deviating_rig, named_columns, sample_recording
 from heli2dof_core.scenario import Digital
 
-from ..contract.encoding import json_bytes, json_response
+from ..contract.encoding import described_files, json_response, json_text
 from ..contract.model import Reply, described
 from ..contract.recordings import (
     IdentifyRequest,
@@ -33,6 +33,7 @@ from ..contract.recordings import (
     preview_reply,
     progress_reply,
 )
+from ..edge.messages import Mailbox
 from ..jobs.compute import Compute, check_cancelled, current_caller
 from ..jobs.recording_store import RecordingStore
 from ..ops.settings import Settings
@@ -69,7 +70,12 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
             preview_reply(store.put(table, current_caller.get().client[0], name), name, table)
         )
 
-    @router.post("/sample", **_csv_options())
+    @router.post(
+        "/sample",
+        **described_files(
+            "A recording of the design's digital rig, CSV", {"text/csv": {"schema": {"type": "string"}}}
+        ),
+    )
     async def sample(request: SampleRequest) -> Response:
         await _wait_for_kernels()
         content = await compute.run_slow(_sample, request)
@@ -138,13 +144,11 @@ async def _identify(
 ) -> None:
     """Runs in the pool for what takes seconds; progress comes from there, of which only the newest waits."""
     table, loop = store.get(request.recording), asyncio.get_running_loop()
-    newest: list[Progress] = []
-    updated = asyncio.Event()
+    news = Mailbox[Progress | None]()
 
     def report(progress: Progress) -> None:
         check_cancelled()
-        newest[:] = [progress]
-        loop.call_soon_threadsafe(updated.set)
+        loop.call_soon_threadsafe(news.put, progress)
 
     def work() -> Reply:
         recording = recording_of(table, request.columns.to_columns())
@@ -160,23 +164,16 @@ async def _identify(
         return identification_reply(found)
 
     running = asyncio.ensure_future(compute.run_slow(work))
-    running.add_done_callback(lambda _: updated.set())
+    running.add_done_callback(lambda _: news.put(None))
     try:
-        while not running.done():
-            await updated.wait()
-            updated.clear()
-            if newest and not running.done():
-                await send(_text(progress_reply(newest.pop())))
-        await send(_text(await running))
+        while (progress := await news.take()) is not None:
+            await send(json_text(progress_reply(progress)))
+        await send(json_text(await running))
     finally:
         if not running.done():
             running.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await asyncio.gather(running, return_exceptions=True)
-
-
-def _text(value: Reply) -> str:
-    return json_bytes(value).decode()
 
 
 def _upload_options() -> dict[str, Any]:
@@ -186,10 +183,3 @@ def _upload_options() -> dict[str, Any]:
         "requestBody": {"required": True, "description": "CSV, .xlsx, .mat, HDF5, JSON", "content": content}
     }
     return {**options, "openapi_extra": extra}
-
-
-def _csv_options() -> dict[str, Any]:
-    options = described(None, "A recording of the design's digital rig, CSV")
-    del options["responses"][200]["model"]
-    options["responses"][200]["content"] = {"text/csv": {"schema": {"type": "string"}}}
-    return {**options, "response_class": Response}

@@ -9,7 +9,7 @@ from fastapi import APIRouter, Response, WebSocket
 
 from heli2dof_core.robustness import Cloud, cloud, cloud_in_parts
 
-from ..contract.encoding import json_bytes
+from ..contract.encoding import json_bytes, json_text
 from ..contract.model import described
 from ..contract.robustness import RobustnessReply, RobustnessRequest, cloud_reply
 from ..jobs.compute import Compute, check_cancelled
@@ -54,4 +54,4 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
 def _following(parts: Iterator[Cloud]) -> str | None:
     """The next part as text, made in the pool too: twelve thousand poles would hold up the event loop."""
     part = next(parts, None)
-    return None if part is None else json_bytes(cloud_reply(part)).decode()
+    return None if part is None else json_text(cloud_reply(part))

@@ -8,13 +8,14 @@ so that a slow window is late and holds nobody up.
 from __future__ import annotations
 
 import asyncio
-import contextlib
 from collections.abc import Callable
 from time import monotonic
 from typing import Annotated, Any
 
 import msgspec
-from fastapi import WebSocket, WebSocketDisconnect
+from fastapi import WebSocket
+
+from ..edge.messages import Mailbox, close, first_to_end
 
 LARGEST_SHOWN = 96 * 1024
 """Bytes of a design with its motion; the page's take 12,000."""
@@ -119,14 +120,12 @@ class Window:
 
     def __init__(self, *, page: bool) -> None:
         self.page = page
-        self._pending: dict[str, str | bytes] = {}
+        self._mailbox: Mailbox[tuple[str, str | bytes]] = Mailbox()
         self._edits: dict[str, Any] = {}
-        self._wake = asyncio.Event()
 
     def queue(self, topic: str, message: str | bytes) -> None:
         """Leave a message, in place of one on the same topic that was not sent yet."""
-        self._pending[topic] = message
-        self._wake.set()
+        self._mailbox.put((topic, message), topic)
 
     def edit(self, edits: dict[str, Any], count: int) -> None:
         """Leave what the panel asks for; of what waits, the newest value of each name stays."""
@@ -136,14 +135,10 @@ class Window:
     async def send_pending(self, socket: WebSocket) -> None:
         """Send what waits, for as long as the socket takes it."""
         while True:
-            await self._wake.wait()
-            self._wake.clear()
-            while self._pending:
-                topic = next(iter(self._pending))
-                message = self._pending.pop(topic)
-                if topic == "panel":
-                    self._edits = {}
-                await (socket.send_text(message) if isinstance(message, str) else socket.send_bytes(message))
+            topic, message = await self._mailbox.take()
+            if topic == "panel":
+                self._edits = {}
+            await (socket.send_text(message) if isinstance(message, str) else socket.send_bytes(message))
 
 
 class Room:
@@ -228,15 +223,10 @@ class Room:
 async def serve_window(socket: WebSocket, room: Room, window: Window) -> None:
     """Carry messages between an accepted socket and the room until the socket closes."""
     room.join(window)
-    sending = asyncio.create_task(window.send_pending(socket))
-    receiving = asyncio.create_task(_receive(socket, room, window))
     try:
-        await asyncio.wait({sending, receiving}, return_when=asyncio.FIRST_COMPLETED)
+        await first_to_end(window.send_pending(socket), _receive(socket, room, window))
     finally:
         room.leave(window)
-        for task in (sending, receiving):
-            task.cancel()
-        await asyncio.gather(sending, receiving, return_exceptions=True)
 
 
 async def _receive(socket: WebSocket, room: Room, window: Window) -> None:
@@ -247,7 +237,7 @@ async def _receive(socket: WebSocket, room: Room, window: Window) -> None:
             return None
         frame, text = message.get("bytes"), message.get("text")
         if len(frame or text or "") > (LARGEST_SHOWN if frame else LARGEST_TEXT):
-            return await _close(socket, _TOO_BIG, "this message is too large")
+            return await close(socket, _TOO_BIG, "this message is too large")
         try:
             if frame:
                 room.show(frame, window)
@@ -260,9 +250,4 @@ async def _receive(socket: WebSocket, room: Room, window: Window) -> None:
                 case _Clock(sent=sent):
                     window.queue("clock", encode_message("clock", sent=sent, now=monotonic()))
         except msgspec.MsgspecError as error:
-            return await _close(socket, _POLICY, f"not understood: {error}")
-
-
-async def _close(socket: WebSocket, code: int, reason: str) -> None:
-    with contextlib.suppress(RuntimeError, WebSocketDisconnect):
-        await socket.close(code, reason[:120])
+            return await close(socket, _POLICY, f"not understood: {error}")

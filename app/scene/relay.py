@@ -7,9 +7,7 @@ trusts its clients, so made-up messages could open a public tunnel or fill its m
 from __future__ import annotations
 
 import asyncio
-import contextlib
 from collections.abc import Callable
-from time import monotonic
 from typing import Any
 
 import msgspec
@@ -18,6 +16,8 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
+from ..edge.bucket import Bucket
+from ..edge.messages import close, first_to_end
 from ..ops.metrics import Metrics
 
 LARGEST_MESSAGE = 64 * 1024
@@ -26,7 +26,8 @@ LARGEST_MESSAGE = 64 * 1024
 _UNSUPPORTED_DATA, _TOO_BIG, _TRY_LATER = 1003, 1009, 1013
 _QUEUED_FRAMES = 4
 RATE, BURST = 120.0, 240.0
-"""Messages a second that a client may send, and how many at once; a viewer that is turned sends thirty."""
+"""Messages a second that a client may send, and how many at once; a viewer that is turned sends thirty. Whoever comes
+too fast waits, so that the network's own buffers fill and the sender waits, too."""
 _Quaternion = tuple[float, float, float, float]
 _Vector = tuple[float, float, float]
 
@@ -83,27 +84,6 @@ def viser_subprotocol(offered: list[str]) -> str | None:
     return next((name for name in offered if name.startswith("viser-v")), None)
 
 
-class RateLimit:
-    """Lets so many a second pass, and a few at once.
-
-    Whoever comes too fast waits, so that the network's own buffers fill and the sender waits, too.
-    """
-
-    def __init__(self, rate: float = RATE, burst: float = BURST) -> None:
-        self._rate = rate
-        self._burst = burst
-        self._left = burst
-        self._since = monotonic()
-
-    async def take(self) -> None:
-        """Wait for a place."""
-        now = monotonic()
-        self._left = min(self._burst, self._left + (now - self._since) * self._rate) - 1.0
-        self._since = now
-        if self._left < 0.0:
-            await asyncio.sleep(-self._left / self._rate)
-
-
 async def relay(
     client: WebSocket,
     port: int,
@@ -131,21 +111,14 @@ async def relay(
             proxy=None,
         )
     except (OSError, InvalidHandshake, TimeoutError):
-        await _close(client, _TRY_LATER, "the scene is not reachable")
+        await close(client, _TRY_LATER, "the scene is not reachable")
         return
     async with upstream:
-        tasks = [
-            asyncio.create_task(_to_client(upstream, client, metrics)),
-            asyncio.create_task(_to_viser(client, upstream, filter_update, metrics)),
-        ]
-        try:
-            done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-        finally:
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
-    code, reason = done.pop().result()
-    await _close(client, code, reason)
+        ended = await first_to_end(
+            _to_client(upstream, client, metrics), _to_viser(client, upstream, filter_update, metrics)
+        )
+    code, reason = ended.result()
+    await close(client, code, reason)
 
 
 async def _to_client(upstream: ClientConnection, client: WebSocket, metrics: Metrics) -> tuple[int, str]:
@@ -168,7 +141,7 @@ async def _to_viser(
     client: WebSocket, upstream: ClientConnection, filter_update: UpdateFilter, metrics: Metrics
 ) -> tuple[int, str]:
     """Carry the client's admissible frames to viser; return how to close the client."""
-    limit = RateLimit()
+    bucket = Bucket(RATE, BURST)
     while True:
         message = await client.receive()
         if message["type"] == "websocket.disconnect":
@@ -178,7 +151,8 @@ async def _to_viser(
             return _UNSUPPORTED_DATA, "binary frames only"
         if len(frame) >= LARGEST_MESSAGE:
             return _TOO_BIG, f"messages of {LARGEST_MESSAGE} bytes or more are refused"
-        await limit.take()
+        if wait := bucket.take(in_advance=True):
+            await asyncio.sleep(wait)
         passed = allowed_frame(frame, filter_update)
         (metrics.scene_refused if passed is None else metrics.scene_up).inc()
         if passed is not None:
@@ -186,10 +160,3 @@ async def _to_viser(
                 await upstream.send(passed)
             except ConnectionClosed:
                 return 1001, "the scene was stopped"
-
-
-async def _close(client: WebSocket, code: int, reason: str) -> None:
-    """Close the client's socket unless it is closed already."""
-    with contextlib.suppress(RuntimeError, WebSocketDisconnect):
-        # A close frame carries at most 123 bytes of reason.
-        await client.close(code, reason.encode()[:123].decode(errors="ignore"))

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..evaluate import Step, evaluate
-from ..signals import INPUTS, INTEGRALS, STATES, C
+from ..evaluate import evaluate
+from ..signals import C
 from ..spec import Spec
 from ..version import package_version
 from .format import Format
@@ -46,7 +46,10 @@ def render(spec: Spec, link: str = "") -> bytes:
         "loop_poles": loop.poles[:, None],
         "t": report.step["linear"].response.t[:, None],
         "reference": np.array(report.step["linear"].response.reference)[:, None],
-        **{model: _columns(step) for model, step in report.step.items()},
+        **{
+            model: {signal.name: values[:, None] for signal, values in step.response.by_signal()}
+            for model, step in report.step.items()
+        },
     }
     file = BytesIO()
     savemat(file, content, oned_as="column")
@@ -54,14 +57,6 @@ def render(spec: Spec, link: str = "") -> bytes:
         _TEXT
     )  # SciPy's holds the date
     return head + file.getvalue()[_TEXT:]
-
-
-def _columns(step: Step) -> dict[str, Any]:
-    response = step.response
-    assert response.states is not None  # every model gives them
-    rows = zip((*STATES, *INTEGRALS), response.states, strict=False)
-    volts = zip(INPUTS, response.voltages, strict=True)
-    return {signal.name: values[:, None] for signal, values in (*rows, *volts)}
 
 
 FORMAT = Format(

@@ -10,6 +10,7 @@ from ..presets import PRESETS, Preset
 from ..request import body_of
 from ..signals import AXES
 from ..spec import Spec
+from ..tables import number
 from ..version import package_version
 
 
@@ -41,9 +42,8 @@ def structure_in_words(spec: Spec) -> str:
     if not METHODS[spec.method].structured:
         return spec.method
     structure = spec.structure
-    lead = f", {structure.lead} leads" if structure.coupling == "triangular" else ""
     shift = "" if structure.shift is None else f", shift {structure.shift!r}"
-    return f"full-rank, {structure.coupling}{lead}{shift}"
+    return f"full-rank, {structure.title}{shift}"
 
 
 def outer_in_words(spec: Spec) -> str:
@@ -65,4 +65,4 @@ def outer_in_words(spec: Spec) -> str:
 
 def poles_in_words(poles: Iterable[complex]) -> str:
     """Poles as text, in ASCII."""
-    return ", ".join(f"{p.real:.6g}" + (f"{p.imag:+.6g}j" if p.imag else "") for p in poles)
+    return ", ".join(number(p, 6, minus="-", gap="") for p in poles)

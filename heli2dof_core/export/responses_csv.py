@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from ..evaluate import Step, evaluate
-from ..signals import INPUTS, INTEGRALS, OUTPUTS, STATES, Floats
+from ..evaluate import evaluate
+from ..signals import INPUTS, OUTPUTS
 from ..spec import Spec
 from .format import Format
 from .origin import origin
@@ -21,7 +19,10 @@ def render(spec: Spec, link: str = "") -> str:
         for signal, value in zip(OUTPUTS, references, strict=True)
     ]
     for model, step in report.step.items():
-        columns += [(f"{name}_{model} [{unit}]", values) for name, unit, values in _signals(step)]
+        columns += [
+            (f"{signal.name}_{model} [{signal.unit.replace('·', '*')}]", values)
+            for signal, values in step.response.by_signal()
+        ]
     trim = ", ".join(
         f"{s.name} = {v!r} V" for s, v in zip(INPUTS, report.design.plant.trim.tolist(), strict=True)
     )
@@ -32,15 +33,6 @@ def render(spec: Spec, link: str = "") -> str:
         *(",".join(map(repr, row)) for row in zip(*(values.tolist() for _, values in columns), strict=True)),
     ]
     return "\n".join(lines) + "\n"
-
-
-def _signals(step: Step) -> Iterator[tuple[str, str, Floats]]:
-    response = step.response
-    assert response.states is not None  # every model gives them
-    for signal, values in zip((*STATES, *INTEGRALS), response.states, strict=False):
-        yield signal.name, signal.unit.replace("·", "*"), values
-    for signal, values in zip(INPUTS, response.voltages, strict=True):
-        yield signal.name, signal.unit, values
 
 
 FORMAT = Format(

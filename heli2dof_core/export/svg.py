@@ -11,6 +11,7 @@ import numpy as np
 
 from ..frozen import Frozen
 from ..signals import Floats
+from ..tables import number
 
 WIDTH, HEIGHT = 340, 210
 LEFT, RIGHT, TOP, BOTTOM = 46, 10, 10, 34
@@ -33,11 +34,6 @@ class Marks:
     points: Sequence[complex]
     shape: str
     labels: Sequence[str] = ()
-
-
-def number(value: float, digits: int = 4) -> str:
-    """A number for people, with a true minus sign."""
-    return f"{value + 0.0:.{digits}g}".replace("-", "−")
 
 
 def ticks(low: float, high: float, most: int = 6) -> list[float]:

@@ -9,9 +9,10 @@ from ..couplings import Structure
 from ..symbolic.full_rank import full_rank, indices, plant
 from ..symbolic.grouping import grouped
 from ..symbolic.luenberger import controllability_matrix
+from ..symbolic.names import latex
 from ..symbolic.rga import relative_gain_array, steady_state, transfer_matrix
 from . import as_printed
-from .equation import Equation, latex, named
+from .equation import Equation, named
 
 
 def _form(name: str) -> str:
@@ -23,14 +24,12 @@ FEEDBACK = (
     Equation(
         number="Fig. 2",
         title="State feedback",
-        chapter="feedback",
         plain="Each motor gets a command, less a weighted sum of all four states; the weights are $K$.",
         note="Redrawn, with the sign that is right.",
     ),
     Equation(
         number="Eq. 16",
         title="Closed loop",
-        chapter="feedback",
         plain="Feedback replaces $A$ by $A − BK$, and with it the rig's own poles by chosen ones.",
         printed=r"\dot x = (A + BK)x + Bv,\quad y = Cx",
         derived=lambda: r"\dot x = (A - BK)x + Bv,\quad y = Cx",
@@ -40,7 +39,6 @@ FEEDBACK = (
     Equation(
         number="controllability",
         title="Controllability matrix and indices",
-        chapter="feedback",
         plain="Can the motors move every state? Reading the columns from left to right, the first four that are "
         "independent tell how many states each motor takes care of: here two and two.",
         derived=lambda: (
@@ -56,7 +54,6 @@ FEEDBACK = (
     Equation(
         number="transformation",
         title="Transformation T",
-        chapter="feedback",
         plain="New coordinates $z = Tx$, chosen so that each motor drives a chain of two integrators of its own.",
         derived=lambda: f"T = {_form('T')},\\quad Q = {_form('Q')}",
         status="explained",
@@ -67,7 +64,6 @@ FEEDBACK = (
     Equation(
         number="canonical form",
         title="Canonical form",
-        chapter="feedback",
         plain="In these coordinates the plant is two chains; only the last row of each carries numbers, and only "
         "there do the motors act.",
         derived=lambda: r"\bar A = TAT^{-1} = " + _form("A_bar") + r",\quad \bar B = TB = " + _form("B_bar"),
@@ -78,7 +74,6 @@ FEEDBACK = (
     Equation(
         number="Eq. 18",
         title="Desired poles",
-        chapter="feedback",
         plain="The four eigenvalues of the closed loop shall be the four poles that were chosen.",
         printed=r"\sigma(A + BK) = \{p_1, p_2, p_3, p_4\}",
         derived=lambda: r"\sigma(A - BK) = \{p_1, p_2, p_3, p_4\}",
@@ -88,7 +83,6 @@ FEEDBACK = (
     Equation(
         number="desired polynomials",
         title="Desired polynomials",
-        chapter="feedback",
         plain="Each chain gets a pair of poles; multiplied out, a pair is two coefficients.",
         derived=lambda: (
             r"d_1(s) = (s - p_1)(s - p_2) = s^2 + d_{11} s + d_{10},\quad "
@@ -99,7 +93,6 @@ FEEDBACK = (
     Equation(
         number="gain in z",
         title="Gain in the new coordinates",
-        chapter="feedback",
         plain="What stands in the chains' last rows, less what shall stand there, is what the feedback must take "
         "away.",
         derived=lambda: r"\bar K = QKT^{-1} = " + latex(grouped(full_rank(Structure()).K_bar)),
@@ -111,21 +104,18 @@ FEEDBACK = (
     Equation(
         number="Eq. 19",
         title="Back to the rig's coordinates",
-        chapter="feedback",
         plain="$Q$ undoes how the motors mix, $T$ brings the angles and rates into the new coordinates.",
         printed=r"K = Q^{-1}\bar K T",
     ),
     Equation(
         number="Eq. 20",
         title="Shape of K",
-        chapter="feedback",
         plain="Two rows, one per motor; four columns, one per state.",
         printed=r"K = \begin{bmatrix} k_{11} & k_{12} & k_{13} & k_{14} \\ k_{21} & k_{22} & k_{23} & k_{24} \end{bmatrix}",
     ),
     Equation(
         number="Eqs. 21, 22",
         title="Gain in terms of the poles",
-        chapter="feedback",
         plain="The product of a pair of poles sets the stiffness, their sum the damping; γ sorts out which motor "
         "pays for it.",
         printed=r"K = " + latex(as_printed.gain()),
@@ -137,7 +127,6 @@ FEEDBACK = (
     Equation(
         number="closed loop",
         title="The closed loop, checked",
-        chapter="feedback",
         plain="In the new coordinates the last row of each chain now holds the desired coefficients.",
         derived=lambda: r"T(A - BK)T^{-1} = " + latex(grouped(full_rank(Structure()).canonical_closed_loop)),
         status="explained",
@@ -149,7 +138,6 @@ INTERACTION = (
     Equation(
         number="Eq. 17",
         title="Closed-loop transfer matrix",
-        chapter="interaction",
         plain="How each angle answers each command at every frequency, with the state feedback closed.",
         printed=r"\hat G(s) = C(sI - A - BK)^{-1}B",
         derived=lambda: r"\hat G(s) = C(sI - A + BK)^{-1}B = " + latex(grouped(transfer_matrix(Structure()))),
@@ -160,7 +148,6 @@ INTERACTION = (
     Equation(
         number="steady state",
         title="Steady-state gain",
-        chapter="interaction",
         plain="After a constant command has acted for long, this is where the angles have come to rest.",
         derived=lambda: r"\hat G(0) = " + latex(grouped(steady_state(Structure()))),
         status="explained",
@@ -170,7 +157,6 @@ INTERACTION = (
     Equation(
         number="Eq. 23",
         title="Relative gain array",
-        chapter="interaction",
         plain="Each entry is a channel's gain with the other loop open, over its gain with the other loop closed "
         "tightly: 1 is no interaction.",
         printed=r"\text{RGA} = \begin{bmatrix} 1 + \frac{73 p_3p_4}{7127 p_1p_2} & -\frac{73 p_3p_4}{7127 p_1p_2} \\ "
@@ -186,7 +172,6 @@ LOOPS = (
     Equation(
         number="Fig. 3",
         title="PI control of the overall system",
-        chapter="loops",
         plain="Two PI controllers turn the errors of the angles into the commands of the inner loop, until no error "
         "is left.",
         printed=r"\text{PI}(s) = 30\left(1 + \frac{1}{0.1\, s}\right)",
@@ -196,7 +181,6 @@ LOOPS = (
     Equation(
         number="Fig. 4",
         title="Step of the pitch reference",
-        chapter="loops",
         plain="The nose is asked to rise by one radian at once.",
         status="explained",
         note="Our copy has no curve: redrawn from the model.",
@@ -205,7 +189,6 @@ LOOPS = (
     Equation(
         number="Fig. 5",
         title="Step of the yaw reference",
-        chapter="loops",
         plain="The rig is asked to turn by one radian at once.",
         status="explained",
         note="Our copy has no curve: redrawn from the model.",

@@ -6,9 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-import sympy as sp
-
-from ..symbolic.names import LATEX
+from ..symbolic.names import latex
 
 Status = Literal["reproduced", "corrected", "explained"]
 Chapter = Literal["machine", "mechanics", "linear", "feedback", "interaction", "loops"]
@@ -21,7 +19,6 @@ class Equation:
     Attributes:
         number: as in the paper, such as ``Eq. 13``; a few words in small letters where it has none.
         title: what it is.
-        chapter: where it stands in the derivation.
         plain: what is done here, in one sentence that needs no formula.
         printed: LaTeX as printed in our copy; empty for a picture and for a step left out.
         derived: computes the LaTeX of what heli2dof derives or uses; None where the printed form is it.
@@ -30,11 +27,11 @@ class Equation:
         errata: names of the errata that concern it.
         formulas: what of `symbolic.render.SymbolicReport.formulas` stands here, where it depends on
             the closed loop's structure; `derived` shows the paper's structure.
+        chapter: where it stands in the derivation; `equations` says it for whole chapters.
     """
 
     number: str
     title: str
-    chapter: Chapter
     plain: str
     printed: str = ""
     derived: Callable[[], str] | None = None
@@ -42,11 +39,7 @@ class Equation:
     note: str = ""
     errata: tuple[str, ...] = ()
     formulas: tuple[str, ...] = ()
-
-
-def latex(expression: Any) -> str:
-    """LaTeX in the derivation's own names."""
-    return sp.latex(expression, symbol_names=LATEX, mat_delim="[")
+    chapter: Chapter | None = None
 
 
 def named(name: str, value: Callable[[], Any]) -> Callable[[], str]:

@@ -2,8 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from .control_equations import FEEDBACK, INTERACTION, LOOPS
+from .equation import Chapter, Equation
 from .model_equations import LINEAR, MACHINE, MECHANICS
 
-EQUATIONS = (*MACHINE, *MECHANICS, *LINEAR, *FEEDBACK, *INTERACTION, *LOOPS)
+_CHAPTERS: dict[Chapter, tuple[Equation, ...]] = {
+    "machine": MACHINE,
+    "mechanics": MECHANICS,
+    "linear": LINEAR,
+    "feedback": FEEDBACK,
+    "interaction": INTERACTION,
+    "loops": LOOPS,
+}
+EQUATIONS = tuple(replace(step, chapter=name) for name, steps in _CHAPTERS.items() for step in steps)
 """In the order in which one follows from the other, which is nearly the paper's."""

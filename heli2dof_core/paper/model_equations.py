@@ -9,9 +9,9 @@ import sympy as sp
 
 from ..symbolic.linearization import linear_model
 from ..symbolic.mechanics import mechanics
-from ..symbolic.names import psi, psi_dot, theta, theta_dot
+from ..symbolic.names import latex, psi, psi_dot, theta, theta_dot
 from . import as_printed
-from .equation import Equation, latex, named
+from .equation import Equation, named
 
 
 def _coriolis() -> sp.Matrix:
@@ -46,14 +46,12 @@ MACHINE = (
     Equation(
         number="Fig. 1",
         title="Free body diagram",
-        chapter="machine",
         plain="Two propellers on one beam make four torques: each turns its own axis and disturbs the other.",
         note="Redrawn from the text; our copy has no picture.",
     ),
     Equation(
         number="Eq. 1",
         title="Centre of mass",
-        chapter="machine",
         plain="All moving parts together weigh as if they sat in one point, at the distance $l$ from the pivot.",
         printed=r"l = \frac{(m_{m,p} + m_{shield})\, r_p + (m_{m,y} + m_{shield})\, r_y}{m_{m,p} + m_{m,y} + 2 m_{shield}}",
         note="The arms lie on opposite sides of the pivot, so one would expect their difference; Quanser's files "
@@ -62,7 +60,6 @@ MACHINE = (
     Equation(
         number="Eq. 8",
         title="Thrust constants",
-        chapter="machine",
         plain="A volt on a motor becomes thrust, and thrust times its arm a torque; the motor's drag turns the "
         "other axis.",
         printed=r"K_{pp} = K_{f,p} r_p,\quad K_{yy} = K_{f,y} r_y,\quad K_{py} = \frac{K_{t,y}}{R_{m,y}},\quad K_{yp} = \frac{K_{t,p}}{R_{m,p}}",
@@ -71,7 +68,6 @@ MACHINE = (
     Equation(
         number="Table I",
         title="Body parameters",
-        chapter="machine",
         plain="These numbers, and no others, tell one rig from another.",
         status="corrected",
         note="Two units are wrong, and the results used other values: see the numbers below.",
@@ -83,7 +79,6 @@ MECHANICS = (
     Equation(
         number="Eq. 5",
         title="State",
-        chapter="mechanics",
         plain="Two angles say where the rig is and their two rates where it is going; nothing else is needed to "
         "predict its motion.",
         printed=r"x = [\theta\ \ \psi\ \ \dot\theta\ \ \dot\psi]^T",
@@ -92,7 +87,6 @@ MECHANICS = (
     Equation(
         number="Eq. 2",
         title="Kinetic energy",
-        chapter="mechanics",
         plain="Energy of motion: the centre of mass moves on a sphere, and the body turns about both axes.",
         printed=r"T = \tfrac12 m\left((-l\dot\psi\sin\psi\cos\theta - l\dot\theta\cos\psi\sin\theta)^2 "
         r"+ \tfrac12(-l\dot\psi\cos\theta + l\dot\theta\sin\psi\sin\theta)^2 + l^2\dot\theta\cos\theta^2\right)^2",
@@ -104,7 +98,6 @@ MECHANICS = (
     Equation(
         number="potential energy",
         title="Potential energy",
-        chapter="mechanics",
         plain="Energy of position: raising the nose lifts the centre of mass, and in the Aero rigs bends a spring.",
         derived=named("P", lambda: mechanics().potential),
         status="explained",
@@ -113,7 +106,6 @@ MECHANICS = (
     Equation(
         number="Eq. 3",
         title="Lagrangian",
-        chapter="mechanics",
         plain="Kinetic less potential energy: one function that holds the whole motion.",
         printed=r"L = K - P",
         derived=named("L", lambda: mechanics().kinetic - mechanics().potential),
@@ -122,7 +114,6 @@ MECHANICS = (
     Equation(
         number="Eq. 4",
         title="Lagrange's equations",
-        chapter="mechanics",
         plain="Differentiating the Lagrangian, once per angle, gives the balance of torques about each axis.",
         printed=r"\frac{\partial}{\partial t}\frac{\partial L}{\partial \dot q_i} - \frac{\partial L}{\partial q_i} = Q_i",
         derived=lambda: (
@@ -134,7 +125,6 @@ MECHANICS = (
     Equation(
         number="Eq. 6",
         title="Generalized forces",
-        chapter="mechanics",
         plain="What no energy tells: the motors push and friction brakes.",
         printed=r"Q_1 = \tau_p - B_p\dot\theta, \quad Q_2 = \tau_y - B_y\dot\psi",
         derived=lambda: f"Q = {latex(mechanics().torque)}",
@@ -142,14 +132,12 @@ MECHANICS = (
     Equation(
         number="Eq. 7",
         title="Thrust torques",
-        chapter="mechanics",
         plain="Each propeller's thrust turns its own axis, its drag the other; both grow with the voltage.",
         printed=r"\tau_p = K_{pp}V_p + K_{py}V_y, \quad \tau_y = K_{yp}V_p + K_{yy}V_y",
     ),
     Equation(
         number="Eq. 9",
         title="Equations of motion",
-        chapter="mechanics",
         plain="Inertia, Coriolis and gravity torques balance the motors and friction at every instant.",
         printed=r"D(q)\ddot q + C(q,\dot q)\dot q + g(q) = \tau",
         derived=lambda: (
@@ -160,7 +148,6 @@ MECHANICS = (
     Equation(
         number="Eq. 10",
         title="Mass matrix",
-        chapter="mechanics",
         plain="How hard each axis is to accelerate; yaw gets easier as the nose leaves the horizontal.",
         printed=r"D(q) = \begin{bmatrix} J_p + m l^2 & 0 \\ 0 & J_y + m l^2\cos^2\theta \end{bmatrix}",
         derived=named("D(q)", lambda: mechanics().mass_matrix),
@@ -168,7 +155,6 @@ MECHANICS = (
     Equation(
         number="Eq. 11",
         title="Coriolis and centrifugal torques",
-        chapter="mechanics",
         plain="Turning pulls the raised or lowered nose back to the horizontal, and pitching changes the inertia "
         "that yaw feels.",
         printed=r"C(q,\dot q) = \begin{bmatrix} B_p & m l^2\sin\theta\cos\theta\,\dot\psi \\ -2 m l^2\sin\theta\cos\theta\,\dot\psi & B_y \end{bmatrix}",
@@ -180,7 +166,6 @@ MECHANICS = (
     Equation(
         number="Eq. 12",
         title="Gravity and thrust",
-        chapter="mechanics",
         plain="Gravity pulls the nose down, most where the beam is level; the motors hold against it.",
         printed=r"g(q) = \begin{bmatrix} m g l\cos\theta \\ 0 \end{bmatrix},\quad \tau = \begin{bmatrix} K_{pp}V_p + K_{py}V_y \\ K_{yp}V_p + K_{yy}V_y \end{bmatrix}",
         derived=lambda: f"g(q) = {latex(_gravity())},\\quad \\tau = {latex(_thrust())}",
@@ -192,7 +177,6 @@ LINEAR = (
     Equation(
         number="trim",
         title="Rest at θ₀",
-        chapter="linear",
         plain="The voltages at which nothing accelerates: from here on, states and voltages count from this rest.",
         derived=lambda: r"V_{\text{trim}} = " + latex(linear_model().trim),
         status="explained",
@@ -201,7 +185,6 @@ LINEAR = (
     Equation(
         number="Eq. 15",
         title="Short names",
-        chapter="linear",
         plain="Three combinations of the parameters occur so often that they get names: the inertia about each "
         "axis, and how differently the two motors push.",
         printed=r"\alpha = J_p + m l^2,\quad \beta = J_y + m l^2,\quad \gamma = K_{py}K_{yp} - K_{pp}K_{yy}",
@@ -211,7 +194,6 @@ LINEAR = (
     Equation(
         number="Eq. 13",
         title="System matrix",
-        chapter="linear",
         plain="How the rig moves by itself near rest: angles integrate rates, and friction makes the rates decay.",
         printed=latex(as_printed.system_matrix()).join(("A = ", "")),
         derived=named("A", lambda: linear_model().A),
@@ -222,7 +204,6 @@ LINEAR = (
     Equation(
         number="Eq. 14",
         title="Input matrix",
-        chapter="linear",
         plain="How a volt on each motor accelerates each axis.",
         printed=latex(as_printed.input_matrix()).join(("B = ", "")),
         derived=named("B", lambda: linear_model().B),

@@ -21,6 +21,7 @@ from ..plant import plant
 from ..poles import PoleSet
 from ..presets import preset
 from ..symbolic.linearization import linear_model
+from ..symbolic.luenberger import controllability_matrix
 from ..symbolic.mechanics import mechanics
 from ..symbolic.names import PARAMETERS as P
 from ..symbolic.names import alpha, beta_0, gamma_, p_1, p_2, p_3, p_4, psi, psi_dot, s, theta, theta_dot
@@ -209,10 +210,8 @@ def no_dyadic_design() -> Proof:
     """Det 𝒞(A, Bf) vanishes for every f when a = 0: eigenvalue 0 has two 1×1 Jordan blocks."""
     f = sp.Matrix(sp.symbols("f_1 f_2"))
     model = linear_model()
-    columns = [model.B * f]
-    for _ in range(3):
-        columns.append(model.A * columns[-1])
-    field = DomainMatrix.from_Matrix(sp.Matrix.hstack(*columns)).to_field()
+    A, b = (DomainMatrix.from_Matrix(matrix).to_field() for matrix in (model.A, model.B * f))
+    field = controllability_matrix(*A.unify(b))
     determinant = sp.factor(field.domain.to_sympy(field.det()))
     at_zero = determinant.subs(sp.Symbol("a"), 0)
     rig = preset().parameters

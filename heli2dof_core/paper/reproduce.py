@@ -61,7 +61,7 @@ class Row:
 @cache
 def reproduce() -> tuple[Row, ...]:
     """Every printed number, in the order of the paper."""
-    return (*_gain_coefficients(), *_body_parameters(), *_poles(), *_gain(), *_given())
+    return (*_gain_coefficients(), *_body_parameters(), *_poles(), *_gain(), *_chosen())
 
 
 def significant_digits(text: str) -> int:
@@ -117,6 +117,12 @@ _TABLE_NOTES = {
 }
 
 
+def _given(
+    printed: Printed, corrected: float | None = None, on_rig: float | None = None, note: str = ""
+) -> Row:
+    return Row(printed, "", None, corrected, on_rig, None, "given", note)
+
+
 def _body_parameters() -> Iterator[Row]:
     """Table I against the design file, whose thrust constants and l come from Eqs. 1 and 8."""
     file, used, rig = (
@@ -129,9 +135,9 @@ def _body_parameters() -> Iterator[Row]:
             formula = _FROM_COMPONENTS.get(name, "design file")
             yield _row(printed, formula, file[name], used[name], rig[name], note=note)
         else:
-            yield Row(printed, "", None, used[name], rig[name], None, "given", note)
+            yield _given(printed, used[name], rig[name], note)
     for printed in VOLTAGE_LIMITS:
-        yield Row(printed, "", None, None, printed.value, None, "given", "")
+        yield _given(printed, None, printed.value)
 
 
 def _poles() -> Iterator[Row]:
@@ -145,9 +151,7 @@ def _poles() -> Iterator[Row]:
         note = "" if i < 3 else "−0.8/β: the results take B_p for B_y; the rig's own is −B_y/β"
         yield _row(printed, "Eq. 13", own, corrected, other, note=note)
     for printed in DESIRED_POLES:
-        yield Row(
-            printed, "", None, None, None, None, "given", "chosen; see where the printed K really puts them"
-        )
+        yield _given(printed, note="chosen; see where the printed K really puts them")
 
 
 def _gain() -> Iterator[Row]:
@@ -162,6 +166,6 @@ def _gain() -> Iterator[Row]:
         )
 
 
-def _given() -> Iterator[Row]:
+def _chosen() -> Iterator[Row]:
     for printed in (*PI, UNIT_STEP):
-        yield Row(printed, "", None, None, printed.value, None, "given", "chosen")
+        yield _given(printed, None, printed.value, "chosen")

@@ -4,25 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..controllability import controllability_matrix
 from ..signals import Floats
-from .dyadic import krylov, place_dyadic
-from .method import Method, Placement, Task
-
-
-class Ackermann(Method):
-    """k = [0 … 0 1] 𝒞⁻¹ d(A), applied to the input direction with the smallest gain."""
-
-    name = "ackermann"
-    title = "Ackermann's formula, dyadic input"
-    source = "J. Ackermann, Regelungstechnik 20 (1972) 297–300; dyadic: Gopinath, IEEE TAC 16 (1971) 230"
-
-    def place(self, task: Task) -> Placement:
-        """K = f k of rank one.
-
-        Raises:
-            MethodUnavailableError: A is not cyclic.
-        """
-        return Placement(place_dyadic(ackermann, task.A, task.B, task.poles))
+from .dyadic import Dyadic
 
 
 def ackermann(A: Floats, b: Floats, wanted: Floats) -> Floats:
@@ -32,4 +16,14 @@ def ackermann(A: Floats, b: Floats, wanted: Floats) -> Floats:
         polynomial = polynomial @ A + coefficient * np.eye(len(A))
     last = np.zeros(len(A))
     last[-1] = 1.0
-    return np.linalg.solve(krylov(A, b).T, last) @ polynomial
+    return np.linalg.solve(controllability_matrix(A, b).T, last) @ polynomial
+
+
+class Ackermann(Dyadic):
+    """k = [0 … 0 1] 𝒞⁻¹ d(A), applied to the input direction with the smallest gain."""
+
+    name = "ackermann"
+    title = "Ackermann's formula, dyadic input"
+    short = "Ackermann’s formula"
+    source = "J. Ackermann, Regelungstechnik 20 (1972) 297–300; dyadic: Gopinath, IEEE TAC 16 (1971) 230"
+    formula = staticmethod(ackermann)

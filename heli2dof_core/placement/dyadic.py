@@ -13,6 +13,7 @@ import numpy as np
 from ..controllability import RANK_TOLERANCE, in_own_units, scan
 from ..errors import MethodUnavailableError, UncontrollableError
 from ..signals import Complexes, Floats
+from .method import Method, Placement, Task
 
 DIRECTIONS = 360
 """Directions of f that are tried before the best is refined."""
@@ -23,6 +24,24 @@ SCATTER = 1e-4
 
 SingleInput = Callable[[Floats, Floats, Floats], Floats]
 """k, shape (n,), of one input: f(A, b, characteristic polynomial wanted)."""
+
+
+class Dyadic(Method):
+    """A single-input formula, applied along the input direction with the smallest gain.
+
+    Attributes:
+        formula: Ackermann's or Bass and Gura's.
+    """
+
+    formula: SingleInput
+
+    def place(self, task: Task) -> Placement:
+        """K = f k of rank one.
+
+        Raises:
+            MethodUnavailableError: A is not cyclic.
+        """
+        return Placement(place_dyadic(type(self).formula, task.A, task.B, task.poles))
 
 
 def place_dyadic(
@@ -119,14 +138,6 @@ def _repeated(A: Floats, B: Floats) -> tuple[str, int]:
     return f"{real:.4g}" if abs(value.imag) <= tiny else f"{complex(real, value.imag):.4g}", max(
         2, independent
     )
-
-
-def krylov(A: Floats, b: Floats) -> Floats:
-    """Controllability matrix [b, Ab, …, A^(n−1) b] of one input, n×n."""
-    columns = [b]
-    for _ in range(len(A) - 1):
-        columns.append(A @ columns[-1])
-    return np.column_stack(columns)
 
 
 def _directions(p: int) -> Floats:

@@ -59,6 +59,7 @@ class FullRank(Method):
 
     name = "full-rank"
     title = "Full-rank state feedback through Luenberger's canonical form"
+    short = "Full-rank"
     source = "Patel & Munro, Multivariable System Theory and Design, 1982; Luenberger, IEEE TAC 12 (1967) 290"
 
     structured = True

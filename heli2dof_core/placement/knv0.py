@@ -14,6 +14,7 @@ class KNV0(Method):
 
     name = "knv0"
     title = "Kautsky–Nichols–Van Dooren, method 0 (SciPy)"
+    short = "Kautsky–Nichols–Van Dooren"
     source = (
         "J. Kautsky, N. K. Nichols and P. Van Dooren, Int. J. Control 41 (1985) 1129–1155; "
         "scipy.signal.place_poles"

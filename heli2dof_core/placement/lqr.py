@@ -15,6 +15,7 @@ class LQR(Method):
 
     name = "lqr"
     title = "Linear quadratic regulator (python-control)"
+    short = "LQR"
     source = "R. E. Kalman, Bol. Soc. Mat. Mexicana 5 (1960) 102–119; control.lqr"
     needs = "control"
     places_poles = False

@@ -14,6 +14,7 @@ class LQRIntegral(Method):
 
     name = "lqr-integral"
     title = "Linear quadratic regulator with integral action (python-control)"
+    short = "LQR, integral action"
     source = (
         "P. C. Young and J. C. Willems, Int. J. Control 15 (1972) 961–978; control.lqr(integral_action=C)"
     )

@@ -79,6 +79,7 @@ class Method(Protocol):
     Attributes:
         name: for programs.
         title: for people.
+        short: the same in few words.
         source: who published it, and whose code runs.
         needs: the distribution whose code runs, where it is an optional one.
         places_poles: whether it takes the poles given, rather than choose its own.
@@ -89,6 +90,7 @@ class Method(Protocol):
 
     name: str
     title: str
+    short: str
     source: str
     needs: str | None = None
     places_poles: bool = True

@@ -11,6 +11,7 @@ class TitsYang(Method):
 
     name = "tits-yang"
     title = "Tits–Yang robust eigenvector assignment (SciPy)"
+    short = "Tits–Yang"
     source = (
         "A. L. Tits and Y. Yang, IEEE Trans. Autom. Control 41 (1996) 1432–1452; scipy.signal.place_poles"
     )

@@ -23,6 +23,7 @@ class Varga(Method):
 
     name = "varga"
     title = "Varga's Schur method (SLICOT SB01BD)"
+    short = "Varga’s Schur method"
     source = "A. Varga, IEEE Trans. Autom. Control 26 (1981) 517–519; slycot.sb01bd"
     needs = "slycot"
 

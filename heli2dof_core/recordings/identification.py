@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..checks import require_within
-from ..errors import InvalidInputError, RecordingError
+from ..errors import InvalidInputError, RecordingError, Wanted, nobody_leaves
 from ..findings import Finding
 from ..parameters import PARAMETER_INFO, Parameters
 from ..signals import Floats
-from ..simulation.recorded import Wanted, longest_step, nobody_leaves
+from ..simulation.recorded import longest_step
 from .covariance import grouped_covariance, groups_of, plain_covariance, student_quantile
 from .identified import Estimate, Identification, Progress
 from .model_errors import unmodelled

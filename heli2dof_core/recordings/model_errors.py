@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import Wanted
 from ..findings import Finding
 from ..signals import Floats
-from ..simulation.recorded import Wanted, run_segments
+from ..simulation.recorded import run_segments
 from .recording import Recording
 from .whiteness import autoregression, correlations
 

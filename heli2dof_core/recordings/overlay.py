@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import RecordingError
+from ..errors import RecordingError, Wanted, nobody_leaves
 from ..findings import Finding
 from ..frozen import Frozen
 from ..loop import Loop
 from ..parameters import Parameters
 from ..scenario import MOST_SAMPLE_TIMES, Digital, Limits
 from ..signals import Floats
-from ..simulation.recorded import Wanted, exact, nobody_leaves, run_held, run_recorder
+from ..simulation.recorded import exact, run_held, run_recorder
 from .recording import Recording
 from .segments import SHORTEST, bridged, cut, divergence_told, fit_of, rough_starts, segment_length
 from .time_axis import stretches

@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import RecordingError
+from ..errors import RecordingError, Wanted, nobody_leaves
 from ..frozen import Frozen
 from ..parameters import Parameters
 from ..signals import Floats
-from ..simulation.recorded import Wanted, longest_step, nobody_leaves, run_segments
+from ..simulation.recorded import longest_step, run_segments
 from .recording import Recording
 from .time_axis import missing_rows, stretches
 

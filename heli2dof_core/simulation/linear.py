@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from ..engine import engine
-from ..kernels.layout import AUGMENTED, LADDER, LINEAR_WORKSPACE, START, STRETCH
+from ..kernels.layout import AUGMENTED, LADDER, LINEAR_WORKSPACE, STRETCH
 from ..loop import Loop
 from ..scenario import Scenario
 from ..scratch import FOLLOWED_TWICE
 from ..signals import Floats, fixed
 from .experiment import experiment
-from .response import Measured, Response, course_findings, room
+from .response import Measured, Response, course_response, room
 
 AT_REST = fixed(np.zeros(2))
 """Its voltages are deviations from the trim."""
@@ -52,7 +52,4 @@ def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = Non
 
 def linear_response(x: Floats, t: Floats, states: Floats, voltages: Floats, found: Measured) -> Response:
     """The course of an experiment with its remarks."""
-    theta, psi, theta_start, psi_start = x[: START + 2].tolist()
-    ends = ((theta, psi), (theta_start, psi_start))
-    remarks = tuple(course_findings("linear", t, found))
-    return Response("linear", t, states[:2], voltages, *ends, (0.0, 0.0), remarks, states, found)
+    return course_response("linear", x.tolist(), t, found, states=states, voltages=voltages)

@@ -31,7 +31,7 @@ from ..scenario import Limits, Scenario
 from ..scratch import FOLLOWED_TWICE
 from ..signals import INPUTS, Floats
 from .experiment import NOTHING, experiment
-from .response import Measured, Response, course_findings, room
+from .response import Measured, Response, course_response, room
 
 ABSOLUTE_TOLERANCE = 0.1
 """Absolute tolerance of the integration as a share of the relative one (states are of order 1)."""
@@ -136,11 +136,18 @@ def simulate_nonlinear(
 def limited_response(x: Floats, t: Floats, states: Floats, voltages: Floats, found: Measured) -> Response:
     """The course of an experiment with its remarks."""
     numbers: list[float] = x.tolist()
-    theta, psi, theta_start, psi_start = numbers[: START + 2]
-    ends = ((theta, psi), (theta_start, psi_start))
     pitch, yaw, _, _, impacts, *_ = found.course[SHARE:].tolist()
-    remarks = (*course_findings("nonlinear", t, found), *_remarks(numbers, (pitch, yaw), impacts))
-    return Response("nonlinear", t, states[:2], voltages, *ends, (pitch, yaw), remarks, states, found)
+    remarks = tuple(_remarks(numbers, (pitch, yaw), impacts))
+    return course_response(
+        "nonlinear",
+        numbers,
+        t,
+        found,
+        states=states,
+        voltages=voltages,
+        saturated=(pitch, yaw),
+        remarks=remarks,
+    )
 
 
 def _remarks(x: list[float], saturated: tuple[float, float], impacts: float) -> Iterator[Finding]:

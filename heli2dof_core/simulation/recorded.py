@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..engine import engine
-from ..errors import RecordingError
+from ..errors import RecordingError, Wanted, nobody_leaves
 from ..frozen import Frozen
 from ..kernels.layout import GAIN, RECORDED_WORKSPACE, SENSITIVITIES, TRAVEL, WORKSPACE
 from ..loop import Loop
@@ -28,11 +28,6 @@ MOST_STEPS = 30_000_000
 """Steps of the Runge–Kutta method that one simulation of a recording may take: half a minute's work."""
 _AT_A_STRETCH = 200_000
 """Steps between two looks whether somebody still waits."""
-Wanted = Callable[[], None]
-
-
-def nobody_leaves() -> None:
-    """Looks for nobody."""
 
 
 @dataclass(frozen=True)

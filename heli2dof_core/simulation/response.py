@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -19,8 +19,9 @@ from ..kernels.layout import (
     OUT_OF_SWITCHES,
     OUTCOME,
     REACHED,
+    START,
 )
-from ..signals import Floats
+from ..signals import INPUTS, INTEGRALS, STATES, Floats, Signal
 from ..tables import Shown, number
 
 
@@ -94,6 +95,11 @@ class Response(Frozen, Shown):
         """Voltage of the yaw motor, V; see `voltages`."""
         return self.voltages[1]
 
+    def by_signal(self) -> Iterator[tuple[Signal, Floats]]:
+        """States and voltages, each with what it is."""
+        yield from zip((*STATES, *INTEGRALS), self.states, strict=False)
+        yield from zip(INPUTS, self.voltages, strict=True)
+
     def columns(self) -> dict[str, Floats]:
         """t, theta, psi, V_p and V_y by name, as a data frame takes them."""
         return {"t": self.t, "theta": self.theta, "psi": self.psi, "V_p": self.V_p, "V_y": self.V_y}
@@ -113,7 +119,25 @@ _GIVEN_UP = {
 }
 
 
-def course_findings(model: Literal["linear", "nonlinear"], t: Floats, found: Measured) -> Iterator[Finding]:
+def course_response(
+    model: Literal["linear", "nonlinear"],
+    x: Sequence[float],
+    t: Floats,
+    found: Measured,
+    *,
+    states: Floats,
+    voltages: Floats,
+    saturated: tuple[float, float] = (0.0, 0.0),
+    remarks: tuple[Finding, ...] = (),
+) -> Response:
+    """The course of an experiment, laid out as `layout` says, with what is to be said of its end first."""
+    theta, psi, *start = x[: START + 2]
+    remarks = (*_end_of(model, t, found), *remarks)
+    ends = (theta, psi), (start[0], start[1])
+    return Response(model, t, states[:2], voltages, *ends, saturated, remarks, states, found)
+
+
+def _end_of(model: Literal["linear", "nonlinear"], t: Floats, found: Measured) -> Iterator[Finding]:
     """How a course ended before its time: without bound, or given up."""
     course = found.course.tolist()
     held, outcome, reached = course[HELD], course[OUTCOME], course[REACHED]

@@ -18,7 +18,7 @@ from .grouping import grouped
 from .linearization import linear_model
 from .luenberger import controllability_matrix
 from .mechanics import Mechanics, mechanics
-from .names import COEFFICIENTS_OF_POLES, LATEX, NAMES, PARAMETERS, c, cos_0, s, sin_0, theta_0
+from .names import COEFFICIENTS_OF_POLES, NAMES, PARAMETERS, c, cos_0, latex, s, sin_0, theta_0
 from .rga import relative_gain_array, relative_gains_of_s, steady_state, transfer_matrix
 
 
@@ -109,7 +109,7 @@ class Formulas(Shown):
         return None  # so that notebooks typeset K
 
     def _repr_latex_(self) -> str:
-        return rf"$\displaystyle K = {sp.latex(self.K, symbol_names=LATEX, mat_delim='[')}$"
+        return rf"$\displaystyle K = {latex(self.K)}$"
 
 
 @cache

@@ -7,6 +7,7 @@ Names parse with plain `sympify` to the same symbol: none of them has a meaning 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import sympy as sp
 
@@ -78,3 +79,8 @@ COEFFICIENTS_OF_POLES: dict[sp.Symbol, sp.Expr] = {
     d_21: -p_3 - p_4,
 }
 """Coefficients of the desired polynomials d₁, d₂ in terms of the poles."""
+
+
+def latex(expression: Any) -> str:
+    """LaTeX in the derivation's own names."""
+    return sp.latex(expression, symbol_names=LATEX, mat_delim="[")

@@ -15,7 +15,7 @@ from ..couplings import Structure
 from .formulas import derive
 from .full_rank import indices
 from .linearization import linear_model
-from .names import LATEX, NAMES, Name
+from .names import NAMES, Name, latex
 
 _REPORTED = (
     *("A", "B", "controllability_matrix", "T", "Q", "A_bar", "B_bar", "K_bar", "K"),
@@ -87,5 +87,5 @@ def symbolic_report(structure: Structure, *, shifted: bool = False) -> SymbolicR
 
 def formula(expression: sp.Expr | sp.Matrix) -> Formula:
     """An expression or matrix in all three notations."""
-    latex = sp.latex(expression, symbol_names=LATEX, mat_delim="[")
-    return Formula(str(expression), latex, convert(latex))
+    text = latex(expression)
+    return Formula(str(expression), text, convert(text))

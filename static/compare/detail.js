@@ -1,11 +1,10 @@
 /** What an opened row of the comparison shows: K as a matrix, the loop's poles, and what is to be said of it. */
-import { complex, significant } from '../text/index.js';
+import { polesText, significant } from '../text/index.js';
 import { GAIN, gainMatrix, h, integralMatrix } from '../ui/index.js';
 
 /** @param {string} name @param {import('../types.js').Complex[]} poles */
 function poles(name, poles) {
-  const shown = poles.filter((p) => p.im >= 0).map((p) => (p.im ? complex(p).replace('+', '±') : complex(p)));
-  return h('p', {}, h('span', { class: 'aside' }, `${name}, rad/s: `), shown.join(',\u2002'));
+  return h('p', {}, h('span', { class: 'aside' }, `${name}, rad/s: `), polesText(poles).replaceAll(', ', ',\u2002'));
 }
 
 /** @param {any} row @param {string} key @param {string} title */

@@ -2,14 +2,11 @@
  * A plot of two lines over frequency, its values under the pointer or by the arrow keys, to be saved as picture and
  * numbers.
  */
-import uPlot from '../vendor/uplot/uPlot.esm.js';
 import { forField, inField, say, significant, t } from '../text/index.js';
-import { followsPage, h, pictureScale, setText } from '../ui/index.js';
-import { drawLabel, drawRule, pictureMenu } from '../plots/index.js';
+import { h, pictureScale, setText } from '../ui/index.js';
+import { chartBody, ink, makeChart, readByKeys, readIndex, readingFigure, scaled } from '../charts/index.js';
+import { drawNamedRules, pictureMenu } from '../plots/index.js';
 
-const Chart = /** @type {any} */ (uPlot); // its types stay in its package
-const FONT = '11px system-ui, sans-serif';
-const COLORS = ['series-0', 'series-1', 'pitch', 'yaw', 'panel', 'muted', 'grid', 'danger', 'limit-fill'];
 /** Only full powers of ten get a line and a number. */
 const decades = (/** @type {any} */ _u, /** @type {number[]} */ splits) =>
   splits.map((v) => (v && Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? v : null));
@@ -30,7 +27,7 @@ const plain = (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.
  */
 
 export class FrequencyPlot {
-  /** @type {Record<string, string>} */ #colors = {};
+  /** @type {any} */ #chart;
   /** @type {[number, number]} */ #range = [0.001, 10];
   /** @type {number[][]} */ #data = [];
   /** @type {Span[]} */ #spans = [];
@@ -47,120 +44,43 @@ export class FrequencyPlot {
     this.values = about.series.map((s, i) =>
       h('span', { class: 'value', 'data-testid': `interaction-${about.id}-${i}` }),
     );
-    this.body = h('div', {
-      class: 'plot-body',
-      tabindex: 0,
-      role: 'group',
-      'aria-label': `${about.title}: left and right read the values`,
-      onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e),
-    });
-    this.node = h(
-      'figure',
+    this.body = chartBody(`${about.title}: left and right read the values`, (e) => readByKeys(e, this.#chart, 1));
+    const menu = pictureMenu(`frequency-${about.id}`, about.title, () => this.#picture(subtitle()), 'omega [rad/s]');
+    this.node = readingFigure(
       { class: 'frequency-plot', 'data-testid': `interaction-${about.id}` },
-      h(
-        'figcaption',
-        {},
-        h('span', { class: 'what' }, about.title),
-        pictureMenu(`frequency-${about.id}`, about.title, () => this.#picture(subtitle()), 'omega [rad/s]'),
-        about.series.map((s, i) =>
-          h(
-            'span',
-            { class: 'key', title: s.title },
-            h('span', { class: `line ${s.kind}`, 'aria-hidden': 'true' }),
-            h('span', {}, s.name()),
-            this.values[i],
-          ),
-        ),
-      ),
+      [h('span', { class: 'what' }, about.title), menu],
+      about.series.map(({ kind, title, name }, i) => ({ kind, title, name: name(), value: this.values[i] })),
       this.body,
     );
-    this.#readColors();
-    for (const query of ['(prefers-color-scheme: dark)', '(prefers-contrast: more)']) {
-      matchMedia(query).addEventListener('change', () => {
-        this.#readColors();
-        this.chart?.redraw(false);
-      });
-    }
-  }
-
-  #readColors() {
-    const style = getComputedStyle(document.documentElement);
-    for (const name of COLORS) this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
   }
 
   #build() {
     const { frequencies, about } = this;
-    const color = (/** @type {string} */ name) => () => this.#colors[name];
-    const axis = { stroke: color('muted'), font: FONT, ticks: { show: false } };
-    const [even, log] = [
-      { grid: { stroke: color('grid'), width: 1 }, values: plain, incrs: about.steps },
-      { grid: { stroke: color('grid'), width: 1, filter: decades }, values: power },
-    ];
-    this.chart = followsPage(
-      new Chart(
-        {
-          width: 300,
-          height: 160,
-          legend: { show: false },
-          pxAlign: 0,
-          padding: [() => 6 * pictureScale().type, () => 18 * pictureScale().type, 0, 0],
-          series: [
-            {},
-            ...about.series.map(({ kind }) => ({
-              stroke: color(kind),
-              width: kind === 'yaw' ? 1.5 : 2,
-              dash: kind === 'series-1' ? [7, 4] : [],
-              points: { show: false },
-            })),
-          ],
-          scales: {
-            x: { time: false, distr: 3, range: () => [frequencies[0], frequencies[frequencies.length - 1]] },
-            y: { distr: about.steps ? 1 : 3, range: () => this.#range },
-          },
-          axes: [
-            { ...axis, ...log, gap: 6, size: () => 24 * pictureScale().type },
-            {
-              ...axis,
-              ...(about.steps ? even : log),
-              gap: 5,
-              size: () => 46 * pictureScale().type,
-              space: () => 26 * pictureScale().type,
-            },
-          ],
-          cursor: {
-            y: false,
-            points: { show: false },
-            drag: { x: false, y: false },
-            sync: { key: `frequency-${frequencies.length}` },
-          },
-          hooks: {
-            drawAxes: [() => this.#shade()],
-            draw: [() => this.#drawRule(), () => this.#drawSpans()],
-            setCursor: [(/** @type {any} */ u) => this.onHover(u.cursor.left < 0 ? null : (u.cursor.idx ?? null))],
-          },
-        },
-        [frequencies, ...about.series.map(() => frequencies.map(() => null))],
-        this.body,
-      ),
-    );
-    new ResizeObserver(([entry]) => {
-      const { width, height } = entry.contentRect;
-      if (width > 60 && height > 40) this.chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
-    }).observe(this.body);
-  }
-
-  /** @param {KeyboardEvent} e */
-  #key(e) {
-    const step = { ArrowLeft: -1, ArrowRight: 1 }[e.key];
-    if (!step || !this.chart || e.ctrlKey || e.metaKey || e.altKey) return;
-    const { idx, left } = this.chart.cursor;
-    const last = this.frequencies.length - 1;
-    const i =
-      left < 0 || idx === null || idx === undefined
-        ? Math.round(last / 2)
-        : Math.max(0, Math.min(last, idx + step * (e.shiftKey ? 10 : 1)));
-    this.chart.setCursor({ left: this.chart.valToPos(this.frequencies[i], 'x'), top: 1 });
-    e.preventDefault();
+    const log = { grid: { filter: decades }, values: power };
+    const even = { values: plain, incrs: about.steps };
+    this.#chart = makeChart(this.body, {
+      lines: about.series.map(({ kind }) => ({
+        color: kind,
+        width: kind === 'yaw' ? 1.5 : 2,
+        dash: kind === 'series-1' ? [7, 4] : [],
+      })),
+      data: [frequencies, ...about.series.map(() => frequencies.map(() => null))],
+      padding: [scaled(6), scaled(18), 0, 0],
+      scales: {
+        x: { distr: 3, range: () => [frequencies[0], frequencies[frequencies.length - 1]] },
+        y: { distr: about.steps ? 1 : 3, range: () => this.#range },
+      },
+      axes: [
+        { ...log, gap: 6, size: 24 },
+        { ...(about.steps ? even : log), size: 46, space: 26 },
+      ],
+      cursor: { drag: { x: false, y: false }, sync: { key: `frequency-${frequencies.length}` } },
+      hooks: {
+        drawAxes: [() => this.#shade()],
+        draw: [(/** @type {any} */ u) => drawNamedRules(u, this.#borders(), ink, -1), () => this.#drawSpans()],
+        setCursor: [(/** @type {any} */ u) => this.onHover(readIndex(u))],
+      },
+    });
   }
 
   /** @param {string} subtitle @returns {import('../plots/picture.js').Picture} */
@@ -178,7 +98,7 @@ export class FrequencyPlot {
         t: frequencies,
         values: this.#data[i] ?? [],
       })),
-      rules: this.#borders().map((value) => ({ value, label: t(about.rule?.label ?? ''), danger: true })),
+      rules: this.#borders(),
       marks: this.#spans.map((s) => ({
         kind: 'rise',
         axis: s.kind === 'yaw' ? 'psi' : 'theta',
@@ -193,8 +113,8 @@ export class FrequencyPlot {
 
   #shade() {
     if (!this.about.rule?.above) return;
-    const { ctx, bbox, valToPos } = this.chart;
-    ctx.fillStyle = this.#colors['limit-fill'];
+    const { ctx, bbox, valToPos } = this.#chart;
+    ctx.fillStyle = ink('limit-fill');
     ctx.fillRect(
       bbox.left,
       bbox.top,
@@ -203,7 +123,7 @@ export class FrequencyPlot {
     );
   }
 
-  /** The border's places in sight. @returns {number[]} */
+  /** The border's places in sight. @returns {import('../plots/rules.js').Rule[]} */
   #borders() {
     const { rule } = this.about;
     const [low, high] = this.#range;
@@ -211,30 +131,20 @@ export class FrequencyPlot {
     const first = rule.every ? rule.value + rule.every * Math.ceil((low - rule.value) / rule.every) : rule.value;
     return Array.from(
       { length: rule.every ? Math.max(0, Math.floor((high - first) / rule.every) + 1) : 1 },
-      (_, k) => first + k * (rule.every ?? 0),
-    ).filter((v) => v >= low && v <= high);
-  }
-
-  #drawRule() {
-    this.chart.ctx.save();
-    for (const value of this.#borders()) {
-      const y = Math.round(this.chart.valToPos(value, 'y', true));
-      drawRule(this.chart, y, this.#colors.danger, []);
-      drawLabel(this.chart, y, t(this.about.rule?.label ?? ''), -1, this.#colors.danger, this.#colors.panel);
-    }
-    this.chart.ctx.restore();
+      (_, k) => ({ value: first + k * (rule.every ?? 0), label: t(rule.label), danger: true }),
+    ).filter(({ value }) => value >= low && value <= high);
   }
 
   /** Each from the curve to the border it is measured to, with its figure: pitch's to the left, yaw's to the right. */
   #drawSpans() {
-    const { ctx, valToPos, bbox } = this.chart;
+    const { ctx, valToPos, bbox } = this.#chart;
     const size = devicePixelRatio * pictureScale().type;
     ctx.save();
     for (const { kind, at, from, to, label } of this.#spans) {
       const [x, y, end] = [valToPos(at, 'x', true), valToPos(from, 'y', true), valToPos(to, 'y', true)];
       Object.assign(ctx, {
-        strokeStyle: this.#colors[kind],
-        fillStyle: this.#colors[kind],
+        strokeStyle: ink(kind),
+        fillStyle: ink(kind),
         lineWidth: 1.5 * devicePixelRatio * pictureScale().line,
       });
       ctx.setLineDash([]);
@@ -252,10 +162,10 @@ export class FrequencyPlot {
           ? Math.min(x + 3 * size, bbox.left + bbox.width - width)
           : Math.max(bbox.left, x - 3 * size - width);
       const middle = Math.max(bbox.top + 8 * size, Math.min(bbox.top + bbox.height - 8 * size, (y + end) / 2));
-      ctx.fillStyle = this.#colors.panel;
+      ctx.fillStyle = ink('panel');
       ctx.globalAlpha = 0.85;
       ctx.fillRect(left + 2 * size, middle - 7 * size, width - 4 * size, 14 * size);
-      Object.assign(ctx, { globalAlpha: 1, fillStyle: this.#colors[kind], textAlign: 'left', textBaseline: 'middle' });
+      Object.assign(ctx, { globalAlpha: 1, fillStyle: ink(kind), textAlign: 'left', textBaseline: 'middle' });
       ctx.fillText(label, left + 4 * size, middle);
     }
     ctx.restore();
@@ -263,12 +173,12 @@ export class FrequencyPlot {
 
   /** @param {any} reply */
   show(reply) {
-    if (!this.chart) this.#build();
+    if (!this.#chart) this.#build();
     this.#data = this.about.series.map((s) => s.of(reply));
     this.#spans = this.about.spans?.(reply) ?? [];
     this.#range = this.about.range(this.#data);
     const known = (/** @type {number} */ v) => (Number.isFinite(v) && (this.about.steps || v > 0) ? v : null);
-    this.chart.setData([
+    this.#chart.setData([
       this.frequencies,
       ...this.#data.map((values) => this.frequencies.map((_w, i) => known(values[i]))),
     ]);

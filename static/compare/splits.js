@@ -2,7 +2,7 @@
 import { fixed, significant } from '../text/index.js';
 import { best, bodyOf, fromWire, FULL_RANK, inOrder, nameOf, pairText, sameSplit } from '../model/index.js';
 import { compareSplits } from '../net/index.js';
-import { h, Lazy, setAttr, setText, symbol } from '../ui/index.js';
+import { button, h, head, Lazy, setAttr, setText, shape, symbol, wide } from '../ui/index.js';
 
 export class SplitsCard {
   /** @type {{row: HTMLElement, use: HTMLButtonElement, poles: import('../types.js').Poles}[]} */ #rows = [];
@@ -13,45 +13,22 @@ export class SplitsCard {
     this.rows = h('tbody');
     this.words = h('p', { class: 'claim', 'data-testid': 'splits-words' });
     const column = (/** @type {string} */ name) =>
+      h('th', { scope: 'col', class: 'pair-name' }, shape(name), ` ${name}`);
+    const columns = [
+      column('pitch'),
+      column('yaw'),
       h(
         'th',
-        { scope: 'col', class: 'pair-name' },
-        h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }),
-        ` ${name}`,
-      );
-    const content = h(
-      'div',
-      {},
-      h(
-        'div',
-        { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Table of the splits' },
-        h(
-          'table',
-          { class: 'compare-table', 'data-testid': 'splits-table' },
-          h(
-            'thead',
-            {},
-            h(
-              'tr',
-              {},
-              column('pitch'),
-              column('yaw'),
-              h(
-                'th',
-                { scope: 'col', title: 'Frobenius norm of K' },
-                '‖',
-                symbol('K'),
-                h('span', { class: 'sym' }, '‖', h('sub', {}, 'F')),
-              ),
-              h('th', { scope: 'col', title: 'relative gain at s = 0, dimensionless' }, symbol('λ', '11')),
-              h('th', {}, h('span', { class: 'sr' }, 'Use')),
-            ),
-          ),
-          this.rows,
-        ),
+        { scope: 'col', title: 'Frobenius norm of K' },
+        '‖',
+        symbol('K'),
+        h('span', { class: 'sym' }, '‖', h('sub', {}, 'F')),
       ),
-      this.words,
-    );
+      h('th', { scope: 'col', title: 'relative gain at s = 0, dimensionless' }, symbol('λ', '11')),
+      h('th', {}, h('span', { class: 'sr' }, 'Use')),
+    ];
+    const table = h('table', { class: 'compare-table', 'data-testid': 'splits-table' }, head(columns), this.rows);
+    const content = h('div', {}, wide('Table of the splits', table), this.words);
     root.append(content);
     this.lazy = new Lazy(root, content, store, {
       wait: 'Computing the splits…',
@@ -72,11 +49,7 @@ export class SplitsCard {
     );
     this.#rows = splits.map((split, i) => {
       const poles = fromWire(split.poles);
-      const use = h(
-        'button',
-        { type: 'button', 'data-testid': `use-split-${i}`, onclick: () => this.#use(poles) },
-        'Use',
-      );
+      const use = button({ 'data-testid': `use-split-${i}`, onclick: () => this.#use(poles) }, 'Use');
       const row = h(
         'tr',
         { 'data-testid': `split-${i}` },

@@ -20,7 +20,7 @@ import {
   worseMargins,
 } from '../model/index.js';
 import { compareMethods } from '../net/index.js';
-import { h, Lazy, printed, setAttr, setText } from '../ui/index.js';
+import { button, groupedHead, h, keepingFocus, Lazy, printed, setAttr, setText, wide } from '../ui/index.js';
 import { motorText } from '../panels/index.js';
 import { rowDetail } from './detail.js';
 
@@ -42,7 +42,7 @@ function marginText(row) {
 /**
  * `cost` is least for the best row; `cross` says whether the loops are paired crosswise.
  * @typedef {import('../model/figures.js').Figure} Known
- * @typedef {{id: string, group?: Axis, name: () => (Node|string)[], title: string, text: (row: any) => string, cost?:
+ * @typedef {{id: string, axis?: Axis, name: () => (Node|string)[], title: string, text: (row: any) => string, cost?:
  *   (row: any, cross: boolean) => number|undefined, warn?: (row: any) => boolean}} Column
  */
 
@@ -67,7 +67,7 @@ const designColumn = (id, f) => ({ ...column(id, f), name: () => [f.symbol ? pri
 /** @param {Axis} axis @param {'rise'|'overshoot'|'undershoot'} key @returns {Column} */
 const axisColumn = (axis, key) => ({
   ...column(`${key}-${axis}`, AXIS[key], (r) => step(r, axis)?.[AXIS[key].name]),
-  group: axis,
+  axis,
   title: `${AXIS[key].hint}, nonlinear rig`,
 });
 
@@ -141,10 +141,14 @@ export class CompareTable {
     const content = h(
       'div',
       {},
-      h(
-        'div',
-        { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Table of the methods' },
-        h('table', { class: 'compare-table', 'data-testid': 'compare-table' }, this.#head(), this.rows),
+      wide(
+        'Table of the methods',
+        h(
+          'table',
+          { class: 'compare-table', 'data-testid': 'compare-table' },
+          groupedHead('Method', COLUMNS, (c) => c.name(), [h('th', { rowspan: 2 }, h('span', { class: 'sr' }, 'Use'))]),
+          this.rows,
+        ),
       ),
       this.claim,
     );
@@ -164,43 +168,8 @@ export class CompareTable {
     });
   }
 
-  #head() {
-    const cell = (/** @type {Column} */ c, /** @type {number} */ rows) =>
-      h('th', { scope: 'col', rowspan: rows, title: c.title }, c.name());
-    const [first, grouped] = [COLUMNS.findIndex((c) => c.group), COLUMNS.filter((c) => c.group).length];
-    const pair = (/** @type {Axis} */ axis) => {
-      const name = axis === 'theta' ? 'pitch' : 'yaw';
-      return h(
-        'th',
-        { scope: 'colgroup', colspan: grouped / 2, class: 'group' },
-        h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }),
-        ` ${name} step`,
-      );
-    };
-    return h(
-      'thead',
-      {},
-      h(
-        'tr',
-        {},
-        h('th', { scope: 'col', rowspan: 2, class: 'method-name' }, 'Method'),
-        COLUMNS.slice(0, first).map((c) => cell(c, 2)),
-        pair('theta'),
-        pair('psi'),
-        COLUMNS.slice(first + grouped).map((c) => cell(c, 2)),
-        h('th', { rowspan: 2 }, h('span', { class: 'sr' }, 'Use')),
-      ),
-      h(
-        'tr',
-        {},
-        COLUMNS.slice(first, first + grouped).map((c) => cell(c, 1)),
-      ),
-    );
-  }
-
   /** @param {{rows: any[], claim: string}} answer */
   #show({ rows, claim }) {
-    const focused = document.activeElement?.getAttribute('data-testid');
     const cross = this.store.state.design?.pairing === 'cross';
     const able = rows.filter((r) => !r.unavailable);
     const marks = COLUMNS.map((c) => {
@@ -214,13 +183,11 @@ export class CompareTable {
       return new Set(able.filter((_r, i) => found.has(i)));
     });
     this.#rows.clear();
-    this.rows.replaceChildren(...rows.flatMap((row, i) => this.#row(row, marks, rows[i - 1])));
+    keepingFocus(this.rows, () =>
+      this.rows.replaceChildren(...rows.flatMap((row, i) => this.#row(row, marks, rows[i - 1]))),
+    );
     setText(this.claim, claim);
     this.render(this.store.state);
-    if (focused && !document.activeElement?.getAttribute('data-testid'))
-      /** @type {HTMLElement|null} */ (this.rows.querySelector(`[data-testid="${CSS.escape(focused)}"]`))?.focus({
-        preventScroll: true,
-      });
   }
 
   /** @param {any} row @param {Set<any>[]} marks @param {any} above @returns {HTMLElement[]} */
@@ -259,10 +226,8 @@ export class CompareTable {
         c.text(row),
       ),
     );
-    const use = h(
-      'button',
+    const use = button(
       {
-        type: 'button',
         'data-testid': `use-${key}`,
         onclick: () => this.store.edit((d) => (keyOf(d) === key ? d : { ...d, ...partOf(key) })),
       },
@@ -273,10 +238,8 @@ export class CompareTable {
       { class: 'detail', id: `detail-${key}`, hidden: !this.#open.has(key) },
       h('td', { colspan: COLUMNS.length + 2 }, rowDetail(row, key, title)),
     );
-    const toggle = h(
-      'button',
+    const toggle = button(
       {
-        type: 'button',
         class: 'toggle',
         'data-testid': `open-${key}`,
         title,

@@ -7,7 +7,7 @@
  * @typedef {import('../types.js').Poles} Poles
  * @typedef {string|number|boolean|null|unknown[]} Leaf
  */
-import { DEGREE } from '../text/index.js';
+import { complexIn, DEGREE } from '../text/index.js';
 import { LIMIT } from '../model/index.js';
 
 const NUMBER = String.raw`[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?`;
@@ -58,8 +58,7 @@ export function leafOf(text) {
 }
 
 /** @param {readonly Complex[]} poles */
-export const polesLink = (poles) =>
-  poles.map(({ re, im }) => `${re}${im === 0 ? '' : `${im < 0 ? '' : '+'}${im}j`}`).join(',');
+export const polesLink = (poles) => poles.map((p) => complexIn(p, { number: String, minus: '-', gap: '' })).join(',');
 
 /** @param {string} text @returns {Poles|undefined} undefined unless two pairs, real or conjugate */
 export function polesOf(text) {

@@ -4,7 +4,7 @@
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {{rows: number[][], columns: number[][]}} Dominance  off-diagonal over diagonal size, one pair a frequency
  */
-import { complex, fixed, forField, significant } from '../text/index.js';
+import { complex, conjugates, forField, significant } from '../text/index.js';
 
 /** @param {number} from @param {number} to @param {number} count @returns {number[]} */
 export const logSpaced = (from, to, count) =>
@@ -55,8 +55,7 @@ export function hardest(steps) {
 }
 
 /** A pair in words. @param {readonly Complex[]} pair */
-export const pairText = ([a, b]) =>
-  a.im === 0 ? `${significant(a.re, 3)}, ${significant(b.re, 3)}` : `${fixed(a.re)} ± ${fixed(Math.abs(a.im))}j`;
+export const pairText = ([a, b]) => (a.im === 0 ? `${significant(a.re, 3)}, ${significant(b.re, 3)}` : conjugates(a));
 
 /**
  * Conjugates first, so that any four poles stay two closed pairs, and in one order however they are dealt.

@@ -1,5 +1,5 @@
 /** How the registry of figures (figures.js) says that its values are read. Pure. */
-import { decibel, fixed, seconds, significant } from '../text/index.js';
+import { decibel, fixed, seconds, significant, typographic } from '../text/index.js';
 import { STEP } from './figures.js';
 
 /** @typedef {import('./figures.js').Figure} Figure */
@@ -14,7 +14,7 @@ export function textOf({ notation, digits, scale = 1, after = '' }, v) {
   if (v === undefined) return '–';
   if (notation === 'seconds') return seconds(v);
   if (notation === 'decibel') return decibel(v);
-  if (notation === 'exponent') return v === 0 ? '0' : v.toExponential(digits).replace('-', '\u2212');
+  if (notation === 'exponent') return v === 0 ? '0' : typographic(v.toExponential(digits));
   return `${(notation === 'significant' ? significant : fixed)(v * scale, digits)}${after}`;
 }
 

@@ -29,7 +29,8 @@ export { signOf, textOf, tipOf, valueIn } from './figure_texts.js';
 export { placeOf, remarksOf } from './finding_places.js';
 export { lockNames, LOCKS } from './locks.js';
 export { inverseOf, mixingOf } from './loop_values.js';
-export { bringsIntegralAction, FULL_RANK, keyOf, nameOf, partOf, placesPoles, STRUCTURES } from './methods.js';
+export { COUPLINGS, LEADS, STRUCTURES } from './method_names.js';
+export { bringsIntegralAction, FULL_RANK, keyOf, nameOf, partOf, placesPoles } from './methods.js';
 export { colorOf, COLORS, differenceTable, FIGURES, letterOf } from './pins.js';
 export {
   character,

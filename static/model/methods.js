@@ -3,31 +3,9 @@
  * @typedef {import('../types.js').Design} Design
  * @typedef {{method: string, coupling?: string, lead?: string}} Way
  */
+import { METHODS, STRUCTURES } from './method_names.js';
 
 export const FULL_RANK = 'full-rank';
-
-/** @type {[string, string, string][]} key, name, explanation */
-export const STRUCTURES = [
-  [
-    'full-rank/triangular/pitch',
-    'triangular, pitch leads',
-    'pitch has exactly its own pair and drives yaw: the paper’s',
-  ],
-  ['full-rank/triangular/yaw', 'triangular, yaw leads', 'yaw has exactly its own pair and drives pitch'],
-  ['full-rank/input-diagonal', 'input-diagonal', 'standard Luenberger: diagonal in B₂⁻¹[θ, ψ]'],
-  ['full-rank/axis-decoupled', 'axis-decoupled', 'pitch and yaw do not feel each other'],
-];
-
-/** @type {Record<string, string>} */
-const NAMES = {
-  'tits-yang': 'Tits–Yang',
-  knv0: 'Kautsky–Nichols–Van Dooren',
-  varga: 'Varga’s Schur method',
-  ackermann: 'Ackermann’s formula',
-  'bass-gura': 'Bass–Gura formula',
-  lqr: 'LQR',
-  'lqr-integral': 'LQR, integral action',
-};
 
 /** Yaw can lead only where the coupling is triangular. @param {Way} way @returns {string} */
 export function keyOf({ method, coupling, lead }) {
@@ -46,7 +24,7 @@ export function partOf(key) {
 /** @param {Way & {title?: string}} way @returns {string} */
 export function nameOf(way) {
   const key = keyOf(way);
-  return STRUCTURES.find(([own]) => own === key)?.[1] ?? NAMES[way.method] ?? way.title ?? way.method;
+  return STRUCTURES.find(([own]) => own === key)?.[1] ?? METHODS[way.method] ?? way.title ?? way.method;
 }
 
 /**

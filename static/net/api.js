@@ -3,7 +3,7 @@
  * name the tab's session, by which a proxy in front of several servers finds the one that knows this tab.
  * @typedef {import('../types.js').Connection} Connection
  */
-import { backoff } from './backoff.js';
+import { LatestSocket } from './latest.js';
 import { ofSession, session } from './session.js';
 import { decodeFrame } from './wire.js';
 import { t } from '../text/index.js';
@@ -40,68 +40,53 @@ export class ProblemError extends Error {
   }
 }
 
-/** @param {string|URL} path @param {{method?: string, body?: unknown}} [options] @returns {Promise<any>} */
-async function call(path, { method = 'GET', body } = {}) {
-  const headers = body === undefined ? undefined : { 'Content-Type': 'application/json' };
-  const response = await reach(path instanceof URL ? path : at(path), {
-    method,
-    headers,
-    body: body === undefined ? undefined : JSON.stringify(body),
-  });
-  const text = await response.text();
-  const json = text && (response.headers.get('content-type') ?? '').includes('json') ? JSON.parse(text) : {};
-  if (!response.ok) throw new ProblemError({ title: response.statusText, ...json });
-  return json;
+/**
+ * @param {string|URL} path
+ * @param {{method?: string, body?: BodyInit, type?: string}} [options]
+ * @returns {Promise<Response>} a good one
+ */
+async function answerOf(path, { method = 'GET', body, type = 'application/json' } = {}) {
+  const headers = body === undefined ? undefined : { 'Content-Type': type };
+  const response = await reach(path instanceof URL ? path : at(path), { method, headers, body });
+  if (!response.ok)
+    throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
+  return response;
 }
+
+/** @param {string|URL} path @param {unknown} [body] makes it a POST @param {string} [method] @returns {Promise<any>} */
+async function call(path, body, method = body === undefined ? 'GET' : 'POST') {
+  const response = await answerOf(path, { method, body: body === undefined ? body : JSON.stringify(body) });
+  const text = await response.text();
+  return text && (response.headers.get('content-type') ?? '').includes('json') ? JSON.parse(text) : {};
+}
+
+/** A file that the server makes of a design. @param {string} path @param {unknown} design with scenario */
+const fileOf = async (path, design) => (await answerOf(path, { method: 'POST', body: JSON.stringify(design) })).blob();
 
 export const getPresets = () => call('api/v1/presets');
 export const getMethods = () => call('api/v1/methods');
 /** @param {string} coupling @param {string} lead */
 export const getSymbolic = (coupling, lead) => call(`api/v1/symbolic?${new URLSearchParams({ coupling, lead })}`);
 /** @param {unknown} design */
-export const suggestLoops = (design) => call('api/v1/suggest', { method: 'POST', body: design });
+export const suggestLoops = (design) => call('api/v1/suggest', design);
 /** All that the page shows of a design. @param {unknown} request */
-export const evaluateDesign = (request) => call('api/v1/evaluate', { method: 'POST', body: request });
+export const evaluateDesign = (request) => call('api/v1/evaluate', request);
 /** The design's poles through every method. @param {unknown} design with scenario */
-export const compareMethods = (design) => call('api/v1/compare', { method: 'POST', body: design });
+export const compareMethods = (design) => call('api/v1/compare', design);
 /** All ways to deal the poles to the two pairs. @param {unknown} design */
-export const compareSplits = (design) => call('api/v1/splits', { method: 'POST', body: design });
+export const compareSplits = (design) => call('api/v1/splits', design);
 /** The relative gains, at the frequencies that it names too. @param {unknown} design */
-export const relativeGain = (design) => call('api/v1/rga', { method: 'POST', body: design });
+export const relativeGain = (design) => call('api/v1/rga', design);
 /** The loops opened at each motor, at the frequencies that it names. @param {unknown} design */
-export const openLoops = (design) => call('api/v1/loops', { method: 'POST', body: design });
+export const openLoops = (design) => call('api/v1/loops', design);
 /** The paper as data: its equations, numbers, errata and figures, recomputed. */
 export const getPaper = () => call('api/v1/paper');
 /** The derivation in numbers. @param {unknown} design */
-export const walkThrough = (design) => call('api/v1/walkthrough', { method: 'POST', body: design });
+export const walkThrough = (design) => call('api/v1/walkthrough', design);
 /** @param {string} id of a session @param {string} rig */
-export const putRig = (id, rig) => call(sceneAt(id, 'rig'), { method: 'PUT', body: { rig } });
+export const putRig = (id, rig) => call(sceneAt(id, 'rig'), { rig }, 'PUT');
 /** What cameras need to know of each rig. @returns {Promise<Record<string, import('../scene/cameras.js').RigView>>} */
 export const getRigViews = () => call('scene/rigs');
-
-/**
- * A file that the server makes of a design.
- * @param {string} path
- * @param {unknown} design with scenario
- * @returns {Promise<Blob>}
- */
-async function fileOf(path, design) {
-  const response = await reach(at(path), {
-    method: 'POST',
-    headers: { 'Content-Type': 'application/json' },
-    body: JSON.stringify(design),
-  });
-  if (!response.ok)
-    throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
-  return response.blob();
-}
-/** @param {string} path @param {BodyInit} body @param {string} [type] @returns {Promise<Response>} */
-async function post(path, body, type = 'application/octet-stream') {
-  const response = await reach(at(path), { method: 'POST', headers: { 'Content-Type': type }, body });
-  if (!response.ok)
-    throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
-  return response;
-}
 
 /**
  * A recorded file, and how its text is to be read where that is not to be judged.
@@ -109,16 +94,18 @@ async function post(path, body, type = 'application/octet-stream') {
  * @param {string} name
  * @param {Record<string, string>} [dialect]
  */
-export const sendRecording = async (file, name, dialect = {}) =>
-  (await post(`api/v1/recordings?${new URLSearchParams({ name, ...dialect })}`, file)).json();
+export const sendRecording = (file, name, dialect = {}) =>
+  answerOf(`api/v1/recordings?${new URLSearchParams({ name, ...dialect })}`, {
+    method: 'POST',
+    body: file,
+    type: 'application/octet-stream',
+  }).then((response) => response.json());
 /** Files of one run as one recording. @param {string[]} recordings their ids */
-export const joinRecordings = (recordings) => call('api/v1/recordings/join', { method: 'POST', body: { recordings } });
-/** A recording of a design's digital rig. @param {unknown} design @returns {Promise<Blob>} */
-export const sampleRecording = async (design) =>
-  (await post('api/v1/recordings/sample', JSON.stringify(design), 'application/json')).blob();
+export const joinRecordings = (recordings) => call('api/v1/recordings/join', { recordings });
+/** A recording of a design's digital rig. @param {unknown} design */
+export const sampleRecording = (design) => fileOf('api/v1/recordings/sample', design);
 /** @param {string} id @param {unknown} body */
-export const overlayRecording = (id, body) =>
-  call(`api/v1/recordings/${encodeURIComponent(id)}/overlay`, { method: 'POST', body });
+export const overlayRecording = (id, body) => call(`api/v1/recordings/${encodeURIComponent(id)}/overlay`, body);
 
 /** The motion of a design as a file. @param {'html'|'viser'} format @param {unknown} design */
 export const motionFile = (format, design) => fileOf(`api/v1/motion?format=${format}`, design);
@@ -134,12 +121,13 @@ export const exportDesign = (format, link, design) =>
 export const windowAddress = (id) => sceneAt(id, '').href;
 
 /** @param {URL} url */
-function socketAddress(url) {
+export function socketAddress(url) {
   url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
   return url.href;
 }
 
-export const liveAddress = () => socketAddress(at('api/v1/live'));
+/** The socket that answers in frames. @param {URL} [url] */
+export const liveSocket = (url = at('api/v1/live')) => new WebSocket(socketAddress(url), [PROTOCOL]);
 /** @param {string} id of a session */
 export const hubAddress = (id) => socketAddress(sceneAt(id, 'hub?page=true'));
 export const identifyAddress = () => socketAddress(at('api/v1/recordings/identify'));
@@ -150,93 +138,46 @@ export const cloudAddress = () => socketAddress(at('api/v1/robustness'));
  * again, ever more slowly, and what was last asked is asked again.
  */
 export class Live {
-  /** @type {WebSocket|null} */ #socket = null;
-  /** @type {{seq: number}|null} */ #waiting = null;
-  /** @type {{seq: number}|null} */ #inFlight = null;
-  /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
-  /** @type {ReturnType<typeof setTimeout>|undefined} */ #retry;
-  #attempt = 0;
-  #closed = false;
+  /** @type {LatestSocket} */ #socket;
 
   /**
    * @param {{onReply: (reply: any) => void, onProblem: (problem: any) => void, onStatus: (c: Connection) => void,
    *   open?: () => WebSocket}} handlers  `open` makes the socket
    */
-  constructor({ onReply, onProblem, onStatus, open = () => new WebSocket(liveAddress(), [PROTOCOL]) }) {
+  constructor({ onReply, onProblem, onStatus, open = liveSocket }) {
     this.onReply = onReply;
     this.onProblem = onProblem;
-    this.onStatus = onStatus;
-    this.open = open;
-    this.#connect();
+    this.#socket = new LatestSocket({
+      open: () => open(),
+      onOpen: () => onStatus('open'),
+      onMessage: (data) => this.#receive(data),
+      onLost: () => onStatus('lost'),
+      retry: { first: 250, longest: 8000 },
+      patience: PATIENCE_MS,
+    });
   }
 
   /** @param {{seq: number}} request */
   send(request) {
-    this.#waiting = request;
-    this.#pump();
+    this.#socket.asks.put(request);
   }
 
   /** Tries again at once, as when the browser says that the network is back. */
   reconnect() {
-    if (this.#socket || this.#closed) return;
-    clearTimeout(this.#retry);
-    this.#connect();
+    this.#socket.reconnect();
   }
 
   close() {
-    this.#closed = true;
-    clearTimeout(this.#retry);
-    clearTimeout(this.#timer);
-    this.#socket?.close();
-  }
-
-  #connect() {
-    const socket = this.open();
-    socket.binaryType = 'arraybuffer';
-    this.#socket = socket;
-    socket.onopen = () => {
-      this.#attempt = 0;
-      this.onStatus('open');
-      this.#pump();
-    };
-    socket.onmessage = (event) => this.#receive(event.data);
-    socket.onclose = () => this.#lost(socket);
-  }
-
-  #pump() {
-    if (!this.#waiting || this.#inFlight || this.#socket?.readyState !== 1) return;
-    const socket = this.#socket;
-    this.#inFlight = this.#waiting;
-    this.#waiting = null;
-    socket.send(JSON.stringify(this.#inFlight));
-    this.#timer = setTimeout(() => {
-      socket.close();
-      this.#lost(socket); // a dead peer never completes the closing handshake
-    }, PATIENCE_MS);
+    this.#socket.close();
   }
 
   /** @param {ArrayBuffer|string} data */
   #receive(data) {
-    const binary = typeof data !== 'string';
-    const message = binary ? decodeFrame(data) : JSON.parse(data);
+    const message = typeof data === 'string' ? JSON.parse(data) : decodeFrame(data);
     // An answer to something asked before the connection was lost, or asked by nobody, says nothing about the present.
-    if (message.seq !== undefined && message.seq !== this.#inFlight?.seq) return;
-    clearTimeout(this.#timer);
-    this.#inFlight = null;
-    this.#pump();
+    if (message.seq !== undefined && message.seq !== this.#socket.asks.underWay?.seq) return;
+    this.#socket.done();
     if (message.status !== undefined && message.gains === undefined) this.onProblem(message);
     else this.onReply(message);
-  }
-
-  /** @param {WebSocket} socket */
-  #lost(socket) {
-    if (socket !== this.#socket) return;
-    clearTimeout(this.#timer);
-    this.#socket = null;
-    this.#waiting ??= this.#inFlight;
-    this.#inFlight = null;
-    if (this.#closed) return;
-    this.onStatus('lost');
-    this.#retry = setTimeout(() => this.#connect(), backoff(this.#attempt++, 250, 8000));
   }
 }

@@ -14,6 +14,7 @@ export {
   identifyAddress,
   joinRecordings,
   Live,
+  liveSocket,
   motionFile,
   openLoops,
   overlayRecording,
@@ -22,10 +23,12 @@ export {
   relativeGain,
   sampleRecording,
   sendRecording,
+  socketAddress,
   suggestLoops,
   walkThrough,
   windowAddress,
 } from './api.js';
 export { backoff } from './backoff.js';
+export { Latest, LatestSocket } from './latest.js';
 export { hasWebGl, ofSession, session } from './session.js';
 export { decodeFrame, encodeFrame } from './wire.js';

@@ -3,7 +3,7 @@
  * says what differs from the standard.
  */
 import { bringsIntegralAction, experimentWords, isStandard, presetOf, standard } from '../model/index.js';
-import { h, setAttr, setText } from '../ui/index.js';
+import { button, h, setAttr, setText } from '../ui/index.js';
 import {
   AccuracyPart,
   DigitalPart,
@@ -12,38 +12,26 @@ import {
   ScenarioFields,
   StartPart,
 } from './experiment_parts.js';
+import { folded } from './folded.js';
 
 /** Findings that are told at the fields that they speak of, too. */
 const TOLD_HERE = ['slow_sampling', 'fast_tracking'];
 const CONCERNED = /^scenario\.(?!reference|duration|samples)/;
 
 export class ExperimentPanel {
+  /** @type {StartPart|undefined} */ start;
+
   /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
     this.store = store;
     const fields = new ScenarioFields(store);
-    const close = h(
-      'button',
-      {
-        type: 'button',
-        class: 'quiet close',
-        'data-testid': 'experiment-close',
-        'aria-label': 'Close the experiment',
-        title: 'Close (Esc)',
-        onclick: () => this.#close(),
-      },
-      '✕',
-    );
-    this.start = new StartPart(fields, close);
     this.limits = new LimitsPart(fields);
     this.digital = new DigitalPart(fields);
     this.disturbance = new DisturbancePart(fields);
     this.accuracy = new AccuracyPart(fields);
     this.words = h('span', { class: 'experiment-words', 'data-testid': 'experiment-words' });
-    this.reset = h(
-      'button',
+    this.reset = button(
       {
-        type: 'button',
         class: 'quiet',
         'data-testid': 'experiment-reset',
         title: 'Back to the standard experiment; the steps stay',
@@ -52,24 +40,17 @@ export class ExperimentPanel {
       'Standard',
     );
     this.summary = h('summary', { 'data-testid': 'experiment' }, 'Experiment');
-    const body = h(
-      'div',
-      { class: 'experiment-body', 'data-testid': 'experiment-body' },
-      [this.start, this.limits, this.digital, this.disturbance, this.accuracy].map((part) => part.node),
-    );
-    this.details = h('details', { class: 'experiment' }, this.summary, body);
-    this.details.addEventListener('keydown', (e) => e.key === 'Escape' && this.#close());
-    root.append(h('div', { class: 'row experiment-row' }, this.details, this.words, this.reset));
+    const how = { testid: 'experiment', kind: 'experiment', summary: this.summary, what: 'experiment' };
+    const details = folded(how, (close) => {
+      this.start = new StartPart(fields, close);
+      return [this.start, this.limits, this.digital, this.disturbance, this.accuracy].map((part) => part.node);
+    });
+    root.append(h('div', { class: 'row experiment-row' }, details, this.words, this.reset));
   }
 
   /** @param {ScenarioFields} fields */
   #reset(fields) {
     fields.edit(standard);
-    this.summary.focus();
-  }
-
-  #close() {
-    this.details.open = false;
     this.summary.focus();
   }
 
@@ -84,7 +65,7 @@ export class ExperimentPanel {
     this.words.classList.toggle('warning', findings.length > 0);
     this.reset.hidden = isStandard(design.scenario);
     this.summary.classList.toggle('refused', CONCERNED.test(problem?.field ?? ''));
-    this.start.render(design);
+    this.start?.render(design);
     const hasStops = presetOf({ presets, design })?.limits.theta !== undefined;
     this.limits.render(design, { hasStops, own: bringsIntegralAction(state) });
     this.digital.render(design, findings);

@@ -10,7 +10,7 @@ import {
   withOption,
   withStart,
 } from '../model/index.js';
-import { Choice, h, NumberField, setText, symbol } from '../ui/index.js';
+import { check, Choice, h, designField, setText, symbol } from '../ui/index.js';
 
 /**
  * @typedef {import('../types.js').Scenario} Scenario
@@ -39,9 +39,9 @@ export class ScenarioFields {
     this.store = store;
   }
 
-  /** @param {(s: Scenario) => Scenario} change @param {string} [gesture] @param {number} [stamp] */
-  edit(change, gesture, stamp) {
-    this.store.edit((d) => ({ ...d, scenario: change(d.scenario) }), { gesture, stamp });
+  /** @param {(s: Scenario) => Scenario} change */
+  edit(change) {
+    this.store.edit((d) => ({ ...d, scenario: change(d.scenario) }));
   }
 
   /**
@@ -51,13 +51,9 @@ export class ScenarioFields {
    *   change: (s: Scenario, v: number|undefined) => Scenario}} options
    */
   number({ id, scale = 1, change, ...rest }) {
-    const gesture = `experiment-${id}`;
-    return new NumberField({
-      testid: gesture,
-      ...rest,
-      onInput: (v, stamp) => this.edit((s) => change(s, Number.isNaN(v) ? undefined : tidy(v / scale)), gesture, stamp),
-      onCommit: () => this.store.commit(),
-    });
+    const part = (/** @type {Scenario} */ s, /** @type {number} */ v) =>
+      change(s, Number.isNaN(v) ? undefined : tidy(v / scale));
+    return designField(this.store, `experiment-${id}`, (d, v) => ({ ...d, scenario: part(d.scenario, v) }), rest);
   }
 
   /**
@@ -68,13 +64,16 @@ export class ScenarioFields {
    * @param {string} [field]
    */
   check(id, text, title, change, field) {
-    const input = h('input', {
-      type: 'checkbox',
-      'data-testid': `experiment-${id}`,
-      'data-field': field,
-      onchange: () => this.edit((s) => change(s, input.checked)),
-    });
-    return { input, node: h('label', { class: 'check', title }, input, text) };
+    const { box, node } = check(
+      {
+        title,
+        'data-testid': `experiment-${id}`,
+        'data-field': field,
+        onchange: () => this.edit((s) => change(s, box.checked)),
+      },
+      text,
+    );
+    return { input: box, node };
   }
 }
 

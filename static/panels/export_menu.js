@@ -1,8 +1,8 @@
 /** "Export": the design as a file for other programs, as numbers, or as a report to print. */
-import { say } from '../text/index.js';
+import { messageOf, say } from '../text/index.js';
 import { bodyOf, scenarioOf } from '../model/index.js';
 import { exportDesign } from '../net/index.js';
-import { h, icon, popupButton, saveFile, setText } from '../ui/index.js';
+import { button, h, icon, popupButton, saveFile, setText } from '../ui/index.js';
 import { EXPORTS } from './export_formats.js';
 
 /** @typedef {import('./export_formats.js').Export} Export */
@@ -33,7 +33,7 @@ function menu(store, address) {
         scenario: scenarioOf(design),
       });
     } catch (error) {
-      setText(told, error instanceof Error ? error.message : String(error));
+      setText(told, messageOf(error));
       return null;
     }
   }
@@ -55,11 +55,9 @@ function menu(store, address) {
     setTimeout(() => URL.revokeObjectURL(url), READ_MS);
     setText(told, 'The report is open in a new tab.');
   }
-  const button = (/** @type {Export} */ format) =>
-    h(
-      'button',
+  const saves = (/** @type {Export} */ format) =>
+    button(
       {
-        type: 'button',
         title: format.about,
         'aria-label': `${format.label}: ${format.about}`,
         'data-testid': `export-${format.name}`,
@@ -78,14 +76,12 @@ function menu(store, address) {
         h(
           'span',
           { class: 'row' },
-          formats.map(button),
+          formats.map(saves),
           formats
             .filter(({ opens }) => opens)
             .map((format) =>
-              h(
-                'button',
+              button(
                 {
-                  type: 'button',
                   title: 'Open it in a new tab, to read or to print',
                   'data-testid': `open-${format.name}`,
                   onclick: () => open(format),

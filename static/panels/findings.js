@@ -4,7 +4,7 @@
  */
 import { fixed, say, t } from '../text/index.js';
 import { AXES, placeOf, verdictOf } from '../model/index.js';
-import { h, setText } from '../ui/index.js';
+import { button, h, setText } from '../ui/index.js';
 import { leadTo } from './lead.js';
 
 const ICON = { error: '✕', warning: '▲', info: 'i' };
@@ -69,8 +69,7 @@ export class FindingsPanel {
     );
     this.list = h('ul', { class: 'list', 'aria-live': 'polite' });
     this.all = h('ul', { class: 'all', hidden: true, id: 'all-findings' });
-    this.more = h('button', {
-      type: 'button',
+    this.more = button({
       class: 'more',
       hidden: true,
       'aria-expanded': 'false',
@@ -110,11 +109,7 @@ export class FindingsPanel {
     ];
     const place = placeOf(f.code, this.store.state);
     const lead = place
-      ? h(
-          'button',
-          { type: 'button', class: 'finding', title: say`${f.message} Go there.`, onclick: () => this.#lead(f.code) },
-          words,
-        )
+      ? button({ class: 'finding', title: say`${f.message} Go there.`, onclick: () => this.#lead(f.code) }, words)
       : words;
     return h('li', { class: severity, title: place ? undefined : f.message, 'data-code': f.code }, lead);
   }

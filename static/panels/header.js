@@ -4,7 +4,7 @@
  */
 import { say } from '../text/index.js';
 import { designOf, lockNames, presetOf } from '../model/index.js';
-import { h, setAttr, setText } from '../ui/index.js';
+import { button, h, setAttr, setText } from '../ui/index.js';
 import { exportMenu } from './export_menu.js';
 import { RigPanel } from './rig.js';
 import { ShareButtons } from './share.js';
@@ -26,23 +26,23 @@ export class HeaderPanel {
       onchange: () => this.#choose(),
     });
     this.source = h('span', { class: 'source', 'data-testid': 'source' });
-    const button = (
+    const tool = (
       /** @type {string} */ id,
       /** @type {string} */ text,
       /** @type {string} */ title,
       /** @type {() => void} */ act,
-    ) => h('button', { type: 'button', 'data-testid': id, title, onclick: act }, text);
-    this.undo = button('undo', 'Undo', 'Undo (Ctrl+Z)', () => store.undo());
-    this.redo = button('redo', 'Redo', 'Redo (Ctrl+Shift+Z)', () => store.redo());
-    this.reset = button('reset', 'Reset', "Back to this preset's parameters, poles, loops and steps", () =>
+    ) => button({ 'data-testid': id, title, onclick: act }, text);
+    this.undo = tool('undo', 'Undo', 'Undo (Ctrl+Z)', () => store.undo());
+    this.redo = tool('redo', 'Redo', 'Redo (Ctrl+Shift+Z)', () => store.redo());
+    this.reset = tool('reset', 'Reset', "Back to this preset's parameters, poles, loops and steps", () =>
       this.#reset(),
     );
-    this.pin = button('pin', 'Pin', 'Keep this design beside those that follow: its poles, responses and figures', () =>
+    this.pin = tool('pin', 'Pin', 'Keep this design beside those that follow: its poles, responses and figures', () =>
       store.pin(),
     );
     this.rig = new RigPanel(store);
-    this.tour = button('tour-open', 'Tour', 'Five hints on what can be done here', () => tour(this.tour));
-    this.projector = button('projector', 'Aa', 'Projector: large type and thick lines', () =>
+    this.tour = tool('tour-open', 'Tour', 'Five hints on what can be done here', () => tour(this.tour));
+    this.projector = tool('projector', 'Aa', 'Projector: large type and thick lines', () =>
       this.projector.setAttribute('aria-pressed', String(projector.toggle())),
     );
     this.projector.setAttribute('aria-pressed', String(projector.on));

@@ -1,9 +1,10 @@
 /**
  * The outer loops: on or off, their PI values, how they are paired; and the method that makes the inner loop's gain.
  */
+import { messageOf } from '../text/index.js';
 import { allowed, bodyOf, bringsIntegralAction, FULL_RANK, keyOf, nameOf, partOf, STRUCTURES } from '../model/index.js';
 import { suggestLoops } from '../net/index.js';
-import { Choice, h, NumberField, setText, symbol } from '../ui/index.js';
+import { button, check, Choice, h, designField, setText, shape, symbol } from '../ui/index.js';
 
 /** @typedef {'pitch'|'yaw'} Axis */
 const AXES = /** @type {Axis[]} */ (['pitch', 'yaw']);
@@ -52,10 +53,8 @@ export class LoopsPanel {
         ['pi', 'PI loops', 'a PI controller on each axis, which moves the placed poles'],
       ],
     });
-    this.suggest = h(
-      'button',
+    this.suggest = button(
       {
-        type: 'button',
         'data-testid': 'suggest-pi',
         title: 'Suggest PI values that suit these poles',
         'aria-label': 'Suggest PI for these poles',
@@ -74,12 +73,16 @@ export class LoopsPanel {
       ],
       (value) => ({ pairing: /** @type {any} */ (value) }),
     );
-    this.decoupler = h('input', {
-      type: 'checkbox',
-      'data-testid': 'decoupler',
-      'data-field': 'decoupler',
-      onchange: () => this.#set({ decoupler: this.decoupler.checked }),
-    });
+    const decoupler = check(
+      {
+        title: 'static decoupler Ĝ(0)⁻¹ between the PI loops and the motors',
+        'data-testid': 'decoupler',
+        'data-field': 'decoupler',
+        onchange: () => this.#set({ decoupler: this.decoupler.checked }),
+      },
+      'decoupler',
+    );
+    this.decoupler = decoupler.box;
     this.axes = AXES.map((axis) => this.#axis(axis));
     for (const event of ['pointerdown', 'keydown']) document.addEventListener(event, () => setText(this.note, ''));
     root.append(
@@ -90,17 +93,7 @@ export class LoopsPanel {
         this.axes.map((a) => a.node),
       ),
       h('div', { class: 'row advanced' }, this.method.node),
-      h(
-        'div',
-        { class: 'row advanced' },
-        this.pairing.node,
-        h(
-          'label',
-          { class: 'check', title: 'static decoupler Ĝ(0)⁻¹ between the PI loops and the motors' },
-          this.decoupler,
-          'decoupler',
-        ),
-      ),
+      h('div', { class: 'row advanced' }, this.pairing.node, decoupler.node),
       this.note,
     );
   }
@@ -134,31 +127,23 @@ export class LoopsPanel {
       /** @type {string} */ words,
       /** @type {{min: number, max: number, log: true}} */ slider,
     ) =>
-      new NumberField({
-        label: `${axis} ${words}`,
-        mark,
-        unit,
-        testid: `${key}-${axis}`,
-        field: `loops.${axis}.${key}`,
-        ...allowed(`loops.${axis}.${key}`),
-        ...(key === 'kp' ? { min: 0 } : { positive: true }), // a negative gain reverses a loop: the pairing does that
-        slider,
-        onInput: (v, stamp) =>
-          this.store.edit((d) => ({ ...d, loops: { ...d.loops, [axis]: { ...d.loops[axis], [key]: v } } }), {
-            gesture: `${key}-${axis}`,
-            stamp,
-          }),
-        onCommit: () => this.store.commit(),
-      });
+      designField(
+        this.store,
+        `${key}-${axis}`,
+        (d, v) => ({ ...d, loops: { ...d.loops, [axis]: { ...d.loops[axis], [key]: v } } }),
+        {
+          label: `${axis} ${words}`,
+          mark,
+          unit,
+          field: `loops.${axis}.${key}`,
+          ...allowed(`loops.${axis}.${key}`),
+          ...(key === 'kp' ? { min: 0 } : { positive: true }), // a negative gain reverses a loop: the pairing does that
+          slider,
+        },
+      );
     const kp = field('kp', symbol('k', 'p'), 'V/rad', 'proportional gain', { min: 0.5, max: 200, log: true });
     const ti = field('ti', symbol('T', 'i'), 's', 'integral time', { min: 0.01, max: 10, log: true });
-    const node = h(
-      'fieldset',
-      { class: `pi ${axis}` },
-      h('legend', {}, h('span', { class: `shape ${axis}`, 'aria-hidden': 'true' }), `${axis} PI`),
-      kp.node,
-      ti.node,
-    );
+    const node = h('fieldset', { class: `pi ${axis}` }, h('legend', {}, shape(axis), `${axis} PI`), kp.node, ti.node);
     return { axis, kp, ti, node };
   }
 
@@ -171,7 +156,7 @@ export class LoopsPanel {
       this.#set({ loops: answer.loops, outer: 'pi' });
       this.#tell(answer.rule ?? '');
     } catch (error) {
-      this.#tell(error instanceof Error ? error.message : String(error));
+      this.#tell(messageOf(error));
     }
     this.suggest.disabled = false;
   }

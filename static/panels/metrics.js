@@ -15,7 +15,7 @@ import {
   valueIn,
   verdictOf,
 } from '../model/index.js';
-import { h, printed, recall, remember, setAttr, setText } from '../ui/index.js';
+import { button, h, head, printed, recall, remember, setAttr, setText, shape } from '../ui/index.js';
 
 /** @typedef {import('../types.js').Reply} Reply */
 /** @typedef {'theta'|'psi'} Axis */
@@ -179,8 +179,7 @@ export class MetricsPanel {
       { class: 'linear', title: 'in parentheses: the linear model, where it differs by more than 5 %' },
       '(linear)',
     );
-    this.more = h('button', {
-      type: 'button',
+    this.more = button({
       class: 'quiet',
       'data-testid': 'more-figures',
       onclick: () => this.#show(!this.root.classList.contains('all-figures')),
@@ -193,17 +192,11 @@ export class MetricsPanel {
       h(
         'table',
         { class: 'metrics', 'data-testid': 'metrics' },
-        h(
-          'thead',
-          {},
-          h(
-            'tr',
-            {},
-            h('td', {}, this.more, ' ', this.key),
-            h('th', { scope: 'col' }, h('span', { class: 'shape pitch', 'aria-hidden': 'true' }), 'pitch step'),
-            h('th', { scope: 'col' }, h('span', { class: 'shape yaw', 'aria-hidden': 'true' }), 'yaw step'),
-          ),
-        ),
+        head([
+          h('td', {}, this.more, ' ', this.key),
+          h('th', { scope: 'col' }, shape('pitch'), 'pitch step'),
+          h('th', { scope: 'col' }, shape('yaw'), 'yaw step'),
+        ]),
         [...new Set(rows.map(({ row }) => row.group))].map((group) =>
           h(
             'tbody',

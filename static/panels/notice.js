@@ -3,7 +3,7 @@
  * changes; that a part of the page fails, until it is dismissed; and that what is shown is an older design's while the
  * server is away.
  */
-import { h, setText } from '../ui/index.js';
+import { button, h, setText } from '../ui/index.js';
 
 /** A line that can be dismissed. */
 class Line {
@@ -14,7 +14,7 @@ class Line {
       'div',
       { class: 'notice', hidden: true },
       this.text,
-      h('button', { type: 'button', 'data-testid': `${name}-close`, onclick: dismiss }, 'Dismiss'),
+      button({ 'data-testid': `${name}-close`, onclick: dismiss }, 'Dismiss'),
     );
   }
 

@@ -1,8 +1,8 @@
 /** K and the RGA as matrices, what the RGA says, in words, and the one step that heeds it. */
-import { fixed, significant } from '../text/index.js';
+import { fixed, messageOf, significant } from '../text/index.js';
 import { bodyOf, bringsIntegralAction } from '../model/index.js';
 import { suggestLoops } from '../net/index.js';
-import { GAIN, gainMatrix, h, relativeGains, setAttr, setText } from '../ui/index.js';
+import { button, GAIN, gainMatrix, h, relativeGains, setAttr, setText } from '../ui/index.js';
 
 /** @typedef {'diagonal'|'cross'} Pairing */
 
@@ -70,8 +70,7 @@ export class NumbersPanel {
     this.k = gainMatrix('k-matrix', () => copied(store.state));
     this.rga = relativeGains('rga-matrix');
     this.words = h('span', { class: 'pairing-words', 'data-testid': 'pairing-words' });
-    this.pair = h('button', {
-      type: 'button',
+    this.pair = button({
       class: 'pair-advised',
       hidden: true,
       'data-testid': 'pair-advised',
@@ -98,7 +97,7 @@ export class NumbersPanel {
       const { loops } = await suggestLoops(bodyOf({ ...design, pairing }));
       part = { pairing, loops };
     } catch (error) {
-      trouble = `Paired, but the PI values are the old ones: ${error instanceof Error ? error.message : error}`;
+      trouble = `Paired, but the PI values are the old ones: ${messageOf(error)}`;
     }
     this.pair.disabled = false;
     if (this.store.state.design?.preset !== design.preset) return;

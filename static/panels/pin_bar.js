@@ -1,6 +1,6 @@
 /** The pinned designs over the plots: what each letter means, and back to one of them by one press. */
 import { colorOf, letterOf } from '../model/index.js';
-import { h, setAttr } from '../ui/index.js';
+import { button, h, setAttr } from '../ui/index.js';
 
 /** The letter in its pin's colour. @param {number} index */
 export const badge = (index) => h('span', { class: `badge ${colorOf(index)}`, 'aria-hidden': 'true' }, letterOf(index));
@@ -30,10 +30,8 @@ export class PinBar {
         h(
           'span',
           { class: `chip ${colorOf(pin.index)}`, 'data-testid': `pin-chip-${pin.index}` },
-          h(
-            'button',
+          button(
             {
-              type: 'button',
               class: 'use',
               title: pin.refused ?? `Back to ${pin.name}`,
               onclick: () => this.store.usePin(pin.id),
@@ -50,10 +48,8 @@ export class PinBar {
                 )
               : null,
           ),
-          h(
-            'button',
+          button(
             {
-              type: 'button',
               class: 'remove',
               title: `Unpin ${pin.name}`,
               'aria-label': `Unpin ${pin.name}`,

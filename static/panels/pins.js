@@ -2,24 +2,16 @@
  * The table of the pinned designs: their figures, how far each is from the present design's, and the best of each
  * column.
  */
-import { complex } from '../text/index.js';
+import { polesText } from '../text/index.js';
 import { differenceTable, FIGURES, nameOf } from '../model/index.js';
-import { h, printed, setAttr, setText } from '../ui/index.js';
+import { button, groupedHead, h, keepingFocus, printed, setAttr, setText, whileSeen, wide } from '../ui/index.js';
 import { badge } from './pin_bar.js';
 
 /** @typedef {import('../types.js').Pin} Pin @typedef {import('../types.js').Design} Design */
-const PAIRS = { theta: 'pitch', psi: 'yaw' };
 
 /** @param {Design} design */
 const described = (design) =>
-  [
-    design.poles
-      .filter((p) => p.im >= 0)
-      .map((p) => complex(p).replace('+', '±'))
-      .join(', '),
-    nameOf(design),
-    design.outer === 'pi' ? 'PI' : 'inner loop alone',
-  ].join(' · ');
+  [polesText(design.poles), nameOf(design), design.outer === 'pi' ? 'PI' : 'inner loop alone'].join(' · ');
 
 /** @param {import('../model/pins.js').Figure} f */
 const heading = (f) =>
@@ -65,33 +57,10 @@ export class PinsPanel {
     this.store = store;
     this.rows = h('tbody');
     this.unstable = h('b', { class: 'unstable-word' });
-    const group = (/** @type {'theta'|'psi'} */ axis) =>
-      h(
-        'th',
-        { scope: 'colgroup', colspan: FIGURES.filter((f) => f.axis === axis).length, class: 'group' },
-        h('span', { class: `shape ${PAIRS[axis]}`, 'aria-hidden': 'true' }),
-        ` ${PAIRS[axis]} step`,
-      );
-    const cell = (/** @type {import('../model/pins.js').Figure} */ f) =>
-      h('th', { scope: 'col', title: f.title, rowspan: f.axis ? 1 : 2 }, heading(f));
-    const [first, last] = [FIGURES.findIndex((f) => f.axis), FIGURES.findLastIndex((f) => f.axis)];
     const table = h(
       'table',
       { class: 'compare-table pins-table', 'data-testid': 'pins-table' },
-      h(
-        'thead',
-        {},
-        h(
-          'tr',
-          {},
-          h('th', { scope: 'col', rowspan: 2, class: 'method-name' }, 'Design'),
-          FIGURES.slice(0, first).map(cell),
-          group('theta'),
-          group('psi'),
-          FIGURES.slice(last + 1).map(cell),
-        ),
-        h('tr', {}, FIGURES.slice(first, last + 1).map(cell)),
-      ),
+      groupedHead('Design', FIGURES, heading),
       this.rows,
     );
     root.append(
@@ -101,16 +70,12 @@ export class PinsPanel {
         'Below each figure, how far it is from the present design’s: ▲ better, ▼ worse. The best of a column is in ' +
           'bold.',
       ),
-      h(
-        'div',
-        { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Table of the pinned designs' },
-        table,
-      ),
+      wide('Table of the pinned designs', table),
     );
-    new IntersectionObserver((entries) => {
-      this.#visible = entries[entries.length - 1].isIntersecting;
+    whileSeen(table, (seen) => {
+      this.#visible = seen;
       this.render(store.state);
-    }).observe(table);
+    });
   }
 
   /** @param {import('../types.js').State} state */
@@ -130,24 +95,18 @@ export class PinsPanel {
   /** @param {Pin[]} pins */
   #build(pins) {
     this.#pins = pins;
-    const focused = document.activeElement?.getAttribute('data-testid');
     this.#cells = ['present', ...pins.map((p) => String(p.index))].map((id) =>
       FIGURES.map((f) => new Cell(`pin-${id}-${f.id}`)),
     );
     const nodes = (/** @type {number} */ i) => this.#cells[i].map((c) => c.node);
-    this.rows.replaceChildren(
-      h(
-        'tr',
-        { class: 'current', 'data-testid': 'pin-row-present' },
-        h('th', { scope: 'row', class: 'method-name' }, h('span', {}, 'Present design'), ' ', this.unstable),
-        nodes(0),
-      ),
-      ...pins.map((pin, i) => this.#row(pin, nodes(i + 1))),
+    const present = h(
+      'tr',
+      { class: 'current', 'data-testid': 'pin-row-present' },
+      h('th', { scope: 'row', class: 'method-name' }, h('span', {}, 'Present design'), ' ', this.unstable),
+      nodes(0),
     );
-    if (focused)
-      /** @type {HTMLElement|null} */ (this.rows.querySelector(`[data-testid="${CSS.escape(focused)}"]`))?.focus({
-        preventScroll: true,
-      });
+    const rows = pins.map((pin, i) => this.#row(pin, nodes(i + 1)));
+    keepingFocus(this.rows, () => this.rows.replaceChildren(present, ...rows));
   }
 
   /** @param {Pin} pin @param {HTMLElement[]} cells */
@@ -157,12 +116,7 @@ export class PinsPanel {
       /** @type {string} */ text,
       /** @type {string} */ label,
       /** @type {() => void} */ act,
-    ) =>
-      h(
-        'button',
-        { type: 'button', 'data-testid': `pin-${id}-${pin.index}`, 'aria-label': label, title: label, onclick: act },
-        text,
-      );
+    ) => button({ 'data-testid': `pin-${id}-${pin.index}`, 'aria-label': label, title: label, onclick: act }, text);
     const name = h('span', { class: 'pin-name' }, pin.name);
     const head = h(
       'th',

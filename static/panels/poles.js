@@ -11,7 +11,7 @@ import {
   setReal,
   verdictOf,
 } from '../model/index.js';
-import { Choice, h, NumberField, setAttr, setText } from '../ui/index.js';
+import { Choice, h, NumberField, setAttr, setText, shape } from '../ui/index.js';
 
 const NAMES = ['pitch', 'yaw'];
 
@@ -33,7 +33,7 @@ class PairEditor {
     this.node = h(
       'fieldset',
       { class: `pair ${name}`, 'data-testid': `pair-${name}` },
-      h('legend', {}, h('span', { class: `shape ${name}`, 'aria-hidden': 'true' }), name),
+      h('legend', {}, shape(name), name),
       this.mode.node,
       this.fields.map((f) => f.node),
       (this.verdict = h('p', { class: 'pair-verdict', hidden: true, 'data-testid': `verdict-${name}` })),

@@ -14,7 +14,8 @@ import {
   without,
   withValue,
 } from '../model/index.js';
-import { h, NumberField, setAttr, setText, symbol } from '../ui/index.js';
+import { button, h, designField, setAttr, setText, symbol } from '../ui/index.js';
+import { folded } from './folded.js';
 
 const CONCERNED = /^(parameters|limits)(\.|$)/;
 
@@ -31,23 +32,17 @@ class Row {
     const { store } = panel;
     const id = `rig-${q.kind === 'limits' ? 'limit-' : ''}${q.name}`;
     this.was = h('span', { class: 'was', 'data-testid': `${id}-preset` });
-    this.field = new NumberField({
+    this.field = designField(store, id, (d, v) => (panel.preset ? withValue(d, panel.preset, q, v) : d), {
       label: `${q.name}: ${q.meaning}, ${q.unit === '°' ? 'degrees; empty: free' : q.unit}`,
-      testid: id,
       field: `${q.kind}.${q.name}`,
       unit: q.unit,
       min: q.min,
       max: q.max,
       optional: q.free,
       mark: h('span', { class: 'about' }, symbolOf(q.name), h('span', { class: 'meaning' }, q.meaning), this.was),
-      onInput: (v, stamp) =>
-        store.edit((d) => (panel.preset ? withValue(d, panel.preset, q, v) : d), { gesture: id, stamp }),
-      onCommit: () => store.commit(),
     });
-    this.reset = h(
-      'button',
+    this.reset = button(
       {
-        type: 'button',
         class: 'quiet',
         'data-testid': `rig-reset-${q.kind}-${q.name}`,
         onclick: () => {
@@ -84,10 +79,8 @@ export class RigPanel {
     this.name = h('span');
     this.summary = h('summary', { 'data-testid': 'rig', title: 'The rig’s parameters and limits' }, this.name);
     this.source = h('p', { class: 'rig-source', 'data-testid': 'rig-source' });
-    this.all = h(
-      'button',
+    this.all = button(
       {
-        type: 'button',
         class: 'quiet',
         'data-testid': 'rig-reset',
         title: 'All parameters and limits back to the preset’s; poles and loops stay',
@@ -95,44 +88,20 @@ export class RigPanel {
       },
       'Reset all',
     );
-    const close = h(
-      'button',
-      {
-        type: 'button',
-        class: 'quiet',
-        'data-testid': 'rig-close',
-        'aria-label': 'Close the parameters',
-        title: 'Close (Esc)',
-        onclick: () => this.#close(),
-      },
-      '✕',
-    );
     this.problem = h('p', { class: 'experiment-warning', role: 'status', 'data-testid': 'rig-problem' });
     this.parameters = h('fieldset', { 'aria-label': 'Parameters' });
     this.limits = h('fieldset', { 'aria-label': 'Limits' });
-    this.node = h(
-      'details',
-      { class: 'rig-details' },
-      this.summary,
-      h(
-        'div',
-        { class: 'rig-body', 'data-testid': 'rig-body' },
-        h('div', { class: 'row' }, this.source, this.all, close),
-        this.problem,
-        this.parameters,
-        this.limits,
-      ),
-    );
-    this.node.addEventListener('keydown', (e) => e.key === 'Escape' && this.#close());
+    const how = { testid: 'rig', kind: 'rig-details', summary: this.summary, what: 'parameters' };
+    this.node = folded(how, (close) => [
+      h('div', { class: 'row' }, this.source, this.all, close),
+      this.problem,
+      this.parameters,
+      this.limits,
+    ]);
   }
 
   #reset() {
     this.store.edit(asProposed);
-    this.summary.focus();
-  }
-
-  #close() {
-    this.node.open = false;
     this.summary.focus();
   }
 

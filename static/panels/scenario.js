@@ -3,7 +3,7 @@
  */
 import { DEGREE } from '../text/index.js';
 import { allowed } from '../model/index.js';
-import { h, NumberField, symbol } from '../ui/index.js';
+import { designField, h, symbol } from '../ui/index.js';
 
 /** @typedef {'theta'|'psi'} Axis */
 
@@ -13,20 +13,16 @@ export class ScenarioPanel {
     this.store = store;
     this.theta = this.#step('theta', 'pitch step', 'θ');
     this.psi = this.#step('psi', 'yaw step', 'ψ');
-    this.duration = new NumberField({
+    this.duration = designField(store, 'duration', (d, v) => ({ ...d, scenario: { ...d.scenario, duration: v } }), {
       label: 'duration in seconds',
       mark: 'over',
       unit: 's',
-      testid: 'duration',
       field: 'scenario.duration',
       min: 0.1,
       max: 60,
       positive: true,
-      onInput: (v, stamp) =>
-        store.edit((d) => ({ ...d, scenario: { ...d.scenario, duration: v } }), { gesture: 'duration', stamp }),
-      onCommit: () => store.commit(),
     });
-    this.theta0 = new NumberField({
+    this.theta0 = designField(store, 'theta0', (d, v) => ({ ...d, theta0: v / DEGREE }), {
       label: 'operating point in degrees',
       mark: h(
         'span',
@@ -35,11 +31,8 @@ export class ScenarioPanel {
         symbol('θ', '0'),
       ),
       unit: '°',
-      testid: 'theta0',
       field: 'operating_point.theta',
       ...allowed('operating_point.theta', DEGREE),
-      onInput: (v, stamp) => store.edit((d) => ({ ...d, theta0: v / DEGREE }), { gesture: 'theta0', stamp }),
-      onCommit: () => store.commit(),
     });
     this.linear = h('input', {
       type: 'checkbox',
@@ -101,21 +94,19 @@ export class ScenarioPanel {
 
   /** @param {Axis} axis @param {string} label @param {string} mark */
   #step(axis, label, mark) {
-    return new NumberField({
-      label: `${label} in degrees`,
-      mark: symbol(mark),
-      unit: '°',
-      testid: `step-${axis}`,
-      field: `scenario.reference.${axis}`,
-      min: -360,
-      max: 360,
-      onInput: (v, stamp) =>
-        this.store.edit(
-          (d) => ({ ...d, scenario: { ...d.scenario, reference: { ...d.scenario.reference, [axis]: v / DEGREE } } }),
-          { gesture: `step-${axis}`, stamp },
-        ),
-      onCommit: () => this.store.commit(),
-    });
+    return designField(
+      this.store,
+      `step-${axis}`,
+      (d, v) => ({ ...d, scenario: { ...d.scenario, reference: { ...d.scenario.reference, [axis]: v / DEGREE } } }),
+      {
+        label: `${label} in degrees`,
+        mark: symbol(mark),
+        unit: '°',
+        field: `scenario.reference.${axis}`,
+        min: -360,
+        max: 360,
+      },
+    );
   }
 
   /** @param {import('../types.js').State} state */

@@ -1,6 +1,6 @@
 /** "Copy link", and the small panel that makes a link with locks for a class. */
 import { LOCKS } from '../model/index.js';
-import { copyText, h, popupButton, setText } from '../ui/index.js';
+import { button, check, copyText, h, popupButton, setText } from '../ui/index.js';
 import { MOST } from '../link/index.js';
 
 const SHOWN_MS = 1600;
@@ -12,10 +12,8 @@ export class ShareButtons {
   constructor(store, address) {
     this.store = store;
     this.address = address;
-    this.copy = h(
-      'button',
+    this.copy = button(
       {
-        type: 'button',
         class: 'copy-link',
         'data-testid': 'copy-link',
         title: 'Copy a link that opens this design: rig, poles, loops, steps and pins',
@@ -56,13 +54,7 @@ export class ShareButtons {
     const { locks, pins } = this.store.state;
     const boxes = Object.entries(LOCKS).map(([name, { name: words }]) => ({
       name,
-      words,
-      box: h('input', {
-        type: 'checkbox',
-        checked: locks.includes(name),
-        'data-testid': `lock-${name}`,
-        onchange: () => show(),
-      }),
+      ...check({ checked: locks.includes(name), 'data-testid': `lock-${name}`, onchange: () => show() }, words),
     }));
     const address = h('input', {
       class: 'link',
@@ -72,10 +64,8 @@ export class ShareButtons {
       onfocus: () => address.select(),
     });
     const words = h('p', { class: 'caption', role: 'status' });
-    const copy = h(
-      'button',
+    const copy = button(
       {
-        type: 'button',
         'data-testid': 'share-copy',
         onclick: async () =>
           setText(words, (await this.#copy(link())) ? 'Copied.' : 'Not copied: select it and copy it by hand.'),
@@ -98,7 +88,7 @@ export class ShareButtons {
       h(
         'div',
         { class: 'lock-list' },
-        boxes.map(({ words: text, box }) => h('label', { class: 'check' }, box, text)),
+        boxes.map(({ node }) => node),
       ),
       address,
       h('div', { class: 'row spread' }, words, copy),

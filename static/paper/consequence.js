@@ -1,8 +1,9 @@
 /** Where the printed K really puts the poles, as a table and in the s-plane. */
-import { fixed } from '../text/index.js';
-import { h, svg } from '../ui/index.js';
+import { complex, fixed } from '../text/index.js';
+import { h, head, svg, wide } from '../ui/index.js';
 import { dampingRatio, polesText } from './math.js';
 import { arrow, drawing } from './drawing.js';
+import { chapter } from './forms.js';
 import { rich } from './rich.js';
 
 /** @typedef {import('./math.js').Complex} Complex */
@@ -61,13 +62,7 @@ function plane(wanted, landed) {
     }),
     ...moved.map((p) => {
       const [x, y] = at(p);
-      return label(
-        x + 13,
-        y + 5,
-        `${fixed(p.re, 2)} ${p.im > 0 ? '+' : '−'} ${fixed(Math.abs(p.im), 2)}j`,
-        'start',
-        'strong',
-      );
+      return label(x + 13, y + 5, complex(p), 'start', 'strong');
     }),
   );
 }
@@ -81,10 +76,9 @@ export function consequence({ consequence: rows, numbers }) {
     ? `The yaw pair was meant to be real and fast, at ${polesText(wanted.slice(2), 2)}. On the rig of the manual ` +
       `it is ${polesText([pair])}: slower, and it rings, with a damping ratio of ${fixed(dampingRatio(pair))}.`
     : '';
-  return h(
-    'section',
-    { class: 'chapter', id: 'paper-consequence', 'aria-labelledby': 'paper-consequence-title' },
-    h('h3', { id: 'paper-consequence-title' }, 'What the unequal digits mean'),
+  return chapter(
+    'consequence',
+    'What the unequal digits mean',
     h(
       'p',
       { class: 'prose' },
@@ -97,23 +91,12 @@ export function consequence({ consequence: rows, numbers }) {
     h(
       'div',
       { class: 'consequence' },
-      h(
-        'div',
-        { class: 'sideways', tabindex: 0, role: 'group', 'aria-label': 'Where the printed K puts the poles' },
+      wide(
+        'Where the printed K puts the poles',
         h(
           'table',
           { class: 'paper-table', 'data-testid': 'paper-consequence' },
-          h(
-            'thead',
-            {},
-            h(
-              'tr',
-              {},
-              ['the printed K on this plant …', '… puts the poles at, rad/s', 'and its formula, unrounded, at'].map(
-                (text) => h('th', { scope: 'col' }, text),
-              ),
-            ),
-          ),
+          head(['the printed K on this plant …', '… puts the poles at, rad/s', 'and its formula, unrounded, at']),
           h(
             'tbody',
             {},
@@ -128,6 +111,7 @@ export function consequence({ consequence: rows, numbers }) {
             ),
           ),
         ),
+        'sideways',
       ),
       h(
         'figure',

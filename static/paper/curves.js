@@ -1,14 +1,12 @@
 /** Figs. 4 and 5, drawn anew: four answers to a step of one radian, told apart by dashes as well as by colour. */
-import uPlot from '../vendor/uplot/uPlot.esm.js';
 import { DEGREE, fixed, say } from '../text/index.js';
-import { followsPage, h, pictureScale, svg } from '../ui/index.js';
-import { drawLabel, drawRule, linesMenu } from '../plots/index.js';
+import { h, svg } from '../ui/index.js';
+import { ink, makeChart, scaled } from '../charts/index.js';
+import { drawNamedRules, drawShades, linesMenu } from '../plots/index.js';
 import { rich } from './rich.js';
 import { CURVES } from './words.js';
 
-/** @typedef {import('./math.js').Curves} Curves @typedef {import('../plots/rules.js').Rule} Rule */
-const Chart = /** @type {any} */ (uPlot); // its types stay in its package
-const FONT = '12px system-ui, sans-serif';
+/** @typedef {import('./math.js').Curves} Curves */
 /**
  * The first is drawn broad, since others lie upon it.
  * @type {Record<string, {color: string, width: number, dash: number[]}>}
@@ -32,23 +30,9 @@ const SAVED = {
 const styleOf = (/** @type {string} */ name) => LINES[name] ?? LINES.limited;
 
 export class PaperCurves {
-  /** @type {Record<string, string>} */ #colors = {};
-  /** @type {any[]} */ #charts = [];
-
   /** @param {() => number|undefined} stop the pitch stop of the rig of the manual, rad */
   constructor(stop) {
     this.stop = stop;
-    this.#readColors();
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
-      this.#readColors();
-      for (const chart of this.#charts) chart.redraw(false);
-    });
-  }
-
-  #readColors() {
-    const style = getComputedStyle(document.getElementById('paper') ?? document.documentElement);
-    for (const name of ['pitch', 'yaw', 'panel', 'ink', 'muted', 'grid', 'halo-strong', 'danger', 'limit-fill'])
-      this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
   }
 
   /** @param {Curves} figure */
@@ -98,16 +82,7 @@ export class PaperCurves {
       t,
       values: c.angle.map((v) => v * DEGREE),
     }));
-    const color = (/** @type {string} */ name) => () => this.#colors[name];
     const top = 5 * Math.ceil((DEGREE * Math.max(1, ...curves.flatMap((c) => c.angle))) / 5);
-    const axis = (/** @type {any} */ more) => ({
-      stroke: color('muted'),
-      font: FONT,
-      grid: { stroke: color('grid'), width: 1 },
-      ticks: { show: false },
-      gap: 5,
-      ...more,
-    });
     const rules = [
       { value: DEGREE, label: say`reference 1 rad = ${fixed(DEGREE, 1)}°`, danger: false },
       ...(stop === undefined
@@ -122,70 +97,27 @@ export class PaperCurves {
         subtitle: `Fig. ${number} of the paper, drawn anew`,
       }),
     );
-    const chart = followsPage(
-      new Chart(
+    makeChart(body, {
+      lines: curves.map((c) => styleOf(c.name)),
+      data: [t, ...lines.map(({ values }) => values)],
+      height: 260,
+      padding: [scaled(8), scaled(12), 0, 0],
+      scales: { y: { range: () => [0, top] } },
+      axes: [
         {
-          width: 300,
-          height: 260,
-          legend: { show: false },
-          cursor: { show: false },
-          padding: [() => 8 * pictureScale().type, () => 12 * pictureScale().type, 0, 0],
-          series: [
-            {},
-            ...curves.map((c) => ({
-              stroke: color(styleOf(c.name).color),
-              width: styleOf(c.name).width,
-              dash: styleOf(c.name).dash,
-              points: { show: false },
-            })),
-          ],
-          scales: { x: { time: false }, y: { range: () => [0, top] } },
-          axes: [
-            axis({
-              space: () => 50 * pictureScale().type,
-              size: () => 26 * pictureScale().type,
-              values: (/** @type {any} */ _u, /** @type {number[]} */ v) =>
-                v.map((s, i) => `${Number(s.toFixed(3))}${i === v.length - 1 ? ' s' : ''}`),
-            }),
-            axis({
-              space: () => 30 * pictureScale().type,
-              size: () => 40 * pictureScale().type,
-              values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((d) => `${d}°`),
-            }),
-          ],
-          hooks: {
-            drawAxes: [(/** @type {any} */ u) => this.#under(u, rules)],
-            draw: [(/** @type {any} */ u) => this.#over(u, rules)],
-          },
+          size: 26,
+          values: (/** @type {any} */ _u, /** @type {number[]} */ v) =>
+            v.map((s, i) => `${Number(s.toFixed(3))}${i === v.length - 1 ? ' s' : ''}`),
         },
-        [t, ...curves.map((c) => c.angle.map((v) => v * DEGREE))],
-        body,
-      ),
-    );
-    this.#charts.push(chart);
-    new ResizeObserver(([entry]) => {
-      const { width, height } = entry.contentRect;
-      if (width > 60) chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
-    }).observe(body);
+        { size: 40, values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((d) => `${d}°`) },
+      ],
+      font: '12px',
+      cursor: { show: false },
+      hooks: {
+        drawAxes: [(/** @type {any} */ u) => drawShades(u, rules, ink)],
+        draw: [(/** @type {any} */ u) => drawNamedRules(u, rules, ink, 1)],
+      },
+    });
     return figure;
-  }
-
-  /** What lies beyond the stop, under the curves. @param {any} u @param {Rule[]} rules */
-  #under(u, rules) {
-    for (const { value } of rules.filter((r) => r.danger)) {
-      u.ctx.fillStyle = this.#colors['limit-fill'];
-      u.ctx.fillRect(u.bbox.left, u.bbox.top, u.bbox.width, Math.round(u.valToPos(value, 'y', true)) - u.bbox.top);
-    }
-  }
-
-  /** The reference and the stop, and what they are called. @param {any} u @param {Rule[]} rules */
-  #over(u, rules) {
-    u.ctx.save();
-    for (const { value, label, danger } of rules) {
-      const y = Math.round(u.valToPos(value, 'y', true));
-      drawRule(u, y, this.#colors[danger ? 'danger' : 'ink'], danger ? [] : [1, 5]);
-      drawLabel(u, y, label, 1, this.#colors[danger ? 'danger' : 'ink'], this.#colors.panel);
-    }
-    u.ctx.restore();
   }
 }

@@ -123,6 +123,13 @@ const controller = (axis, y, { kp, ti }) =>
 
 const UP = 76; // of pitch's row
 const LOW = 164; // of yaw's
+/** Both commands, from one place to another, with their names at `at`. */
+const commands = (/** @type {number} */ from, /** @type {number} */ at, to = 242) => [
+  arrow(`${from},${UP} ${to},${UP}`),
+  arrow(`${from},${LOW} ${to},${LOW}`),
+  label(at, UP - 8, 'v', 'p', 'tiny'),
+  label(at, LOW - 8, 'v', 'y', 'tiny'),
+];
 const crossed = (/** @type {number} */ from, /** @type {number} */ to, /** @type {number} */ sign) => [
   arrow(`144,${from} 160,${from} 222,${to} 242,${to}`),
   sign < 0 ? words(154, from + 17, '−', { kind: 'sign' }) : '',
@@ -134,24 +141,20 @@ const crossed = (/** @type {number} */ from, /** @type {number} */ to, /** @type
  * @param {import('../model/loop_values.js').Two|undefined} mixing
  */
 function between({ asked }, mixing) {
-  const names = [label(233, UP - 8, 'v', 'p', 'tiny'), label(233, LOW - 8, 'v', 'y', 'tiny')];
   if (asked.decoupler) {
     return [
       arrow(`144,${UP} 154,${UP}`),
       arrow(`144,${LOW} 154,${LOW}`),
       block(154, 48, 70, 144, label(189, 70, 'D'), ...entries(mixing, 186, 116, 34, 2, 'fig-3-D')),
-      arrow(`224,${UP} 242,${UP}`),
-      arrow(`224,${LOW} 242,${LOW}`),
-      ...names,
+      ...commands(224, 233),
     ];
   }
-  if (asked.pairing === 'cross')
-    return [...crossed(UP, LOW, mixing?.[1][0] ?? 1), ...crossed(LOW, UP, mixing?.[0][1] ?? 1), ...names];
+  if (asked.pairing !== 'cross') return commands(144, 194);
   return [
-    arrow(`144,${UP} 242,${UP}`),
-    arrow(`144,${LOW} 242,${LOW}`),
-    label(194, UP - 8, 'v', 'p', 'tiny'),
-    label(194, LOW - 8, 'v', 'y', 'tiny'),
+    ...crossed(UP, LOW, mixing?.[1][0] ?? 1),
+    ...crossed(LOW, UP, mixing?.[0][1] ?? 1),
+    label(233, UP - 8, 'v', 'p', 'tiny'),
+    label(233, LOW - 8, 'v', 'y', 'tiny'),
   ];
 }
 
@@ -193,22 +196,41 @@ const inner = (/** @type {number|undefined} */ lambda) =>
       : [label(282, 158, 'λ', '11', 'tiny'), value(282, 178, figure(lambda, 5), 'middle', 'fig-3-lambda')]),
   );
 
+/**
+ * Fig. 3 but for what stands between the errors and the inner loop.
+ * @param {Walk} walk
+ * @param {string} title
+ * @param {string} description
+ * @param {boolean} closed
+ * @param {...any} between
+ */
+function loops(walk, title, description, closed, ...between) {
+  const lambda = walk.rga?.[0][0];
+  const tail = lambda === undefined ? '' : ` The relative gain lambda 11 is ${figure(lambda, 5)}.`;
+  return drawing(
+    'fig-3-drawing',
+    WIDTH,
+    240,
+    title,
+    description + tail,
+    row('pitch', closed),
+    row('yaw', closed),
+    ...between,
+    inner(lambda),
+  );
+}
+
 /** Fig. 3, with what is paired with what; without outer loops, what takes their place. @param {Walk} walk */
 export function outerLoops(walk) {
   const { asked } = walk;
-  const lambda = walk.rga?.[0][0];
-  const tail = lambda === undefined ? '' : ` The relative gain lambda 11 is ${figure(lambda, 5)}.`;
   if (walk.integral) {
-    return drawing(
-      'fig-3-drawing',
-      WIDTH,
-      240,
+    return loops(
+      walk,
       'The method’s own integral action',
       `The errors of theta and psi are integrated and weighted by the method's own matrix of gains, rows ` +
         `${walk.integral.map((/** @type {number[]} */ r) => r.map((v) => figure(v, 4)).join(', ')).join('; ')}; ` +
-        `the result enters the inner loop.${tail}`,
-      row('pitch', true),
-      row('yaw', true),
+        'the result enters the inner loop.',
+      true,
       block(
         66,
         48,
@@ -218,23 +240,16 @@ export function outerLoops(walk) {
         words(131, 94, 'integral action', { kind: 'muted' }),
         ...entries(walk.integral, 126, 128, 62, 4, 'fig-3-integral'),
       ),
-      arrow(`196,${UP} 242,${UP}`),
-      arrow(`196,${LOW} 242,${LOW}`),
-      label(219, UP - 8, 'v', 'p', 'tiny'),
-      label(219, LOW - 8, 'v', 'y', 'tiny'),
-      inner(lambda),
+      ...commands(196, 219),
     );
   }
   if (asked.outer === 'none') {
-    return drawing(
-      'fig-3-drawing',
-      WIDTH,
-      240,
+    return loops(
+      walk,
       'No outer loops',
       'Without outer loops the references pass through the inverse of G hat of 0 and enter the inner loop; nothing ' +
-        `is fed back but the state.${tail}`,
-      row('pitch', false),
-      row('yaw', false),
+        'is fed back but the state.',
+      false,
       block(
         66,
         48,
@@ -243,11 +258,7 @@ export function outerLoops(walk) {
         label(121, 76, 'Ĝ(0)⁻¹'),
         ...entries(walk.G_0 && inverseOf(walk.G_0), 118, 116, 50, 4, 'fig-3-before'),
       ),
-      arrow(`176,${UP} 242,${UP}`),
-      arrow(`176,${LOW} 242,${LOW}`),
-      label(209, UP - 8, 'v', 'p', 'tiny'),
-      label(209, LOW - 8, 'v', 'y', 'tiny'),
-      inner(lambda),
+      ...commands(176, 209),
     );
   }
   const mixing = mixingOf(walk.G_0, asked.pairing, asked.decoupler);
@@ -257,19 +268,15 @@ export function outerLoops(walk) {
     : asked.pairing === 'cross'
       ? 'Crosswise: pitch’s output is the command v y, yaw’s is v p.'
       : 'Pitch’s output is the command v p, yaw’s is v y.';
-  return drawing(
-    'fig-3-drawing',
-    WIDTH,
-    240,
+  return loops(
+    walk,
     'PI control of the whole loop',
     `The errors of theta and psi each drive a PI controller: pitch ${figure(pitch.kp)} volts per radian and ` +
       `${figure(pitch.ti)} seconds, yaw ${figure(yaw.kp)} and ${figure(yaw.ti)}. ${paired} The angles are fed back ` +
-      `to their references with a minus sign.${tail}`,
-    row('pitch', true),
-    row('yaw', true),
+      'to their references with a minus sign.',
+    true,
     controller('p', UP, pitch),
     controller('y', LOW, yaw),
     ...between(walk, mixing),
-    inner(lambda),
   );
 }

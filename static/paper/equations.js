@@ -7,7 +7,7 @@ import { freeBody } from './figures.js';
 import { anchorOf } from './math.js';
 import { rich } from './rich.js';
 import { erratum } from './errata.js';
-import { typeset } from './forms.js';
+import { chapter, typeset } from './forms.js';
 import { CHAPTERS, MARKS } from './words.js';
 
 /**
@@ -127,10 +127,9 @@ export function chapters(paper, parts) {
   const errata = new Map(paper.errata.map((e) => [e.name, e]));
   const told = /** @type {Set<string>} */ (new Set());
   return CHAPTERS.map(({ name, title, text, look }, i) =>
-    h(
-      'section',
-      { class: 'chapter', id: `paper-${name}`, 'aria-labelledby': `paper-${name}-title` },
-      h('h3', { id: `paper-${name}-title` }, h('span', { class: 'ordinal' }, String(i + 1)), title),
+    chapter(
+      name,
+      [h('span', { class: 'ordinal' }, String(i + 1)), title],
       h(
         'div',
         { class: 'prose' },

@@ -5,7 +5,7 @@
 import { h } from '../ui/index.js';
 import { countsOf } from './math.js';
 import { rich } from './rich.js';
-import { typeset } from './forms.js';
+import { chapter, typeset } from './forms.js';
 import { COPY } from './words.js';
 
 /** @type {Record<string, string>} */
@@ -93,10 +93,9 @@ const list = (slips, testid) =>
 export function errata(paper) {
   const { errata: confirmed, unclear } = countsOf(paper);
   const having = (/** @type {string} */ standing) => paper.errata.filter((e) => e.standing === standing);
-  return h(
-    'section',
-    { class: 'chapter', id: 'paper-errata', 'aria-labelledby': 'paper-errata-title' },
-    h('h3', { id: 'paper-errata-title' }, 'Errata'),
+  return chapter(
+    'errata',
+    'Errata',
     h(
       'p',
       { class: 'prose' },

@@ -1,5 +1,8 @@
-/** A typeset formula with its button for copying: scrolls in itself, set smaller where it is long. */
-import { copyButton, formula, h } from '../ui/index.js';
+/**
+ * What the section is made of: chapters, and typeset formulas with their button for copying that scroll in themselves
+ * and are set smaller where they are long.
+ */
+import { copyButton, formula, h, wide } from '../ui/index.js';
 import { rich } from './rich.js';
 
 /** @typedef {import('./math.js').Form} Form */
@@ -8,6 +11,15 @@ const LONG = 7500; // and above which it is set smaller still on paper, where no
 
 const sizeOf = (/** @type {Form} */ { mathml = '' }) =>
   mathml.length > LONG ? 'dense long' : mathml.length > DENSE ? 'dense' : '';
+
+/** @param {string} name @param {any} title @param {...any} content */
+export const chapter = (name, title, ...content) =>
+  h(
+    'section',
+    { class: 'chapter', id: `paper-${name}`, 'aria-labelledby': `paper-${name}-title` },
+    h('h3', { id: `paper-${name}-title` }, title),
+    ...content,
+  );
 
 /** A formula that scrolls in itself, and can be copied. @param {Form} form @param {string} label */
 export const typeset = (form, label) =>
@@ -26,8 +38,8 @@ export const typeset = (form, label) =>
 
 /** @param {Form} form @param {string} label */
 const scrolling = (form, label) =>
-  h(
-    'div',
-    { class: `scroll ${sizeOf(form)}`, tabindex: 0, role: 'group', 'aria-label': label },
+  wide(
+    label,
     form.mathml ? formula(form.mathml) : h('span', { class: 'plain' }, rich(form.text ?? form.latex ?? '–')),
+    `scroll ${sizeOf(form)}`,
   );

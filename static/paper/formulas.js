@@ -2,10 +2,10 @@
  * K and the RGA as typeset formulas, each entry of K beside its present value. Fetched once per structure, when first
  * seen.
  */
-import { significant } from '../text/index.js';
+import { messageOf, significant } from '../text/index.js';
 import { bodyOf, FULL_RANK, presetOf } from '../model/index.js';
 import { getSymbolic } from '../net/index.js';
-import { copyButton, formula, h, Lazy, setText } from '../ui/index.js';
+import { copyButton, formula, h, Lazy, setText, whileSeen } from '../ui/index.js';
 import { SymbolCards } from './symbol_cards.js';
 import { walk } from './walk.js';
 
@@ -46,10 +46,10 @@ export class FormulasPanel {
         this.cards.refresh();
       },
     });
-    new IntersectionObserver((entries) => {
-      this.#visible = entries.some((e) => e.isIntersecting);
+    whileSeen(root, (seen) => {
+      this.#visible = seen;
       this.render(store.state);
-    }).observe(root);
+    });
   }
 
   /** @param {import('../types.js').State} state */
@@ -76,13 +76,7 @@ export class FormulasPanel {
       if (structure === this.#structure) this.#show(symbolic);
     } catch (error) {
       this.#structure = '';
-      this.body.replaceChildren(
-        h(
-          'p',
-          { class: 'failure' },
-          `The formulas could not be fetched: ${error instanceof Error ? error.message : error}`,
-        ),
-      );
+      this.body.replaceChildren(h('p', { class: 'failure' }, `The formulas could not be fetched: ${messageOf(error)}`));
     }
     this.body.removeAttribute('aria-busy');
   }

@@ -30,9 +30,8 @@
  * @typedef {{title: string, authors: string, equations: Equation[], symbols: import('./symbols.js').Term[], numbers:
  *   PrintedNumber[], errata: Erratum[], consequence: Consequence[], figures: Curves[]}} Paper
  */
-import { complex } from '../text/index.js';
+import { polesText as plainPoles, typographic } from '../text/index.js';
 
-const MINUS = '\u2212';
 const FIRM = '\u00a0'; // a space at which no line breaks
 
 /** "Eqs. 21, 22" → "eq-21-22", "Fig. 1" → "fig-1", "trim" → "eq-trim". @param {string} number */
@@ -79,7 +78,7 @@ export const digitsText = ({ digits, digits_printed }) =>
   digits === undefined ? '–' : `${digits} of ${digits_printed}`;
 
 /** ASCII minus before a digit → minus. @param {string} text */
-export const minus = (text) => text.replace(/(^|[\s(=,])-(?=\d)/g, `$1${MINUS}`);
+export const minus = (text) => text.replace(/(^|[\s(=,])-(?=\d)/g, '$1\u2212');
 
 /**
  * A number with that many digits at most and no trailing zeros; what rounding has left of an integer is that integer.
@@ -88,11 +87,11 @@ export const minus = (text) => text.replace(/(^|[\s(=,])-(?=\d)/g, `$1${MINUS}`)
 export function figure(v, digits = 5) {
   if (v === undefined || v === null || !Number.isFinite(v)) return '–';
   const near = Math.round(v);
-  if (Math.abs(v - near) < 1e-12 * Math.max(1, Math.abs(v))) return String(near || 0).replace('-', MINUS);
+  if (Math.abs(v - near) < 1e-12 * Math.max(1, Math.abs(v))) return typographic(String(near || 0));
   const rounded = Number(v.toPrecision(digits));
   const size = Math.abs(rounded);
   const text = size >= 1e6 || size < 1e-4 ? rounded.toExponential().replace('e+', 'e') : String(rounded);
-  return text.replaceAll('-', MINUS);
+  return typographic(text);
 }
 
 /**
@@ -107,11 +106,7 @@ export function clean(matrix) {
 }
 
 /** A conjugate pair is written once, with ±. @param {Complex[]} poles @param {number} [decimals] */
-export const polesText = (poles, decimals = 3) =>
-  poles
-    .filter((p) => p.im >= 0)
-    .map((p) => complex(p, decimals).replace('+', '±').replaceAll(' ', FIRM))
-    .join(', ');
+export const polesText = (poles, decimals = 3) => plainPoles(poles, decimals).replace(/(?<!,) /g, FIRM);
 
 /** @param {Complex} p */
 export const dampingRatio = (p) => -p.re / Math.hypot(p.re, p.im);

@@ -1,8 +1,9 @@
 /**
  * Every number that the paper prints, beside what its formula gives: the table that is meant to be searched in seconds.
  */
-import { h } from '../ui/index.js';
+import { h, head, wide } from '../ui/index.js';
 import { countsOf, digitsText, figure, groupBy, minus } from './math.js';
+import { chapter } from './forms.js';
 import { named, rich } from './rich.js';
 
 /** @typedef {import('./math.js').PrintedNumber} PrintedNumber */
@@ -45,10 +46,9 @@ function row(n) {
 /** @param {import('./math.js').Paper} paper */
 export function numbers(paper) {
   const c = countsOf(paper);
-  return h(
-    'section',
-    { class: 'chapter', id: 'paper-numbers', 'aria-labelledby': 'paper-numbers-title' },
-    h('h3', { id: 'paper-numbers-title' }, 'Every printed number'),
+  return chapter(
+    'numbers',
+    'Every printed number',
     h(
       'p',
       { class: 'prose' },
@@ -59,21 +59,12 @@ export function numbers(paper) {
         'of the design file; “corrected” puts the same values into the right formula, in Table I it is the value ' +
         'that the results used; “on the rig of the manual” puts the manual’s values into the right formula.',
     ),
-    h(
-      'div',
-      { class: 'sideways', tabindex: 0, role: 'group', 'aria-label': 'Table of the printed numbers' },
+    wide(
+      'Table of the printed numbers',
       h(
         'table',
         { class: 'paper-table numbers-table', 'data-testid': 'paper-numbers' },
-        h(
-          'thead',
-          {},
-          h(
-            'tr',
-            {},
-            COLUMNS.map((name) => h('th', { scope: 'col' }, name)),
-          ),
-        ),
+        head(COLUMNS),
         groupBy(paper.numbers, (n) => n.where).map(([where, list]) =>
           h(
             'tbody',
@@ -83,6 +74,7 @@ export function numbers(paper) {
           ),
         ),
       ),
+      'sideways',
     ),
   );
 }

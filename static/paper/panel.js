@@ -4,7 +4,7 @@
  */
 import { bodyOf, presetOf } from '../model/index.js';
 import { getPaper } from '../net/index.js';
-import { h, Lazy } from '../ui/index.js';
+import { button, h, Lazy } from '../ui/index.js';
 import { placeIn } from '../link/index.js';
 import { countsOf } from './math.js';
 import { rich } from './rich.js';
@@ -15,6 +15,7 @@ import { contents, follow } from './contents.js';
 import { PaperCurves } from './curves.js';
 import { chapters, mark } from './equations.js';
 import { errata } from './errata.js';
+import { chapter } from './forms.js';
 import { LiveNumbers } from './live.js';
 import { numbers } from './numbers.js';
 import { askStructure, StructureForms, structureOf } from './structure.js';
@@ -95,10 +96,9 @@ export class PaperPanel {
       numbers(paper),
       errata(paper),
       consequence(paper),
-      h(
-        'section',
-        { class: 'chapter', id: 'paper-symbols', 'aria-labelledby': 'paper-symbols-title' },
-        h('h3', { id: 'paper-symbols-title' }, 'Symbols'),
+      chapter(
+        'symbols',
+        'Symbols',
         h(
           'p',
           { class: 'prose' },
@@ -113,7 +113,7 @@ export class PaperPanel {
     const nav = contents(
       paper.equations,
       h('div', { class: 'present-box' }, h('h3', {}, 'The present rig'), live.rig),
-      h('button', { type: 'button', class: 'print', onclick: print }, 'Print this section'),
+      button({ class: 'print', onclick: print }, 'Print this section'),
     );
     this.body.replaceChildren(nav, text);
     follow(nav, text);

@@ -2,7 +2,7 @@
  * Points on the curves that say what they are under the pointer or by Tab, and take the time there when pressed: round
  * on the pitch step's, square on the yaw step's.
  */
-import { drawingUnit, h, setAttr, setText } from '../ui/index.js';
+import { button, drawingUnit, h, setAttr, setText } from '../ui/index.js';
 
 /** @typedef {import('./characteristics.js').Mark} Mark */
 const MOST = 4; // of a plot: rise, peak, settling, the other axis
@@ -15,8 +15,7 @@ export class PlotMarks {
   constructor(chart, onSeek) {
     this.chart = chart;
     this.points = Array.from({ length: MOST }, (_, i) =>
-      h('button', {
-        type: 'button',
+      button({
         class: 'mark-point',
         hidden: true,
         onclick: (/** @type {Event} */ e) => {

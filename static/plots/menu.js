@@ -1,7 +1,7 @@
 /** The small menu of a plot: its picture and its numbers as files. */
-import { fixed, say } from '../text/index.js';
+import { polesText, say } from '../text/index.js';
 import { nameOf } from '../model/index.js';
-import { h, icon, popupButton, saveFile } from '../ui/index.js';
+import { button, h, icon, popupButton, saveFile } from '../ui/index.js';
 import { drawPicture } from './picture.js';
 import { csvOf, linesOf, tableOf } from './export.js';
 import { drawPlot, fileName } from './image.js';
@@ -16,11 +16,8 @@ import { drawPlot, fileName } from './image.js';
 export function subtitle(store) {
   const { design } = store.state;
   if (!design) return '';
-  const poles = design.poles
-    .filter((p) => p.im >= 0)
-    .map((p) => (p.im ? `${fixed(p.re)} ± ${fixed(p.im)}j` : fixed(p.re)))
-    .join(', ');
-  const about = say`${store.preset?.title ?? design.preset} · poles ${poles} rad/s · ${nameOf(design)}`;
+  const rig = store.preset?.title ?? design.preset;
+  const about = say`${rig} · poles ${polesText(design.poles)} rad/s · ${nameOf(design)}`;
   return design.outer === 'pi' ? say`${about}, PI loops` : about;
 }
 
@@ -42,11 +39,7 @@ function saveButton(testid, title, save) {
       { class: 'row' },
       h('span', { class: 'caption' }, `Save ${title}`),
       .../** @type {('PNG'|'CSV')[]} */ (['PNG', 'CSV']).map((kind) =>
-        h(
-          'button',
-          { type: 'button', title: WORDS[kind], 'data-testid': `save-${testid}-${kind}`, onclick: save[kind] },
-          kind,
-        ),
+        button({ title: WORDS[kind], 'data-testid': `save-${testid}-${kind}`, onclick: save[kind] }, kind),
       ),
     ),
   ];

@@ -4,11 +4,11 @@
  * @typedef {import('../types.js').State} State
  * @typedef {import('../model/traces.js').Signal} Signal
  */
-import uPlot from '../vendor/uplot/uPlot.esm.js';
 import { marksOf } from './characteristics.js';
-import { fixed, say, t as word } from '../text/index.js';
-import { colorOf, COLORS, extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from '../model/index.js';
-import { followsPage, h, pictureScale, setText, symbol } from '../ui/index.js';
+import { fixed, say, t as word, typographic } from '../text/index.js';
+import { extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from '../model/index.js';
+import { button, h, pictureScale, setText, symbol } from '../ui/index.js';
+import { chartBody, ink, makeChart, scaled } from '../charts/index.js';
 import { PlotGhosts } from './ghosts.js';
 import { PlotMarks } from './marks.js';
 import { plotMenu } from './menu.js';
@@ -33,12 +33,10 @@ const ABOUT = {
   V_p: { base: 'V', sub: 'p', title: 'pitch motor', unit: ' V' },
   V_y: { base: 'V', sub: 'y', title: 'yaw motor', unit: ' V' },
 };
-const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const AXIS_WIDTH = 42;
 const PLAYED = { theta: 'pitch step', psi: 'yaw step', both: 'both steps' };
 
 export class Plots {
-  /** @type {Record<string, string>} */ #colors = {};
   /** @type {Record<string, [number, number]|undefined>} */ #ranges = {};
   /** @type {[number, number]} */ #time = [0, 5];
   /** @type {[number, number]|null} */ #zoom = null;
@@ -62,10 +60,8 @@ export class Plots {
     this.at = h('span');
     this.played = h('span', { class: 'played' });
     this.when = h('span', { class: 'when', 'data-testid': 'plot-time' }, this.at, this.played);
-    this.unzoom = h(
-      'button',
+    this.unzoom = button(
       {
-        type: 'button',
         class: 'unzoom',
         hidden: true,
         'data-testid': 'unzoom',
@@ -74,33 +70,7 @@ export class Plots {
       },
       'Whole time',
     );
-    this.#readColors();
     this.plots = SIGNALS.map((signal) => this.#build(signal));
-    for (const query of ['(prefers-color-scheme: dark)', '(prefers-contrast: more)']) {
-      matchMedia(query).addEventListener('change', () => {
-        this.#readColors();
-        for (const { chart } of this.plots) chart.redraw(false);
-      });
-    }
-  }
-
-  #readColors() {
-    const style = getComputedStyle(document.documentElement);
-    const pins = Array.from({ length: COLORS }, (_, i) => colorOf(i));
-    for (const name of [
-      'panel',
-      'pitch',
-      'yaw',
-      'ink',
-      'muted',
-      'grid',
-      'halo',
-      'danger',
-      'warn',
-      'limit-fill',
-      ...pins,
-    ])
-      this.#colors[name] = style.getPropertyValue(`--${name}`).trim();
   }
 
   /** @param {Signal} signal */
@@ -112,13 +82,10 @@ export class Plots {
         title: `${axis === 'theta' ? 'pitch' : 'yaw'} step`,
       }),
     );
-    const body = h('div', {
-      class: 'plot-body',
-      tabindex: 0,
-      role: 'group',
-      'aria-label': `${about.title}: left and right move the time, plus and minus zoom, Escape shows the whole time`,
-      onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e),
-    });
+    const body = chartBody(
+      `${about.title}: left and right move the time, plus and minus zoom, Escape shows the whole time`,
+      (e) => this.#key(e),
+    );
     const first = signal === SIGNALS[0] ? [this.when, this.unzoom] : [];
     const menu = plotMenu(this.store, signal, `${about.title} over time`, () => ({
       x: this.#zoom ?? this.#time,
@@ -146,94 +113,67 @@ export class Plots {
       body,
     );
     this.root.append(figure);
-    const color = (/** @type {string} */ name) => () => this.#colors[name];
-    const ink = (/** @type {string} */ name) => this.#colors[name];
     const rules = () => rulesOf(this.store.state.reply, signal);
     const regions = () => regionsOf(this.store.state.reply, signal, this.store.state.requirements);
-    const line = (/** @type {string} */ name, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({
-      stroke: color(name),
+    const line = (/** @type {string} */ color, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({
+      color,
       width,
       dash,
       auto: false,
       paths: plainPath,
-      points: { show: false },
     });
     const last = () => signal === 'V_y' || (signal === 'V_p' && this.root.classList.contains('two-columns'));
     /** @type {PlotGhosts|undefined} */ let ghosts;
     /** @type {PlotMarks|undefined} */ let marks;
     /** @type {PlotTexts|undefined} */ let texts;
     // auto: false, as the ranges are ours: no trace is searched for its extremes a second time.
-    const chart = followsPage(
-      new Chart(
-        {
-          width: 300,
-          height: 120,
-          legend: { show: false },
-          pxAlign: 0,
-          padding: [() => 6 * pictureScale().type, () => 12 * pictureScale().type, 2, 0],
-          series: [
-            {},
-            { stroke: color('halo'), width: 7, auto: false, paths: plainPath, points: { show: false } },
-            line('pitch', 1.25, [7, 4]),
-            line('yaw', 1.25, [2, 3]),
-            line('yaw', 1.5),
-            line('pitch', 2.4),
-          ],
-          scales: {
-            x: { time: false, range: () => this.#zoom ?? this.#time },
-            y: { range: () => this.#ranges[signal] ?? [0, 1] },
-          },
-          axes: [
-            {
-              grid: { stroke: color('grid'), width: 1 },
-              ticks: { show: false },
-              gap: 4,
-              space: () => 50 * pictureScale().type,
-              size: () => (last() ? 22 * pictureScale().type : 4),
-              values: () => [],
-            },
-            {
-              grid: { stroke: color('grid'), width: 1 },
-              ticks: { show: false },
-              gap: 5,
-              size: () => AXIS_WIDTH * pictureScale().type,
-              space: () => 26 * pictureScale().type,
-              values: () => [],
-            },
-          ],
-          cursor: {
-            y: false,
-            points: { show: false },
-            drag: { x: true, y: false, setScale: false },
-            sync: {
-              key: 'heli2dof',
-              filters: { pub: (/** @type {string} */ type) => type === 'mousemove' || type === 'mouseleave' },
-            },
-            bind: { dblclick: () => () => this.#zoomTo(null) },
-          },
-          hooks: {
-            drawAxes: [
-              (/** @type {any} */ u) => drawShades(u, rules(), ink),
-              (/** @type {any} */ u) => drawRegions(u, regions(), ink),
-              (/** @type {any} */ u) => drawBand(u, signal, this.#cloud, ink),
-            ],
-            draw: [
-              (/** @type {any} */ u) => drawReference(u, rules(), ink),
-              (/** @type {any} */ u) => texts?.draw(rulesSeen(u, rules()), pictureScale().type),
-              () => ghosts?.draw(ink),
-              () => marks?.place(),
-            ],
-            setCursor: [(/** @type {any} */ u) => this.#hovered(u)],
-            setSelect: [(/** @type {any} */ u) => this.#selected(u)],
-          },
+    const chart = makeChart(body, {
+      lines: [
+        line('halo', 7),
+        line('pitch', 1.25, [7, 4]),
+        line('yaw', 1.25, [2, 3]),
+        line('yaw', 1.5),
+        line('pitch', 2.4),
+      ],
+      data: [[0, 1], ...Array(5).fill([null, null])],
+      height: 120,
+      padding: [scaled(6), scaled(12), 2, 0],
+      scales: {
+        x: { range: () => this.#zoom ?? this.#time },
+        y: { range: () => this.#ranges[signal] ?? [0, 1] },
+      },
+      axes: [
+        { gap: 4, size: () => (last() ? scaled(22)() : 4), values: () => [] },
+        { size: AXIS_WIDTH, space: 26, values: () => [] },
+      ],
+      cursor: {
+        drag: { x: true, y: false, setScale: false },
+        sync: {
+          key: 'heli2dof',
+          filters: { pub: (/** @type {string} */ type) => type === 'mousemove' || type === 'mouseleave' },
         },
-        [[0, 1], ...Array(5).fill([null, null])],
-        body,
-      ),
-    );
+        bind: { dblclick: () => () => this.#zoomTo(null) },
+      },
+      hooks: {
+        drawAxes: [
+          (/** @type {any} */ u) => drawShades(u, rules(), ink),
+          (/** @type {any} */ u) => drawRegions(u, regions(), ink),
+          (/** @type {any} */ u) => drawBand(u, signal, this.#cloud, ink),
+        ],
+        draw: [
+          (/** @type {any} */ u) => drawReference(u, rules(), ink),
+          (/** @type {any} */ u) => texts?.draw(rulesSeen(u, rules()), pictureScale().type),
+          () => ghosts?.draw(ink),
+          () => marks?.place(),
+        ],
+        setCursor: [(/** @type {any} */ u) => this.#hovered(u)],
+        setSelect: [(/** @type {any} */ u) => this.#selected(u)],
+      },
+      onSize: () => this.#movePlayhead(),
+    });
     texts = new PlotTexts(chart, {
       time: (v, end) => (last() ? `${Number(v.toFixed(3))}${end ? ' s' : ''}` : ''),
-      axis: (v) => String(Number(v.toPrecision(6))).replace('-', '\u2212'),
+      axis: (v) => typographic(String(Number(v.toPrecision(6)))),
     });
     ghosts = new PlotGhosts(chart, signal);
     marks = new PlotMarks(chart, this.onSeek);
@@ -243,11 +183,6 @@ export class Plots {
       if (chart.cursor.left !== undefined && chart.cursor.left >= 0)
         this.onSeek(chart.posToVal(chart.cursor.left, 'x'));
     });
-    new ResizeObserver(([entry]) => {
-      const { width, height } = entry.contentRect;
-      if (width > 60 && height > 40) chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
-      this.#movePlayhead();
-    }).observe(body);
     return { signal, chart, values, head, ghosts, marks };
   }
 

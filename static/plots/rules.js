@@ -7,7 +7,7 @@
  * @typedef {{left: number, right: number, inner: number, outer: number}} Region s, and in the plot's unit: the border,
  *   and how far it is drawn
  */
-import { DEGREE, fixed, say } from '../text/index.js';
+import { DEGREE, fixed, say, typographic } from '../text/index.js';
 import { isVoltage } from '../model/index.js';
 import { pictureScale } from '../ui/index.js';
 
@@ -36,8 +36,6 @@ export function limitOf(reply, signal) {
   return signal === 'psi' ? undefined : limits?.[signal];
 }
 
-const minus = (/** @type {number} */ v) => `${v < 0 ? '\u2212' : ''}${Math.abs(v)}`;
-
 /** The lines across a plot, with what they say. @param {Reply|null} reply @param {Signal} signal @returns {Rule[]} */
 export function rulesOf(reply, signal) {
   const [limit, reference] = [limitOf(reply, signal), referenceOf(reply, signal)];
@@ -46,7 +44,7 @@ export function rulesOf(reply, signal) {
       ? []
       : [limit, -limit].map((value) => ({
           value,
-          label: signal === 'theta' ? say`stop ${fixed(value, 1)}°` : say`limit ${minus(value)} V`,
+          label: signal === 'theta' ? say`stop ${fixed(value, 1)}°` : say`limit ${typographic(String(value))} V`,
           danger: true,
         }));
   return reference
@@ -178,8 +176,25 @@ export function drawReference(u, rules, color) {
   u.ctx.restore();
 }
 
+/**
+ * All with what they are called, after the lines are drawn.
+ * @param {any} u
+ * @param {Rule[]} rules
+ * @param {Color} color
+ * @param {1|-1} side of the line that its name stands on, 1: below it
+ */
+export function drawNamedRules(u, rules, color, side) {
+  u.ctx.save();
+  for (const rule of rulesSeen(u, rules)) {
+    const [y, stroke] = [heightOf(u, rule), color(rule.danger ? 'danger' : 'ink')];
+    drawRule(u, y, stroke, rule.danger ? [] : [1, 5]);
+    drawLabel(u, y, rule.label, side, stroke, color('panel'));
+  }
+  u.ctx.restore();
+}
+
 /** A horizontal line. @param {any} u @param {number} y @param {string} stroke @param {number[]} dash */
-export function drawRule({ ctx, bbox }, y, stroke, dash) {
+function drawRule({ ctx, bbox }, y, stroke, dash) {
   const size = devicePixelRatio * pictureScale().line;
   Object.assign(ctx, { strokeStyle: stroke, lineWidth: 1.25 * size, lineCap: 'round' });
   ctx.setLineDash(dash.map((d) => d * size));
@@ -198,7 +213,7 @@ export function drawRule({ ctx, bbox }, y, stroke, dash) {
  * @param {string} ink
  * @param {string} paper
  */
-export function drawLabel({ ctx, bbox }, y, label, side, ink, paper) {
+function drawLabel({ ctx, bbox }, y, label, side, ink, paper) {
   const size = devicePixelRatio * pictureScale().type;
   const [x, foot] = [bbox.left + bbox.width - 4 * size, y + side * 3 * size];
   Object.assign(ctx, {

@@ -1,7 +1,7 @@
 /** Which column of a recording is what, in which units, with which signs; how its text was split; its first rows. */
 import { significant } from '../text/index.js';
 import { allowed } from '../model/index.js';
-import { h, NumberField, setText, symbol } from '../ui/index.js';
+import { h, head, NumberField, setText, symbol, wide } from '../ui/index.js';
 import { DECIMALS, ROLES, SEPARATORS, TIME_UNITS } from './recordings.js';
 
 /** @typedef {import('../types.js').RecordingColumns} RecordingColumns */
@@ -32,12 +32,8 @@ export class RecordingMapping {
     /** How text is split; shown apart, since it is wanted where nothing could be read, too. */
     this.text = h('div', { class: 'recording-mapping', hidden: true });
     this.findings = h('ul', { class: 'recording-remarks' });
-    this.head = h('div', {
-      class: 'scroll sideways',
-      tabindex: 0,
-      role: 'group',
-      'aria-label': 'First rows of the file',
-    });
+    this.table = h('table', { class: 'compare-table', 'data-testid': 'recording-preview' });
+    this.head = wide('First rows of the file', this.table);
     this.node = h('div', {}, this.controls, this.findings, this.head);
   }
 
@@ -229,7 +225,7 @@ export class RecordingMapping {
 
   /** @param {any} preview */
   #rows(preview) {
-    const head = preview.columns.map((/** @type {string} */ name) =>
+    const columns = preview.columns.map((/** @type {string} */ name) =>
       h('th', { scope: 'col', translate: 'no' }, preview.units[name] ? `${name} (${preview.units[name]})` : name),
     );
     const row = (/** @type {(number|null)[]} */ cells, /** @type {number} */ i) =>
@@ -241,14 +237,6 @@ export class RecordingMapping {
       );
     const caption = h('caption', {});
     setText(caption, 'First rows, as they stand in the file');
-    this.head.replaceChildren(
-      h(
-        'table',
-        { class: 'compare-table', 'data-testid': 'recording-preview' },
-        caption,
-        h('thead', {}, h('tr', {}, h('th', { scope: 'col' }, 'Row'), head)),
-        h('tbody', {}, preview.preview.map(row)),
-      ),
-    );
+    this.table.replaceChildren(caption, head(['Row', ...columns]), h('tbody', {}, preview.preview.map(row)));
   }
 }

@@ -3,7 +3,7 @@
  * from it.
  */
 import { significant } from '../text/index.js';
-import { h, setText, symbol } from '../ui/index.js';
+import { button, check, h, head, setText, symbol, wide } from '../ui/index.js';
 import { RecordingFeed } from './feed.js';
 import {
   adopted,
@@ -37,8 +37,8 @@ export class RecordingsPanel {
   constructor(root, store) {
     this.store = store;
     this.feed = new RecordingFeed(store);
-    const button = (/** @type {string} */ id, /** @type {string} */ text, /** @type {() => void} */ act, title = '') =>
-      h('button', { type: 'button', 'data-testid': `recording-${id}`, title: title || undefined, onclick: act }, text);
+    const tool = (/** @type {string} */ id, /** @type {string} */ text, /** @type {() => void} */ act, title = '') =>
+      button({ 'data-testid': `recording-${id}`, title: title || undefined, onclick: act }, text);
     this.file = h('input', {
       type: 'file',
       multiple: true,
@@ -47,7 +47,7 @@ export class RecordingsPanel {
       'data-testid': 'recording-file',
       onchange: () => this.#send(),
     });
-    this.sample = button(
+    this.sample = tool(
       'sample',
       'Try with a sample',
       () => this.#sample(),
@@ -68,28 +68,20 @@ export class RecordingsPanel {
       { 'data-testid': 'recording-driver', onchange: () => this.feed.drive(this.driver.value) },
       Object.entries(DRIVERS).map(([value, text]) => h('option', { value }, text)),
     );
-    this.again = button('overlay', 'Simulate again', () => this.feed.overlay(), 'The design has changed since');
+    this.again = tool('overlay', 'Simulate again', () => this.feed.overlay(), 'The design has changed since');
     this.about = h('p', { class: 'caption' });
     this.free = h('div', { class: 'lock-list' });
-    this.run = button('identify', 'Identify', () => this.feed.identify(this.#free()));
-    this.cancel = button('cancel', 'Cancel', () => this.feed.cancel());
+    this.run = tool('identify', 'Identify', () => this.feed.identify(this.#free()));
+    this.cancel = tool('cancel', 'Cancel', () => this.feed.cancel());
     this.progress = h('p', { class: 'caption', role: 'status', 'data-testid': 'recording-progress' });
     this.rows = h('tbody');
     this.table = h(
       'table',
       { class: 'compare-table', hidden: true, 'data-testid': 'recording-estimates' },
-      h(
-        'thead',
-        {},
-        h(
-          'tr',
-          {},
-          ['Parameter', 'Unit', 'Before', 'Found', '95 %', 'Interval'].map((text) => h('th', { scope: 'col' }, text)),
-        ),
-      ),
+      head(['Parameter', 'Unit', 'Before', 'Found', '95 %', 'Interval']),
       this.rows,
     );
-    this.adopt = button('adopt', 'Adopt', () => this.#adopt(), "Make these the rig's parameters; Undo takes them back");
+    this.adopt = tool('adopt', 'Adopt', () => this.#adopt(), "Make these the rig's parameters; Undo takes them back");
     this.remarks = h('ul', { class: 'recording-remarks' });
     const card = (/** @type {string} */ title, /** @type {string} */ kind, /** @type {any[]} */ ...content) =>
       h('div', { class: `card ${kind}` }, h('h3', {}, title), content);
@@ -123,11 +115,7 @@ export class RecordingsPanel {
         this.cancel,
       ),
       this.progress,
-      h(
-        'div',
-        { class: 'scroll sideways', tabindex: 0, role: 'group', 'aria-label': 'Identified parameters' },
-        this.table,
-      ),
+      wide('Identified parameters', this.table),
       this.remarks,
       this.adopt,
     );
@@ -235,18 +223,10 @@ export class RecordingsPanel {
     this.#preset = design.preset;
     const first = freeAtFirst({ ...preset.parameters, .../** @type {Record<string, number>} */ (design.parameters) });
     this.free.replaceChildren(
-      ...IDENTIFIABLE.map((name) =>
-        h(
-          'label',
-          { class: 'check' },
-          h('input', {
-            type: 'checkbox',
-            value: name,
-            checked: first.includes(name),
-            'data-testid': `recording-free-${name}`,
-          }),
-          sym(name),
-        ),
+      ...IDENTIFIABLE.map(
+        (name) =>
+          check({ value: name, checked: first.includes(name), 'data-testid': `recording-free-${name}` }, sym(name))
+            .node,
       ),
     );
   }

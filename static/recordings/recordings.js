@@ -3,7 +3,7 @@
  * @typedef {import('../types.js').Recorded} Recorded
  * @typedef {import('../types.js').RecordingColumns} RecordingColumns
  */
-import { count, DEGREE, fixed, forField, say, significant } from '../text/index.js';
+import { count, DEGREE, fixed, inField, say, significant } from '../text/index.js';
 import { bodyOf, initialState } from '../model/index.js';
 
 export const ROLES = [
@@ -174,7 +174,7 @@ export function estimateRows(found) {
   return found.estimates.map((/** @type {any} */ e) => ({
     name: e.name,
     unit: e.unit,
-    before: forField(e.before).replace('-', '\u2212'),
+    before: inField(e.before),
     value: as(e.value, e),
     width: `± ${as((e.high - e.low) / 2, e)}`,
     interval: `${as(e.low, e)} … ${as(e.high, e)}`,

@@ -1,5 +1,5 @@
 /** What is chosen over the scene: where the rig is looked at from, who flies beside it, whether it is drawn. */
-import { Choice, h, recall, remember } from '../ui/index.js';
+import { button, check, Choice, h, recall, remember } from '../ui/index.js';
 import { cameraNamed, CAMERAS } from './cameras.js';
 
 /** @typedef {import('./cameras.js').CameraName} CameraName */
@@ -20,10 +20,8 @@ export class SceneControls {
       onChange: (name) => this.#choose(cameraNamed(name)),
     });
     this.cameras.set(this.camera);
-    this.reset = h(
-      'button',
+    this.reset = button(
       {
-        type: 'button',
         class: 'quiet',
         title: 'Look at the rig as at first',
         'aria-label': 'Reset the camera',
@@ -35,44 +33,44 @@ export class SceneControls {
       },
       '⌂',
     );
-    const toggle = (/** @type {string} */ name, /** @type {boolean} */ standard) => {
-      const box = h('input', {
-        type: 'checkbox',
-        'data-testid': name,
-        checked: (recall(name) ?? String(standard)) === 'true',
-        onchange: () => {
-          remember(name, String(box.checked));
-          onFlights();
+    const flight = (
+      /** @type {string} */ name,
+      /** @type {boolean} */ standard,
+      /** @type {string} */ title,
+      /** @type {string} */ text,
+    ) => {
+      const { box, node } = check(
+        {
+          title,
+          'data-testid': name,
+          checked: (recall(name) ?? String(standard)) === 'true',
+          onchange: () => {
+            remember(name, String(box.checked));
+            onFlights();
+          },
         },
-      });
-      return box;
+        text,
+      );
+      return { box, node };
     };
-    this.linear = toggle(LINEAR, false);
-    this.pins = toggle(PINS, true);
-    this.seen = h('input', { type: 'checkbox', checked: true, 'data-testid': 'show-scene', onchange: onSeen });
-    this.pinsLabel = h(
-      'label',
-      { class: 'check', title: 'Pinned designs fly beside the rig as ghosts', hidden: true },
-      this.pins,
-      'pins',
+    const linear = flight(LINEAR, false, 'Show the linear model beside the rig, as a wire frame', 'linear');
+    const pins = flight(PINS, true, 'Pinned designs fly beside the rig as ghosts', 'pins');
+    const seen = check(
+      {
+        title: 'Draw the rig. Switch it off if graphics are slow.',
+        checked: true,
+        'data-testid': 'show-scene',
+        onchange: onSeen,
+      },
+      '3D',
     );
-    const views = h('div', { class: 'scene-views' }, this.cameras.node, this.reset);
-    this.drawn = [
-      views,
-      h(
-        'label',
-        { class: 'check', title: 'Show the linear model beside the rig, as a wire frame' },
-        this.linear,
-        'linear',
-      ),
-      this.pinsLabel,
-    ];
-    this.node = h(
-      'div',
-      { class: 'scene-controls' },
-      this.drawn,
-      h('label', { class: 'check', title: 'Draw the rig. Switch it off if graphics are slow.' }, this.seen, '3D'),
-    );
+    this.linear = linear.box;
+    this.pins = pins.box;
+    this.seen = seen.box;
+    this.pinsLabel = pins.node;
+    this.pinsLabel.hidden = true;
+    this.drawn = [h('div', { class: 'scene-views' }, this.cameras.node, this.reset), linear.node, pins.node];
+    this.node = h('div', { class: 'scene-controls' }, this.drawn, seen.node);
   }
 
   /** @type {(camera: CameraName) => void} */

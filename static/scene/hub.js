@@ -5,27 +5,22 @@
  * @typedef {import('./clock.js').Snapshot} Snapshot
  * @typedef {{others: number, leads: boolean, count: number}} Windows  count: of the panel's messages so far
  */
-import { backoff, decodeFrame, encodeFrame } from '../net/index.js';
+import { decodeFrame, encodeFrame, LatestSocket } from '../net/index.js';
 
 const PINGS = 4; // at first, to find the shortest way
 const LONG_TRIP = 0.05; // seconds: by half of it two windows may differ
 const MORE_PINGS = 24; // where none was shorter
 const SOON_MS = 250;
 const PING_MS = 20_000;
-const FIRST_RETRY_MS = 500;
-const LAST_RETRY_MS = 10_000;
+const RETRY_MS = { first: 500, longest: 10_000 };
 
 export class Hub {
-  /** @type {WebSocket|null} */ #socket = null;
+  /** @type {LatestSocket} */ #socket;
   #others = 0;
-  #busy = false;
-  /** @type {any} */ #waiting = null;
   /** The server's clock less ours, and how well it is known; seconds. @type {{offset: number, trip: number}|null} */
   #clock = null;
   /** @type {(() => void)[]} What needs the server's time. */ #later = [];
   #pings = 0;
-  #attempt = 0;
-  #closed = false;
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
 
   /**
@@ -50,7 +45,6 @@ export class Hub {
     onClock = () => {},
     now = () => performance.now() / 1000,
   }) {
-    this.open = open;
     this.always = always;
     this.onShown = onShown;
     this.onTransport = onTransport;
@@ -58,7 +52,14 @@ export class Hub {
     this.onWindows = onWindows;
     this.onClock = onClock;
     this.now = now;
-    this.#connect();
+    this.#socket = new LatestSocket({
+      open,
+      onOpen: () => this.#opened(),
+      onMessage: (data) => this.#receive(data),
+      onLost: () => this.#lost(),
+      encode: encodeFrame,
+      retry: RETRY_MS,
+    });
   }
 
   /** How many other windows there are. */
@@ -67,14 +68,12 @@ export class Hub {
   }
 
   get #heard() {
-    return this.#others > 0 || (this.always && this.#socket !== null);
+    return this.#others > 0 || (this.always && this.#socket.alive);
   }
 
   /** Shows the others a design and its motion: float32 arrays in plain objects. @param {any} shown */
   show(shown) {
-    if (!this.#heard) return;
-    this.#waiting = shown;
-    this.#pump();
+    if (this.#heard) this.#socket.asks.put(shown);
   }
 
   /** Tells the others how time runs from now on. @param {Snapshot} snapshot */
@@ -82,57 +81,31 @@ export class Hub {
     if (!this.#heard) return;
     const since = this.now();
     this.#timed((offset) =>
-      this.#send(JSON.stringify({ type: 'transport', playing, time, speed, loop, at: since + offset })),
+      this.#socket.send(JSON.stringify({ type: 'transport', playing, time, speed, loop, at: since + offset })),
     );
   }
 
   close() {
-    this.#closed = true;
     clearTimeout(this.#timer);
-    this.#socket?.close();
+    this.#socket.close();
   }
 
-  #connect() {
-    const socket = this.open();
-    socket.binaryType = 'arraybuffer';
-    this.#socket = socket;
-    socket.onopen = () => {
-      this.#attempt = 0;
-      this.#clock = null;
-      this.#pings = 0;
-      this.#ping();
-    };
-    socket.onmessage = (event) => this.#receive(event.data);
-    socket.onclose = () => this.#lost();
+  #opened() {
+    this.#clock = null;
+    this.#pings = 0;
+    this.#ping();
   }
 
   #lost() {
-    this.#socket = null;
     this.#others = 0;
-    this.#busy = false;
-    this.#waiting = null;
+    this.#socket.asks.drop();
     this.#later = [];
     clearTimeout(this.#timer);
-    if (this.#closed) return;
-    this.#timer = setTimeout(() => this.#connect(), backoff(this.#attempt++, FIRST_RETRY_MS, LAST_RETRY_MS));
-  }
-
-  /** @param {string|ArrayBuffer} message */
-  #send(message) {
-    if (this.#socket?.readyState === 1) this.#socket.send(message);
-  }
-
-  #pump() {
-    if (this.#busy || !this.#waiting) return;
-    this.#busy = true;
-    const shown = this.#waiting;
-    this.#waiting = null;
-    this.#send(encodeFrame(shown));
   }
 
   #ping() {
     this.#pings += 1;
-    this.#send(JSON.stringify({ type: 'clock', sent: this.now() }));
+    this.#socket.send(JSON.stringify({ type: 'clock', sent: this.now() }));
   }
 
   /** @param {number} sent @param {number} server */
@@ -163,10 +136,8 @@ export class Hub {
     if (typeof data !== 'string') return this.onShown(decodeFrame(data));
     const message = JSON.parse(data);
     if (message.type === 'clock') this.#pong(message.sent, message.now);
-    else if (message.type === 'taken') {
-      this.#busy = false;
-      this.#pump();
-    } else if (message.type === 'transport') {
+    else if (message.type === 'taken') this.#socket.done();
+    else if (message.type === 'transport') {
       const { playing, time, speed, loop, at } = message;
       this.#timed((offset) => this.onTransport({ playing, time, speed, loop }, Math.max(0, this.now() + offset - at)));
     } else if (message.type === 'panel') this.onEdits(message.edits, message.count);

@@ -1,7 +1,8 @@
 /** The small menu beside the transport: the rig in a window of its own, and its motion as a file to take away. */
+import { messageOf } from '../text/index.js';
 import { bodyOf, scenarioOf } from '../model/index.js';
 import { motionFile, windowAddress } from '../net/index.js';
-import { copyText, h, popupButton, saveFile, setText, svg } from '../ui/index.js';
+import { button, copyText, h, popupButton, saveFile, setText, svg } from '../ui/index.js';
 
 const arrow = () =>
   svg(
@@ -46,7 +47,7 @@ export function sceneMenu(store, session) {
         saveFile(`heli2dof-motion.${format}`, await motionFile(format, request));
         setText(told, 'Saved.');
       } catch (error) {
-        setText(told, error instanceof Error ? error.message : String(error));
+        setText(told, messageOf(error));
       }
     };
     return [
@@ -57,35 +58,29 @@ export function sceneMenu(store, session) {
       h(
         'div',
         { class: 'row' },
-        h(
-          'button',
+        button(
           {
-            type: 'button',
             'data-testid': 'open-window',
             onclick: () => open(address, '_blank', 'popup,width=1100,height=760,noopener'),
           },
           'Open',
         ),
-        h('button', { type: 'button', 'data-testid': 'copy-window-link', onclick: copy }, 'Copy link'),
+        button({ 'data-testid': 'copy-window-link', onclick: copy }, 'Copy link'),
       ),
       h('h3', {}, 'Take the motion away'),
       h(
         'div',
         { class: 'row' },
-        h(
-          'button',
+        button(
           {
-            type: 'button',
             title: 'One file that plays in any browser, without a network',
             'data-testid': 'save-motion-html',
             onclick: () => save('html'),
           },
           '3D page',
         ),
-        h(
-          'button',
+        button(
           {
-            type: 'button',
             title: 'Viser’s own recording',
             'data-testid': 'save-motion-viser',
             onclick: () => save('viser'),

@@ -3,15 +3,14 @@
  * and what it could not hear is told again; of several wishes only the newest is. Pure but for the clock that it is
  * given.
  */
-import { backoff } from '../net/index.js';
+import { backoff, Latest } from '../net/index.js';
 
 const FIRST_RETRY_MS = 500;
 const LAST_RETRY_MS = 30_000;
 
 export class RigKeeper {
   /** @type {string|null} */ #wanted = null;
-  #busy = false;
-  #stale = false;
+  /** @type {Promise<void>|undefined} */ #telling;
   #attempt = 0;
   /** @type {any} */ #timer;
 
@@ -22,6 +21,7 @@ export class RigKeeper {
   constructor(put, later = (act, delay) => setTimeout(act, delay)) {
     this.put = put;
     this.later = later;
+    this.wishes = new Latest((/** @type {string} */ rig) => void (this.#telling = this.#tell(rig)));
   }
 
   /** Resolves when the server has heard it, or could not. @param {string} rig */
@@ -32,15 +32,9 @@ export class RigKeeper {
 
   /** Tells the server what is wanted: where that is shown already, nothing happens. */
   async again() {
-    this.#stale = true;
     clearTimeout(this.#timer);
-    if (this.#busy || this.#wanted === null) return; // who is telling tells the newest
-    this.#busy = true;
-    while (this.#stale) {
-      this.#stale = false;
-      await this.#tell(this.#wanted);
-    }
-    this.#busy = false;
+    if (this.#wanted !== null) this.wishes.put(this.#wanted);
+    await this.#telling;
   }
 
   /** @param {string} rig */
@@ -49,8 +43,9 @@ export class RigKeeper {
       await this.put(rig);
       this.#attempt = 0;
     } catch {
-      if (!this.#stale)
+      if (!this.wishes.overtaken)
         this.#timer = this.later(() => this.again(), backoff(this.#attempt++, FIRST_RETRY_MS, LAST_RETRY_MS));
     }
+    this.wishes.done();
   }
 }

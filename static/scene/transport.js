@@ -1,6 +1,6 @@
 /** The bar under the scene: play and pause, replay, the time, speed and loop. */
 import { fixed } from '../text/index.js';
-import { h, setAttr, setText } from '../ui/index.js';
+import { button, check, h, setAttr, setText } from '../ui/index.js';
 import { SPEEDS } from './clock.js';
 
 const SPEED_TEXT = /** @type {Record<number, string>} */ ({ 0.25: '¼×', 0.5: '½×' });
@@ -11,11 +11,9 @@ export class Transport {
    *   onLoop: (loop: boolean) => void}} handlers
    */
   constructor({ onToggle, onReplay, onSeek, onSpeed, onLoop }) {
-    this.play = h('button', { type: 'button', class: 'play', 'data-testid': 'play', onclick: onToggle });
-    this.replay = h(
-      'button',
+    this.play = button({ class: 'play', 'data-testid': 'play', onclick: onToggle });
+    this.replay = button(
       {
-        type: 'button',
         class: 'replay',
         'data-testid': 'replay',
         title: 'Play from the start',
@@ -45,17 +43,12 @@ export class Transport {
       },
       SPEEDS.map((s) => h('option', { value: s }, SPEED_TEXT[s] ?? `${s}×`)),
     );
-    this.loop = h('input', { type: 'checkbox', 'data-testid': 'loop', onchange: () => onLoop(this.loop.checked) });
-    this.node = h(
-      'div',
-      { class: 'transport' },
-      this.play,
-      this.replay,
-      this.time,
-      this.clock,
-      this.speed,
-      h('label', { class: 'check', title: 'Play again and again' }, this.loop, 'loop'),
+    const loop = check(
+      { title: 'Play again and again', 'data-testid': 'loop', onchange: () => onLoop(this.loop.checked) },
+      'loop',
     );
+    this.loop = loop.box;
+    this.node = h('div', { class: 'transport' }, this.play, this.replay, this.time, this.clock, this.speed, loop.node);
   }
 
   /** @param {import('./player.js').PlayerState} state */

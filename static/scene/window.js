@@ -5,7 +5,7 @@
  */
 import { degrees, fixed } from '../text/index.js';
 import { designOf, evaluationOf, motionOf } from '../model/index.js';
-import { Live, ofSession } from '../net/index.js';
+import { Live, liveSocket, ofSession, socketAddress } from '../net/index.js';
 import { h, setText } from '../ui/index.js';
 import { Hub, publishClock } from './hub.js';
 import { ScenePlayer } from './player.js';
@@ -14,15 +14,6 @@ import { InStep } from './step.js';
 
 const APP = new URL('../../', location.href); // the page is served at …/scene/{session}/
 const SESSION = location.pathname.split('/').at(-2) ?? '';
-const PROTOCOL = 'heli2dof.v1+binary';
-
-/** @param {string|URL} path @param {URL} base */
-function socketAddress(path, base) {
-  const url = new URL(path, base);
-  url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
-  return url;
-}
-
 class SceneWindow {
   /** @type {any} */ #shown = null;
   /** @type {{design: any, after: number}|null} What is asked of the server. */ #asked = null;
@@ -58,7 +49,7 @@ class SceneWindow {
     });
     this.step = new InStep(this.player);
     this.hub = new Hub({
-      open: () => new WebSocket(socketAddress('hub', new URL('./', location.href))),
+      open: () => new WebSocket(socketAddress(new URL('hub', location.href))),
       always: true,
       onShown: (shown) => this.#show(shown),
       onTransport: (snapshot, elapsed) => this.step.follow(snapshot, elapsed),
@@ -143,7 +134,7 @@ class SceneWindow {
       onReply: (reply) => this.#answered(reply),
       onProblem: () => {}, // the panel keeps what was refused until something else is set
       onStatus: () => {},
-      open: () => new WebSocket(ofSession(socketAddress('api/v1/live', APP), SESSION), [PROTOCOL]),
+      open: () => liveSocket(ofSession(new URL('api/v1/live', APP), SESSION)),
     });
     this.#asked = { design, after: this.#count };
     this.#seq += 1;

@@ -5,7 +5,7 @@
  * @typedef {import('../types.js').Design} Design
  */
 import { bodyOf, cloudCaveat, cloudScenario } from '../model/index.js';
-import { cloudAddress } from '../net/index.js';
+import { cloudAddress, LatestSocket } from '../net/index.js';
 
 export const SPREADS = [0, 0.05, 0.1, 0.2];
 const FEW = 200;
@@ -48,9 +48,7 @@ export function cloudWords(cloud, scenario) {
 
 export class CloudFeed {
   #key = '';
-  #busy = false;
-  /** @type {unknown} */ #waiting = null;
-  /** @type {WebSocket|null} */ #socket = null;
+  /** @type {LatestSocket|null} */ #socket = null;
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
 
   /** @param {import('../model/store.js').Store} store @param {() => WebSocket} [open] */
@@ -87,8 +85,6 @@ export class CloudFeed {
     clearTimeout(this.#timer);
     this.#timer = undefined;
     this.#key = '';
-    this.#waiting = null;
-    this.#busy = false;
     this.#socket?.close();
     this.#socket = null;
     this.store.set({ cloud: null });
@@ -96,36 +92,19 @@ export class CloudFeed {
 
   /** One request is computed at a time; meanwhile only the newest one waits. @param {unknown} request */
   #ask(request) {
-    this.#waiting = request;
-    if (!this.#socket) this.#connect();
-    this.#pump();
-  }
-
-  #connect() {
-    const socket = this.open();
-    this.#socket = socket;
-    socket.onopen = () => this.#pump();
-    socket.onmessage = (event) => socket === this.#socket && this.#receive(JSON.parse(event.data));
-    socket.onclose = () => {
-      if (socket !== this.#socket) return;
-      this.#socket = null;
-      this.#busy = false;
-    };
-  }
-
-  #pump() {
-    if (this.#busy || !this.#waiting || this.#socket?.readyState !== 1) return;
-    this.#busy = true;
-    this.#socket.send(JSON.stringify(this.#waiting));
-    this.#waiting = null;
+    this.#socket ??= new LatestSocket({
+      open: this.open,
+      onMessage: (data) => this.#receive(JSON.parse(data)),
+      onLost: () => (this.#socket = null),
+    });
+    this.#socket.asks.put(request);
   }
 
   /** @param {any} message */
   #receive(message) {
     const refused = message.status !== undefined;
-    if (refused || message.done === message.samples) this.#busy = false;
     // A few rigs of a larger cloud say less than the last whole one; they only tell that it is coming.
     if (refused || message.done >= Math.min(FEW, message.samples)) this.store.set({ cloud: refused ? null : message });
-    this.#pump();
+    if (refused || message.done === message.samples) this.#socket?.done();
   }
 }

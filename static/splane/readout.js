@@ -2,7 +2,7 @@
  * What one pole means, written beside it: place, damping, frequency, settling time and overshoot alone; where the PI
  * loops take it; and how its axis' step settles.
  */
-import { fixed, say, seconds, t } from '../text/index.js';
+import { conjugates, fixed, say, seconds, t } from '../text/index.js';
 import { AXES, character, guideWords, isAsked, isComplex, pairOf, partner } from '../model/index.js';
 import { h, setText } from '../ui/index.js';
 import { toPixel } from './math.js';
@@ -40,7 +40,7 @@ export function readoutLines({ design, reply, requirements }, index, to) {
       : figures(own.settling_time, own.overshoot);
   return [
     two ? say`${NAMES[pair]} poles ${first}, ${first + 1}` : say`${NAMES[pair]} pole ${index + 1}`,
-    two ? `${fixed(p.re)} \u00b1 ${fixed(Math.abs(p.im))}j rad/s` : `${fixed(p.re)} rad/s`,
+    `${conjugates(two ? p : { re: p.re, im: 0 })} rad/s`,
     `ζ ${fixed(zeta)}   ωₙ ${fixed(wn)} rad/s`,
     settling === undefined ? t('alone: grows, unstable') : say`alone: ${figures(settling, overshoot)}`,
     pi && to ? say`with PI: goes to ${pairText(to)} rad/s` : '',
@@ -50,8 +50,7 @@ export function readoutLines({ design, reply, requirements }, index, to) {
 }
 
 /** One of a conjugate pair stands for both. @param {import('../types.js').Complex} p */
-const pairText = (p) =>
-  Math.abs(p.im) > 1e-9 * Math.hypot(p.re, p.im) ? `${fixed(p.re)} \u00b1 ${fixed(Math.abs(p.im))}j` : fixed(p.re);
+const pairText = (p) => conjugates(Math.abs(p.im) > 1e-9 * Math.hypot(p.re, p.im) ? p : { re: p.re, im: 0 });
 
 /**
  * @typedef {{x: number, y: number, width: number, height: number, unit: number}} At a pole in the plane, and the

@@ -7,7 +7,7 @@
 import { cloudWords, SPREADS } from './cloud_feed.js';
 import { say } from '../text/index.js';
 import { placesPoles } from '../model/index.js';
-import { drawingUnit, h, setText, svg } from '../ui/index.js';
+import { button, drawingUnit, h, setText, svg } from '../ui/index.js';
 import { loopPaths } from './loop_paths.js';
 import { drawCloud } from './cloud.js';
 import { Gestures } from './gestures.js';
@@ -73,24 +73,19 @@ export class SPlane {
     );
     this.cloud = h('canvas', { class: 'cloud', hidden: true, 'aria-hidden': 'true' });
     this.cloudText = h('div', { class: 'cloud-words', 'data-testid': 'cloud-words', role: 'status' });
-    const button = (
+    const tool = (
       /** @type {string} */ text,
       /** @type {string} */ name,
       /** @type {string} */ key,
       /** @type {string} */ id,
       /** @type {() => void} */ act,
-    ) =>
-      h(
-        'button',
-        { type: 'button', title: `${name} (${key}, on a pole)`, 'aria-label': name, 'data-testid': id, onclick: act },
-        text,
-      );
+    ) => button({ title: `${name} (${key}, on a pole)`, 'aria-label': name, 'data-testid': id, onclick: act }, text);
     const tools = h(
       'div',
       { class: 'splane-tools' },
-      button('+', 'Zoom in', '+', 'zoom-in', () => this.#zoomBy(1.4)),
-      button('\u2212', 'Zoom out', '\u2212', 'zoom-out', () => this.#zoomBy(1 / 1.4)),
-      button('Fit', 'Fit all poles into view', 'F', 'fit', () => this.fit()),
+      tool('+', 'Zoom in', '+', 'zoom-in', () => this.#zoomBy(1.4)),
+      tool('\u2212', 'Zoom out', '\u2212', 'zoom-out', () => this.#zoomBy(1 / 1.4)),
+      tool('Fit', 'Fit all poles into view', 'F', 'fit', () => this.fit()),
       this.spread,
       (this.key = h(
         'div',

@@ -3,8 +3,8 @@
 const MINUS = '\u2212';
 export const DEGREE = 180 / Math.PI;
 
-/** @param {string} text */
-const typographic = (text) => text.replaceAll('-', MINUS);
+/** The true minus for the programs'. @param {string} text */
+export const typographic = (text) => text.replaceAll('-', MINUS);
 
 /** Fixed decimals with a true minus; never "−0.00". @param {number|undefined} v @param {number} [decimals] */
 export function fixed(v, decimals = 2) {
@@ -41,7 +41,7 @@ export const brief = (text) =>
 /** No trailing zeros, plain minus, as programs write it. @param {number} v */
 export const forField = (v) => String(Number(v.toPrecision(7)));
 /** The same with the true minus that is used everywhere on the page. @param {number} v */
-export const inField = (v) => forField(v).replaceAll('-', MINUS);
+export const inField = (v) => typographic(forField(v));
 
 /**
  * Accepts a comma for the point and the typographic minus, as people paste them.
@@ -80,11 +80,33 @@ function imaginary(plain) {
   return size !== undefined && Number.isFinite(Number(size)) ? { re: 0, im: Number(size) } : null;
 }
 
-/** @param {import('../types.js').Complex} p @param {number} [decimals] */
-export function complex(p, decimals = 2) {
-  if (p.im === 0) return fixed(p.re, decimals);
-  return `${fixed(p.re, decimals)} ${p.im < 0 ? MINUS : '+'} ${fixed(Math.abs(p.im), decimals)}j`;
+/**
+ * A complex number in any notation.
+ * @param {import('../types.js').Complex} p
+ * @param {{number: (v: number) => string, plus?: string, minus?: string, gap?: string, unit?: string}} notation
+ */
+export function complexIn({ re, im }, { number, plus = '+', minus = MINUS, gap = ' ', unit = 'j' }) {
+  if (im === 0) return number(re);
+  return `${number(re)}${gap}${im < 0 ? minus : plus}${gap}${number(Math.abs(im))}${unit}`;
 }
+
+/** @param {import('../types.js').Complex} p @param {number} [decimals] */
+export const complex = (p, decimals = 2) => complexIn(p, { number: (v) => fixed(v, decimals) });
+
+/** One that stands for its conjugate too. @param {import('../types.js').Complex} p @param {number} [decimals] */
+export const conjugates = (p, decimals = 2) =>
+  complexIn(p, { number: (v) => fixed(v, decimals), plus: '±', minus: '±' });
+
+/**
+ * A conjugate pair is written once.
+ * @param {readonly import('../types.js').Complex[]} poles
+ * @param {number} [decimals]
+ */
+export const polesText = (poles, decimals = 2) =>
+  poles
+    .filter((p) => p.im >= 0)
+    .map((p) => conjugates(p, decimals))
+    .join(', ');
 
 const PAIR = ['pitch', 'yaw'];
 
@@ -96,7 +118,7 @@ const PAIR = ['pitch', 'yaw'];
 export function poleText(poles, index) {
   const p = poles[index];
   const name = `${PAIR[index < 2 ? 0 : 1]} pole ${index + 1}`;
-  return `${name}: ${p.im === 0 ? fixed(p.re, 1) : complex(p, 1)} rad/s`;
+  return `${name}: ${complex(p, 1)} rad/s`;
 }
 
 /** @param {number|undefined} share 0…1 */

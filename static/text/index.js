@@ -2,6 +2,8 @@
 export {
   brief,
   complex,
+  complexIn,
+  conjugates,
   decibel,
   DEGREE,
   degrees,
@@ -12,8 +14,10 @@ export {
   parseComplex,
   parseNumber,
   percent,
+  polesText,
   poleText,
   seconds,
   significant,
+  typographic,
 } from './format.js';
-export { count, languageOf, loadWords, say, SPOKEN, t, translatePage } from './words.js';
+export { count, languageOf, loadWords, messageOf, say, SPOKEN, t, translatePage } from './words.js';

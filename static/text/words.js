@@ -52,6 +52,9 @@ export function say(parts, ...values) {
   return filled(t(key), values);
 }
 
+/** What went wrong, in words. @param {unknown} error */
+export const messageOf = (error) => (error instanceof Error ? error.message : String(error));
+
 /**
  * A number of things: count(2, '{0} limit', '{0} limits'). The key is the plural; a catalogue may hold all the forms
  * that its language has.

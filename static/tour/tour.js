@@ -3,7 +3,7 @@
  * when ended; the header brings them back.
  */
 import { say } from '../text/index.js';
-import { h, remember, setText } from '../ui/index.js';
+import { button, h, remember, setText } from '../ui/index.js';
 
 export const MEMORY = 'tour';
 
@@ -54,21 +54,14 @@ export class Tour {
     this.count = h('span', { class: 'tour-count' });
     this.title = h('strong');
     this.text = h('p', { 'data-testid': 'tour-text' });
-    this.back = h(
-      'button',
-      { type: 'button', 'data-testid': 'tour-back', onclick: () => this.#show(this.#at - 1) },
-      'Back',
-    );
-    this.next = h('button', {
-      type: 'button',
+    this.back = button({ 'data-testid': 'tour-back', onclick: () => this.#show(this.#at - 1) }, 'Back');
+    this.next = button({
       class: 'primary',
       'data-testid': 'tour-next',
       onclick: () => (this.#at + 1 < STEPS.length ? this.#show(this.#at + 1) : this.end()),
     });
-    const close = h(
-      'button',
+    const close = button(
       {
-        type: 'button',
         class: 'quiet',
         'data-testid': 'tour-close',
         'aria-label': 'End the tour',

@@ -9,6 +9,7 @@
  * @typedef {MatrixItem|PolesItem|FormulaItem} Item name: an identifier, as K or A_bar; note: what it is, with its units
  * @typedef {'LaTeX'|'Python'|'MATLAB'|'Text'} Format
  */
+import { complexIn } from '../text/index.js';
 
 /** @type {Format[]} */
 export const FORMATS = ['LaTeX', 'Python', 'MATLAB', 'Text'];
@@ -35,10 +36,7 @@ const latexName = (name) =>
 const latexNumber = (v) => String(v).replace(/e\+?(-?\d+)$/, ' \\times 10^{$1}');
 
 /** @param {Complex} p @param {(v: number) => string} number @param {string} unit */
-function complexText({ re, im }, number, unit) {
-  if (im === 0) return number(re);
-  return `${number(re)} ${im < 0 ? '-' : '+'} ${number(Math.abs(im))}${unit}`;
-}
+const complexText = (p, number, unit) => complexIn(p, { number, minus: '-', unit });
 
 /** Columns of equal width. @param {string[][]} cells */
 function aligned(cells) {

@@ -1,7 +1,7 @@
 /** The small menu beside matrices and formulas: each of them, in each form, by one click. */
 import { copyText } from './clipboard.js';
 import { allOf, FORMATS, textOf } from './copy_formats.js';
-import { h, setText } from './dom.js';
+import { button, h, setText } from './dom.js';
 import { icon, popupButton } from './popup.js';
 
 /** @typedef {import('./copy_formats.js').Item} Item @typedef {import('./copy_formats.js').Format} Format */
@@ -17,25 +17,27 @@ export function copyButton(testid, items, label = 'Copy as LaTeX, Python, MATLAB
 function menu(items) {
   if (!items.length) return [h('p', { class: 'caption' }, 'There is nothing to copy yet.')];
   const told = h('p', { class: 'told', role: 'status', 'data-testid': 'copied' });
-  const button = (/** @type {string} */ name, /** @type {Format} */ format, /** @type {string|undefined} */ text) =>
+  const cell = (/** @type {string} */ name, /** @type {Format} */ format, /** @type {string|undefined} */ text) =>
     h(
-      'button',
-      {
-        type: 'button',
-        disabled: !text,
-        title: `${name}: ${TITLES[format]}`,
-        'aria-label': `Copy ${name} as ${format}`,
-        'data-testid': `copy-${name}-${format}`,
-        onclick: (/** @type {Event} */ e) => copy(e, name, format, text ?? '', told),
-      },
-      format,
+      'td',
+      {},
+      button(
+        {
+          disabled: !text,
+          title: `${name}: ${TITLES[format]}`,
+          'aria-label': `Copy ${name} as ${format}`,
+          'data-testid': `copy-${name}-${format}`,
+          onclick: (/** @type {Event} */ e) => copy(e, name, format, text ?? '', told),
+        },
+        format,
+      ),
     );
   const rows = items.map((item) =>
     h(
       'tr',
       {},
       h('th', { scope: 'row', title: item.note ?? '' }, item.name),
-      FORMATS.map((format) => h('td', {}, button(item.name, format, textOf(item, format)))),
+      FORMATS.map((format) => cell(item.name, format, textOf(item, format))),
     ),
   );
   if (items.length > 1)
@@ -44,7 +46,7 @@ function menu(items) {
         'tr',
         {},
         h('th', { scope: 'row' }, 'all'),
-        FORMATS.map((format) => h('td', {}, button('all', format, allOf(items, format)))),
+        FORMATS.map((format) => cell('all', format, allOf(items, format))),
       ),
     );
   return [h('table', { class: 'copy-menu' }, h('tbody', {}, rows)), told];
@@ -52,10 +54,10 @@ function menu(items) {
 
 /** @param {Event} e @param {string} name @param {Format} format @param {string} text @param {HTMLElement} told */
 async function copy(e, name, format, text, told) {
-  const button = /** @type {HTMLElement} */ (e.currentTarget);
+  const pressed = /** @type {HTMLElement} */ (e.currentTarget);
   const done = await copyText(text);
   setText(told, done ? `${name} copied as ${format}.` : 'The browser blocked copying. Select the text and copy it:');
   if (!done) told.after(h('textarea', { class: 'by-hand', readonly: true, rows: 5 }, text));
-  button.classList.toggle('done', done);
-  setTimeout(() => button.classList.remove('done'), SHOWN_MS);
+  pressed.classList.toggle('done', done);
+  setTimeout(() => pressed.classList.remove('done'), SHOWN_MS);
 }

@@ -34,6 +34,19 @@ export function h(tag, attributes = {}, ...children) {
   return /** @type {any} */ (dress(document.createElement(tag), attributes, children));
 }
 
+/** One that submits nothing. @param {Record<string, any>} attributes @param {...any} children */
+export const button = (attributes, ...children) => h('button', { type: 'button', ...attributes }, ...children);
+
+/**
+ * A box to be ticked, in its label.
+ * @param {Record<string, any>} attributes the box'; but `title` and `hidden` are the label's
+ * @param {...any} label
+ */
+export function check({ title, hidden, ...of }, ...label) {
+  const box = h('input', { type: 'checkbox', ...of });
+  return { box, node: h('label', { class: 'check', title, hidden }, box, ...label) };
+}
+
 /**
  * @template {keyof SVGElementTagNameMap} T
  * @param {T} tag @param {Record<string, any>} [attributes] @param {...any} children

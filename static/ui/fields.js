@@ -224,3 +224,18 @@ export class Choice {
     for (const input of this.inputs) input.disabled = disabled;
   }
 }
+
+/**
+ * A number of the design. One gesture changes it as often as the hand moves, and is one step of undo.
+ * @param {import('../model/store.js').Store} store
+ * @param {string} gesture
+ * @param {(d: import('../types.js').Design, v: number) => import('../types.js').Design} change
+ * @param {Omit<FieldOptions, 'onInput'|'onCommit'|'testid'> & {testid?: string}} options
+ */
+export const designField = (store, gesture, change, options) =>
+  new NumberField({
+    testid: gesture,
+    ...options,
+    onInput: (v, stamp) => store.edit((d) => change(d, v), { gesture, stamp }),
+    onCommit: () => store.commit(),
+  });

@@ -1,10 +1,10 @@
 /** What other rooms may import of ui/. */
 export { copyText, saveFile } from './clipboard.js';
 export { copyButton } from './copy_menu.js';
-export { byId, h, printed, setAttr, setText, svg, symbol } from './dom.js';
-export { Choice, NumberField } from './fields.js';
+export { button, byId, check, h, printed, setAttr, setText, svg, symbol } from './dom.js';
+export { Choice, designField, NumberField } from './fields.js';
 export { isolated } from './isolated.js';
-export { Lazy } from './lazy.js';
+export { Lazy, whileSeen } from './lazy.js';
 export { formula } from './mathml.js';
 export { GAIN, gainMatrix, integralMatrix, Matrix, relativeGains } from './matrix.js';
 export { recall, remember } from './memory.js';
@@ -13,4 +13,5 @@ export { drawingUnit, followsPage, pictureScale } from './picture_scale.js';
 export { icon, popupButton } from './popup.js';
 export { Projector } from './projector.js';
 export { Stats } from './stats.js';
+export { groupedHead, head, keepingFocus, shape, wide } from './tables.js';
 export { watched } from './watch.js';

@@ -2,10 +2,15 @@
  * Asks the server for what a card shows: only while the card is seen, shortly after the last change of the design, and
  * never during a drag.
  */
+import { messageOf } from '../text/index.js';
 import { ProblemError } from '../net/index.js';
 import { h, setText } from './dom.js';
 
 const DELAY_MS = 300;
+
+/** Tells whether it is seen, whenever that changes. @param {Element} node @param {(seen: boolean) => void} tell */
+export const whileSeen = (node, tell) =>
+  new IntersectionObserver((entries) => tell(entries[entries.length - 1].isIntersecting)).observe(node);
 
 export class Lazy {
   #key = '';
@@ -28,10 +33,10 @@ export class Lazy {
     this.status = h('p', { class: 'status', role: 'status' }, how.wait);
     root.append(this.status);
     content.hidden = true;
-    new IntersectionObserver((entries) => {
-      this.#visible = entries[entries.length - 1].isIntersecting;
+    whileSeen(root, (seen) => {
+      this.#visible = seen;
       this.render(store.state);
-    }).observe(root);
+    });
   }
 
   /** @param {import('../types.js').State} state */
@@ -61,9 +66,7 @@ export class Lazy {
       this.#failed = !(error instanceof ProblemError);
       if (this.#failed) this.#key = '';
       const hint = error instanceof ProblemError ? error.problem.hint : 'It is tried again with the next change.';
-      refused = [`This could not be computed: ${error instanceof Error ? error.message : error}`, hint]
-        .filter(Boolean)
-        .join(' ');
+      refused = [`This could not be computed: ${messageOf(error)}`, hint].filter(Boolean).join(' ');
     }
     if (!refused && key !== this.#key) return;
     if (!refused) this.how.show(answer);

@@ -1,6 +1,7 @@
 /** A matrix of numbers with names on its borders, and what the entries of K are called. */
 import { copyButton } from './copy_menu.js';
 import { h, setAttr, setText, symbol } from './dom.js';
+import { head } from './tables.js';
 import { significant, t } from '../text/index.js';
 
 /**
@@ -37,16 +38,7 @@ export class Matrix {
     this.node = h(
       'table',
       { class: 'matrix', 'data-testid': testid },
-      h(
-        'thead',
-        {},
-        h(
-          'tr',
-          {},
-          h('td', { class: 'name' }, name, tool),
-          columns.map((c) => h('th', { scope: 'col' }, c)),
-        ),
-      ),
+      head([h('td', { class: 'name' }, name, tool), ...columns]),
       h(
         'tbody',
         {},

@@ -2,7 +2,7 @@
  * One panel that opens beside the button that asked for it: light dismissal, Escape and the focus's return are the
  * browser's (`popover`), the arrow keys are ours.
  */
-import { h, svg } from './dom.js';
+import { button, h, svg } from './dom.js';
 
 const MARGIN = 8; // px to the window's edge
 const GAP = 4; // px to the button
@@ -109,21 +109,19 @@ export function togglePopup(anchor, label, content) {
  * @param {{label: string, text: string|Node, testid?: string, kind?: string, content: () => (Node|string)[]}} how
  */
 export function popupButton({ label, text, testid, kind = 'small-tool', content }) {
-  const button = h(
-    'button',
+  const opener = button(
     {
-      type: 'button',
       class: kind,
       title: label,
       'aria-label': label,
       'aria-haspopup': 'dialog',
       'aria-expanded': 'false',
       'data-testid': testid,
-      onclick: () => togglePopup(button, label, content),
+      onclick: () => togglePopup(opener, label, content),
     },
     text,
   );
-  return button;
+  return opener;
 }
 
 /** Two sheets, or an arrow into a tray. @param {'copy'|'save'} kind */

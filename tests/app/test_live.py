@@ -11,7 +11,7 @@ import pytest
 
 from app.contract.encoding import ARRAY_KEY, BINARY_SUBPROTOCOL, binary_frame
 from app.contract.evaluation import Evaluation
-from app.routes.live import Mailbox
+from app.edge.messages import Mailbox
 from tests.loops import run
 from tests.patience import until
 

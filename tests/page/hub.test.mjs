@@ -80,6 +80,21 @@ test('of what is shown the newest waits until the last was taken', () => {
   assert.equal(socket.frames().length, 2);
 });
 
+test('what is shown before the connection stands goes out when it does', () => {
+  const socket = Object.assign(new FakeSocket(), { readyState: 0 });
+  const nothing = () => {};
+  const [onShown, onTransport, onEdits, onWindows] = Array(4).fill(nothing);
+  const it = new Hub({ open: () => socket, always: true, onShown, onTransport, onEdits, onWindows });
+  for (const K of [1, 2]) it.show({ K });
+  assert.deepEqual(socket.sent, []);
+  socket.readyState = 1;
+  socket.onopen();
+  assert.deepEqual(socket.frames(), [{ K: 2 }]);
+  it.show({ K: 3 });
+  socket.say({ type: 'taken' });
+  assert.deepEqual(socket.frames(), [{ K: 2 }, { K: 3 }]);
+});
+
 test('snapshots carry the time of the server’s clock and arrive with their age', () => {
   const { it, socket, heard, time } = hub({ always: true });
   it.run(RUN); // before the clock is known

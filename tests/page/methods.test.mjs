@@ -2,7 +2,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { keyOf, nameOf, partOf, placesPoles, STRUCTURES } from '../../static/model/methods.js';
+import { STRUCTURES } from '../../static/model/method_names.js';
+import { keyOf, nameOf, partOf, placesPoles } from '../../static/model/methods.js';
 
 test("a structure's key gives back the structure", () => {
   for (const [key, name] of STRUCTURES) {

@@ -10,13 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
+from ...errors import Wanted, nobody_leaves
 from ...signals import Floats
 from ..recording import Table
 from .hdf5 import MARK as _HDF5
 from .hdf5 import read_hdf5
 from .joined import MOST_FILES, joined_tables
 from .json_data import is_json, read_json
-from .limits import MOST_BYTES, MOST_COLUMNS, MOST_ROWS, MOST_UNPACKED, Wanted, nobody_leaves, refused
+from .limits import MOST_BYTES, MOST_COLUMNS, MOST_ROWS, MOST_UNPACKED, refused
 from .mat import is_v4, read_mat
 from .octave import is_octave_text, read_octave
 from .sheets import read_sheet

@@ -9,11 +9,12 @@ from math import isnan
 
 import numpy as np
 
+from ...errors import Wanted
 from ...findings import Finding
 from ..recording import Table
 from ..units import known_unit
 from .cells import Cell, is_empty, numbers, share_of_numbers
-from .limits import Wanted, check_size, refused
+from .limits import check_size, refused
 
 MOSTLY = 0.5
 """Share of numbers from which a row is one of data, and a column one of numbers."""

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import Heli2DofError
+from ...errors import Heli2DofError, Wanted
 from ..recording import Table
-from .limits import DEEPEST, MOST_VARIABLES, Wanted, check_unpacked, refused
+from .limits import DEEPEST, MOST_VARIABLES, check_unpacked, refused
 from .matlab_tables import with_tables
 from .variables import Unreadable, table_of_variables
 

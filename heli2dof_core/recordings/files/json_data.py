@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from ...errors import Wanted
 from ..recording import Table
-from .limits import MOST_ROWS, Wanted, check_size, refused
+from .limits import MOST_ROWS, check_size, refused
 from .text import decoded
 from .variables import table_of_variables
 

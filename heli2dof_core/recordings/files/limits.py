@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from ...errors import RecordingError
 
 MOST_BYTES = 32 * 2**20
@@ -14,12 +12,6 @@ MOST_COLUMNS = 64
 MOST_VARIABLES = 10_000
 DEEPEST = 8
 """Structures within structures that are followed."""
-Wanted = Callable[[], None]
-"""Called now and then; raises where nobody waits for the outcome any more."""
-
-
-def nobody_leaves() -> None:
-    """A `Wanted` for whoever waits to the end."""
 
 
 def refused(words: str, value: object = None, hint: str = "") -> RecordingError:

@@ -17,7 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from .limits import MOST_UNPACKED, Wanted
+from ...errors import Wanted
+from .limits import MOST_UNPACKED
 from .variables import Unreadable
 
 READ = ("MATLAB's table", "MATLAB's timetable")

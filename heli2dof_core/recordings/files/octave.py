@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import Heli2DofError
+from ...errors import Heli2DofError, Wanted
 from ..recording import Table
 from .hdf5 import range_of
-from .limits import DEEPEST, MOST_VARIABLES, Wanted, check_unpacked, refused
+from .limits import DEEPEST, MOST_VARIABLES, check_unpacked, refused
 from .text import decoded
 from .variables import Unreadable, table_of_variables
 

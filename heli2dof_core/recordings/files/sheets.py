@@ -9,12 +9,12 @@ from collections import Counter
 from dataclasses import replace
 from typing import Any
 
-from ...errors import Heli2DofError, RecordingError
+from ...errors import Heli2DofError, RecordingError, Wanted
 from ...findings import Finding
 from ..recording import Table
 from .cells import is_empty, number
 from .grid import Grid, table_of_grid
-from .limits import MOST_COLUMNS, MOST_ROWS, Wanted, check_size, check_unpacked, refused
+from .limits import MOST_COLUMNS, MOST_ROWS, check_size, check_unpacked, refused
 
 _AT_A_TIME = 2_000
 _ABOVE = 60

@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Literal, get_args
 
-from ...errors import RecordingError
+from ...errors import RecordingError, Wanted
 from ..recording import Table
 from .cells import is_empty, number, share_of_numbers
 from .grid import MOSTLY, Grid, table_of_grid
-from .limits import MOST_ROWS, Wanted, check_size, refused
+from .limits import MOST_ROWS, check_size, refused
 
 Separator = Literal["comma", "semicolon", "tab", "bar", "blank"]
 Decimal = Literal["point", "comma"]
