@@ -16,7 +16,7 @@ PYTEST = CHROMIUM=$(CHROMIUM) $(BIN)/pytest $(BESIDE)
 # Without windows (chromium-headless-shell, as Playwright itself prefers) the tests take two thirds of the time.
 CHROMIUM ?= $(firstword $(shell command -v chromium-headless-shell chromium chromium-browser google-chrome))
 
-.PHONY: help serve test quick check style format static-types floors types kernels unit page-test e2e steady mutation figures screenshot \
+.PHONY: help serve test quick check style format static-types floors types kernels unit page-test e2e steady mutation generated screenshot \
   bench docs image clean browser
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -72,8 +72,9 @@ steady: $(VENV)/.tools node_modules/.installed browser kernels ## the browser te
 mutation: $(VENV)/.tools node_modules/.installed ## change the core and the page in forty places, one by one: which changes does no test see?
 	$(BIN)/python -m tests.mutation --jobs 2 $(if $(SEED),--seed $(SEED))
 
-figures: $(VENV)/.tools ## make the page's module of the figures of merit from the core's registry
+generated: $(VENV)/.tools ## make anew of the page what follows from core and contract: figures of merit, types
 	$(BIN)/python -m tests.page_figures
+	$(BIN)/python -m tests.page_types
 
 screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.screenshot docs/screenshot.png
