@@ -2,13 +2,13 @@
 import { complex, significant } from '../text/index.js';
 import { GAIN, gainMatrix, h, integralMatrix } from '../ui/index.js';
 
-/** @param {string} name @param {import('../types.js').Complex[]} poles */
-function poles(name, poles) {
+/** @param {string} name @param {import('../types.js').Complex[]} [poles] */
+function poles(name, poles = []) {
   const shown = poles.filter((p) => p.im >= 0).map((p) => (p.im ? complex(p).replace('+', '±') : complex(p)));
   return h('p', {}, h('span', { class: 'aside' }, `${name}, rad/s: `), shown.join(',\u2002'));
 }
 
-/** @param {any} row @param {string} key @param {string} title */
+/** @param {import('../contract.js').ComparisonRow} row @param {string} key @param {string} title */
 export function rowDetail(row, key, title) {
   const k = gainMatrix(`compare-k-${key}`, GAIN);
   k.render(row.K, (v) => significant(v, 4));
@@ -27,7 +27,7 @@ export function rowDetail(row, key, title) {
       { class: 'said' },
       poles('Poles of A − BK', row.closed_loop_poles),
       poles('Poles of the whole loop', row.loop_poles),
-      (row.findings ?? []).map((/** @type {any} */ f) => h('p', { class: f.severity }, f.message)),
+      (row.findings ?? []).map((f) => h('p', { class: f.severity }, f.message)),
       h('p', { class: 'aside' }, title.replace('\n', ': ')),
     ),
   );

@@ -7,28 +7,34 @@ import { forField, inField, say, significant, t } from '../text/index.js';
 import { followsPage, h, pictureScale, setText } from '../ui/index.js';
 import { drawLabel, drawRule, pictureMenu } from '../plots/index.js';
 
-const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const FONT = '11px system-ui, sans-serif';
 const COLORS = ['series-0', 'series-1', 'pitch', 'yaw', 'panel', 'muted', 'grid', 'danger', 'limit-fill'];
 /** Only full powers of ten get a line and a number. */
-const decades = (/** @type {any} */ _u, /** @type {number[]} */ splits) =>
+const decades = (/** @type {uPlot} */ _u, /** @type {number[]} */ splits) =>
   splits.map((v) => (v && Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? v : null));
-const power = (/** @type {any} */ u, /** @type {number[]} */ splits) =>
+const power = (/** @type {uPlot} */ u, /** @type {number[]} */ splits) =>
   decades(u, splits).map((v) => (v === null ? '' : forField(v)));
-const plain = (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => inField(v));
+const plain = (/** @type {uPlot} */ _u, /** @type {number[]} */ splits) => splits.map((v) => inField(v));
 
 /**
  * @typedef {'series-0'|'series-1'|'pitch'|'yaw'} Kind
- * @typedef {{kind: Kind, name: () => (Node|string)[], plain: string, title: string, of: (reply: any) => number[]}}
- *   Series plain: the name where only letters can be
  * @typedef {{kind: Kind, at: number, from: number, to: number, label: string}} Span  a measured height at a frequency
+ */
+/**
+ * @template R a reply
+ * @typedef {{kind: Kind, name: () => (Node|string)[], plain: string, title: string, of: (reply: R) => number[]}}
+ *   Series plain: the name where only letters can be
+ */
+/**
+ * @template R a reply
  * @typedef {{id: string, title: string, full?: string, unit?: string, steps?: number[], rule?: {value: number, every?:
- *   number, label: string, above: boolean}, range: (data: number[][]) => [number, number], spans?: (reply: any) =>
- *   Span[], series: Series[]}} About
+ *   number, label: string, above: boolean}, range: (data: number[][]) => [number, number], spans?: (reply: R) =>
+ *   Span[], series: Series<R>[]}} About
  *   full: the title where it stands alone. steps: between the numbers of a linear axis; a logarithmic one without.
  *   rule: a border, where it comes again, and whether what lies above it is shaded
  */
 
+/** @template R */
 export class FrequencyPlot {
   /** @type {Record<string, string>} */ #colors = {};
   /** @type {[number, number]} */ #range = [0.001, 10];
@@ -36,7 +42,7 @@ export class FrequencyPlot {
   /** @type {Span[]} */ #spans = [];
 
   /**
-   * @param {About} about
+   * @param {About<R>} about
    * @param {number[]} frequencies rad/s
    * @param {{onHover: (i: number|null) => void, subtitle: () => string}} how subtitle: of its picture
    */
@@ -96,8 +102,8 @@ export class FrequencyPlot {
       { grid: { stroke: color('grid'), width: 1 }, values: plain, incrs: about.steps },
       { grid: { stroke: color('grid'), width: 1, filter: decades }, values: power },
     ];
-    this.chart = followsPage(
-      new Chart(
+    const chart = followsPage(
+      new uPlot(
         {
           width: 300,
           height: 160,
@@ -134,9 +140,9 @@ export class FrequencyPlot {
             sync: { key: `frequency-${frequencies.length}` },
           },
           hooks: {
-            drawAxes: [() => this.#shade()],
-            draw: [() => this.#drawRule(), () => this.#drawSpans()],
-            setCursor: [(/** @type {any} */ u) => this.onHover(u.cursor.left < 0 ? null : (u.cursor.idx ?? null))],
+            drawAxes: [(u) => this.#shade(u)],
+            draw: [(u) => this.#drawRule(u), (u) => this.#drawSpans(u)],
+            setCursor: [(u) => this.onHover((u.cursor.left ?? -1) < 0 ? null : (u.cursor.idx ?? null))],
           },
         },
         [frequencies, ...about.series.map(() => frequencies.map(() => null))],
@@ -145,8 +151,9 @@ export class FrequencyPlot {
     );
     new ResizeObserver(([entry]) => {
       const { width, height } = entry.contentRect;
-      if (width > 60 && height > 40) this.chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
+      if (width > 60 && height > 40) chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
     }).observe(this.body);
+    return (this.chart = chart);
   }
 
   /** @param {KeyboardEvent} e */
@@ -156,7 +163,7 @@ export class FrequencyPlot {
     const { idx, left } = this.chart.cursor;
     const last = this.frequencies.length - 1;
     const i =
-      left < 0 || idx === null || idx === undefined
+      left === undefined || left < 0 || idx === null || idx === undefined
         ? Math.round(last / 2)
         : Math.max(0, Math.min(last, idx + step * (e.shiftKey ? 10 : 1)));
     this.chart.setCursor({ left: this.chart.valToPos(this.frequencies[i], 'x'), top: 1 });
@@ -191,9 +198,10 @@ export class FrequencyPlot {
     };
   }
 
-  #shade() {
+  /** @param {uPlot} chart */
+  #shade(chart) {
     if (!this.about.rule?.above) return;
-    const { ctx, bbox, valToPos } = this.chart;
+    const { ctx, bbox, valToPos } = chart;
     ctx.fillStyle = this.#colors['limit-fill'];
     ctx.fillRect(
       bbox.left,
@@ -215,19 +223,23 @@ export class FrequencyPlot {
     ).filter((v) => v >= low && v <= high);
   }
 
-  #drawRule() {
-    this.chart.ctx.save();
+  /** @param {uPlot} chart */
+  #drawRule(chart) {
+    chart.ctx.save();
     for (const value of this.#borders()) {
-      const y = Math.round(this.chart.valToPos(value, 'y', true));
-      drawRule(this.chart, y, this.#colors.danger, []);
-      drawLabel(this.chart, y, t(this.about.rule?.label ?? ''), -1, this.#colors.danger, this.#colors.panel);
+      const y = Math.round(chart.valToPos(value, 'y', true));
+      drawRule(chart, y, this.#colors.danger, []);
+      drawLabel(chart, y, t(this.about.rule?.label ?? ''), -1, this.#colors.danger, this.#colors.panel);
     }
-    this.chart.ctx.restore();
+    chart.ctx.restore();
   }
 
-  /** Each from the curve to the border it is measured to, with its figure: pitch's to the left, yaw's to the right. */
-  #drawSpans() {
-    const { ctx, valToPos, bbox } = this.chart;
+  /**
+   * Each from the curve to the border it is measured to, with its figure: pitch's to the left, yaw's to the right.
+   * @param {uPlot} chart
+   */
+  #drawSpans(chart) {
+    const { ctx, valToPos, bbox } = chart;
     const size = devicePixelRatio * pictureScale().type;
     ctx.save();
     for (const { kind, at, from, to, label } of this.#spans) {
@@ -261,17 +273,14 @@ export class FrequencyPlot {
     ctx.restore();
   }
 
-  /** @param {any} reply */
+  /** @param {R} reply */
   show(reply) {
-    if (!this.chart) this.#build();
+    const chart = this.chart ?? this.#build();
     this.#data = this.about.series.map((s) => s.of(reply));
     this.#spans = this.about.spans?.(reply) ?? [];
     this.#range = this.about.range(this.#data);
     const known = (/** @type {number} */ v) => (Number.isFinite(v) && (this.about.steps || v > 0) ? v : null);
-    this.chart.setData([
-      this.frequencies,
-      ...this.#data.map((values) => this.frequencies.map((_w, i) => known(values[i]))),
-    ]);
+    chart.setData([this.frequencies, ...this.#data.map((values) => this.frequencies.map((_w, i) => known(values[i])))]);
     this.valuesAt(0);
   }
 

@@ -2,6 +2,14 @@
  * The server, as the page sees it: a few REST calls and the live socket. All addresses are relative to the page and
  * name the tab's session, by which a proxy in front of several servers finds the one that knows this tab.
  * @typedef {import('../types.js').Connection} Connection
+ * @typedef {import('../types.js').Reply} Reply
+ * @typedef {import('../types.js').LiveReply} LiveReply
+ * @typedef {import('../contract.js').Preview} Preview
+ */
+/**
+ * A request's body.
+ * @template T
+ * @typedef {import('../types.js').Asked<T>} Asked
  */
 import { backoff } from './backoff.js';
 import { ofSession, session } from './session.js';
@@ -40,7 +48,12 @@ export class ProblemError extends Error {
   }
 }
 
-/** @param {string|URL} path @param {{method?: string, body?: unknown}} [options] @returns {Promise<any>} */
+/**
+ * @template T
+ * @param {string|URL} path
+ * @param {{method?: string, body?: unknown}} [options]
+ * @returns {Promise<T>} as the contract has it
+ */
 async function call(path, { method = 'GET', body } = {}) {
   const headers = body === undefined ? undefined : { 'Content-Type': 'application/json' };
   const response = await reach(path instanceof URL ? path : at(path), {
@@ -54,25 +67,57 @@ async function call(path, { method = 'GET', body } = {}) {
   return json;
 }
 
+/** @returns {Promise<import('../types.js').Preset[]>} */
 export const getPresets = () => call('api/v1/presets');
+/** @returns {Promise<import('../types.js').Method[]>} */
 export const getMethods = () => call('api/v1/methods');
-/** @param {string} coupling @param {string} lead */
+/** @param {string} coupling @param {string} lead @returns {Promise<import('../contract.js').Symbolic>} */
 export const getSymbolic = (coupling, lead) => call(`api/v1/symbolic?${new URLSearchParams({ coupling, lead })}`);
-/** @param {unknown} design */
+/**
+ * @param {Asked<import('../contract.js').DesignRequest>} design
+ * @returns {Promise<import('../contract.js').Suggestion>}
+ */
 export const suggestLoops = (design) => call('api/v1/suggest', { method: 'POST', body: design });
-/** All that the page shows of a design. @param {unknown} request */
+/**
+ * All that the page shows of a design.
+ * @param {Asked<import('../contract.js').EvaluateRequest>} request
+ * @returns {Promise<Reply>}
+ */
 export const evaluateDesign = (request) => call('api/v1/evaluate', { method: 'POST', body: request });
-/** The design's poles through every method. @param {unknown} design with scenario */
+/**
+ * The design's poles through every method.
+ * @param {Asked<import('../contract.js').CompareRequest>} design
+ * @returns {Promise<import('../contract.js').Comparison>}
+ */
 export const compareMethods = (design) => call('api/v1/compare', { method: 'POST', body: design });
-/** All ways to deal the poles to the two pairs. @param {unknown} design */
+/**
+ * All ways to deal the poles to the two pairs.
+ * @param {Asked<import('../contract.js').DesignRequest>} design
+ * @returns {Promise<import('../contract.js').Split[]>}
+ */
 export const compareSplits = (design) => call('api/v1/splits', { method: 'POST', body: design });
-/** The relative gains, at the frequencies that it names too. @param {unknown} design */
+/**
+ * The relative gains, at the frequencies that it names too.
+ * @param {Asked<import('../contract.js').RgaRequest>} design
+ * @returns {Promise<import('../contract.js').Rga>}
+ */
 export const relativeGain = (design) => call('api/v1/rga', { method: 'POST', body: design });
-/** The loops opened at each motor, at the frequencies that it names. @param {unknown} design */
+/**
+ * The loops opened at each motor, at the frequencies that it names.
+ * @param {Asked<import('../contract.js').LoopsRequest>} design
+ * @returns {Promise<import('../contract.js').OpenLoops>}
+ */
 export const openLoops = (design) => call('api/v1/loops', { method: 'POST', body: design });
-/** The paper as data: its equations, numbers, errata and figures, recomputed. */
+/**
+ * The paper as data: its equations, numbers, errata and figures, recomputed.
+ * @returns {Promise<import('../contract.js').Paper>}
+ */
 export const getPaper = () => call('api/v1/paper');
-/** The derivation in numbers. @param {unknown} design */
+/**
+ * The derivation in numbers.
+ * @param {Asked<import('../contract.js').DesignRequest>} design
+ * @returns {Promise<import('../contract.js').Walkthrough>}
+ */
 export const walkThrough = (design) => call('api/v1/walkthrough', { method: 'POST', body: design });
 /** @param {string} id of a session @param {string} rig */
 export const putRig = (id, rig) => call(sceneAt(id, 'rig'), { method: 'PUT', body: { rig } });
@@ -82,7 +127,7 @@ export const getRigViews = () => call('scene/rigs');
 /**
  * A file that the server makes of a design.
  * @param {string} path
- * @param {unknown} design with scenario
+ * @param {Asked<import('../contract.js').StepRequest>} design
  * @returns {Promise<Blob>}
  */
 async function fileOf(path, design) {
@@ -108,25 +153,38 @@ async function post(path, body, type = 'application/octet-stream') {
  * @param {Blob} file
  * @param {string} name
  * @param {Record<string, string>} [dialect]
+ * @returns {Promise<Preview>}
  */
 export const sendRecording = async (file, name, dialect = {}) =>
   (await post(`api/v1/recordings?${new URLSearchParams({ name, ...dialect })}`, file)).json();
-/** Files of one run as one recording. @param {string[]} recordings their ids */
+/** Files of one run as one recording. @param {string[]} recordings their ids @returns {Promise<Preview>} */
 export const joinRecordings = (recordings) => call('api/v1/recordings/join', { method: 'POST', body: { recordings } });
-/** A recording of a design's digital rig. @param {unknown} design @returns {Promise<Blob>} */
+/**
+ * A recording of a design's digital rig.
+ * @param {Asked<import('../contract.js').SampleRequest>} design
+ * @returns {Promise<Blob>}
+ */
 export const sampleRecording = async (design) =>
   (await post('api/v1/recordings/sample', JSON.stringify(design), 'application/json')).blob();
-/** @param {string} id @param {unknown} body */
+/**
+ * @param {string} id
+ * @param {Asked<import('../contract.js').OverlayRequest>} body
+ * @returns {Promise<import('../contract.js').OverlayReply>}
+ */
 export const overlayRecording = (id, body) =>
   call(`api/v1/recordings/${encodeURIComponent(id)}/overlay`, { method: 'POST', body });
 
-/** The motion of a design as a file. @param {'html'|'viser'} format @param {unknown} design */
+/**
+ * The motion of a design as a file.
+ * @param {'html'|'viser'} format
+ * @param {Asked<import('../contract.js').StepRequest>} design
+ */
 export const motionFile = (format, design) => fileOf(`api/v1/motion?format=${format}`, design);
 /**
  * A design for another program or for print.
  * @param {string} format
  * @param {string} link that opens it
- * @param {unknown} design
+ * @param {Asked<import('../contract.js').StepRequest>} design
  */
 export const exportDesign = (format, link, design) =>
   fileOf(`api/v1/export/${format}?${new URLSearchParams({ link: link.replace(UNUSUAL, encodeURIComponent) })}`, design);
@@ -159,8 +217,8 @@ export class Live {
   #closed = false;
 
   /**
-   * @param {{onReply: (reply: any) => void, onProblem: (problem: any) => void, onStatus: (c: Connection) => void,
-   *   open?: () => WebSocket}} handlers  `open` makes the socket
+   * @param {{onReply: (reply: LiveReply) => void, onProblem: (problem: import('../types.js').Problem) => void,
+   *   onStatus: (c: Connection) => void, open?: () => WebSocket}} handlers  `open` makes the socket
    */
   constructor({ onReply, onProblem, onStatus, open = () => new WebSocket(liveAddress(), [PROTOCOL]) }) {
     this.onReply = onReply;

@@ -4,7 +4,7 @@
 import { DEGREE } from '../text/index.js';
 import { h, NumberField, symbol } from '../ui/index.js';
 
-/** @typedef {'theta'|'psi'} Axis */
+/** @typedef {import('../types.js').Axis} Axis */
 
 export class ScenarioPanel {
   /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */

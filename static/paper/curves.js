@@ -7,7 +7,6 @@ import { rich } from './rich.js';
 import { CURVES } from './words.js';
 
 /** @typedef {import('./math.js').Curves} Curves @typedef {import('../plots/rules.js').Rule} Rule */
-const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const FONT = '12px system-ui, sans-serif';
 /**
  * The first is drawn broad, since others lie upon it.
@@ -33,7 +32,7 @@ const styleOf = (/** @type {string} */ name) => LINES[name] ?? LINES.limited;
 
 export class PaperCurves {
   /** @type {Record<string, string>} */ #colors = {};
-  /** @type {any[]} */ #charts = [];
+  /** @type {uPlot[]} */ #charts = [];
 
   /** @param {() => number|undefined} stop the pitch stop of the rig of the manual, rad */
   constructor(stop) {
@@ -100,7 +99,7 @@ export class PaperCurves {
     }));
     const color = (/** @type {string} */ name) => () => this.#colors[name];
     const top = 5 * Math.ceil((DEGREE * Math.max(1, ...curves.flatMap((c) => c.angle))) / 5);
-    const axis = (/** @type {any} */ more) => ({
+    const axis = (/** @type {uPlot.Axis} */ more) => ({
       stroke: color('muted'),
       font: FONT,
       grid: { stroke: color('grid'), width: 1 },
@@ -123,7 +122,7 @@ export class PaperCurves {
       }),
     );
     const chart = followsPage(
-      new Chart(
+      new uPlot(
         {
           width: 300,
           height: 260,
@@ -144,18 +143,17 @@ export class PaperCurves {
             axis({
               space: () => 50 * pictureScale().type,
               size: () => 26 * pictureScale().type,
-              values: (/** @type {any} */ _u, /** @type {number[]} */ v) =>
-                v.map((s, i) => `${Number(s.toFixed(3))}${i === v.length - 1 ? ' s' : ''}`),
+              values: (_u, v) => v.map((s, i) => `${Number(s.toFixed(3))}${i === v.length - 1 ? ' s' : ''}`),
             }),
             axis({
               space: () => 30 * pictureScale().type,
               size: () => 40 * pictureScale().type,
-              values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((d) => `${d}°`),
+              values: (_u, v) => v.map((d) => `${d}°`),
             }),
           ],
           hooks: {
-            drawAxes: [(/** @type {any} */ u) => this.#under(u, rules)],
-            draw: [(/** @type {any} */ u) => this.#over(u, rules)],
+            drawAxes: [(u) => this.#under(u, rules)],
+            draw: [(u) => this.#over(u, rules)],
           },
         },
         [t, ...curves.map((c) => c.angle.map((v) => v * DEGREE))],
@@ -170,7 +168,7 @@ export class PaperCurves {
     return figure;
   }
 
-  /** What lies beyond the stop, under the curves. @param {any} u @param {Rule[]} rules */
+  /** What lies beyond the stop, under the curves. @param {uPlot} u @param {Rule[]} rules */
   #under(u, rules) {
     for (const { value } of rules.filter((r) => r.danger)) {
       u.ctx.fillStyle = this.#colors['limit-fill'];
@@ -178,7 +176,7 @@ export class PaperCurves {
     }
   }
 
-  /** The reference and the stop, and what they are called. @param {any} u @param {Rule[]} rules */
+  /** The reference and the stop, and what they are called. @param {uPlot} u @param {Rule[]} rules */
   #over(u, rules) {
     u.ctx.save();
     for (const { value, label, danger } of rules) {

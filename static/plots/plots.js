@@ -33,7 +33,6 @@ const ABOUT = {
   V_p: { base: 'V', sub: 'p', title: 'pitch motor', unit: ' V' },
   V_y: { base: 'V', sub: 'y', title: 'yaw motor', unit: ' V' },
 };
-const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const AXIS_WIDTH = 42;
 const PLAYED = { theta: 'pitch step', psi: 'yaw step', both: 'both steps' };
 
@@ -42,12 +41,12 @@ export class Plots {
   /** @type {Record<string, [number, number]|undefined>} */ #ranges = {};
   /** @type {[number, number]} */ #time = [0, 5];
   /** @type {[number, number]|null} */ #zoom = null;
-  /** @type {any[]} */ #seen = [];
+  /** @type {unknown[]} */ #seen = [];
   /** @type {number|null} */ #hover = null;
   #playhead = 0;
   /** @type {import('../types.js').Cloud|null} */ #cloud = null;
   /** @type {import('../types.js').Requirements|null} */ #asked = null;
-  /** @type {{t: import('../types.js').Series, plots: Record<Signal, any[]>}|null} */ #data = null;
+  /** @type {ReturnType<typeof tracesOf>|null} */ #data = null;
 
   /**
    * @param {HTMLElement} root
@@ -164,7 +163,7 @@ export class Plots {
     /** @type {PlotTexts|undefined} */ let texts;
     // auto: false, as the ranges are ours: no trace is searched for its extremes a second time.
     const chart = followsPage(
-      new Chart(
+      new uPlot(
         {
           width: 300,
           height: 120,
@@ -209,22 +208,27 @@ export class Plots {
               key: 'heli2dof',
               filters: { pub: (/** @type {string} */ type) => type === 'mousemove' || type === 'mouseleave' },
             },
-            bind: { dblclick: () => () => this.#zoomTo(null) },
+            bind: {
+              dblclick: () => () => {
+                this.#zoomTo(null);
+                return null;
+              },
+            },
           },
           hooks: {
             drawAxes: [
-              (/** @type {any} */ u) => drawShades(u, rules(), ink),
-              (/** @type {any} */ u) => drawRegions(u, regions(), ink),
-              (/** @type {any} */ u) => drawBand(u, signal, this.#cloud, ink),
+              (u) => drawShades(u, rules(), ink),
+              (u) => drawRegions(u, regions(), ink),
+              (u) => drawBand(u, signal, this.#cloud, ink),
             ],
             draw: [
-              (/** @type {any} */ u) => drawReference(u, rules(), ink),
-              (/** @type {any} */ u) => texts?.draw(rulesSeen(u, rules()), pictureScale().type),
+              (u) => drawReference(u, rules(), ink),
+              (u) => texts?.draw(rulesSeen(u, rules()), pictureScale().type),
               () => ghosts?.draw(ink),
               () => marks?.place(),
             ],
-            setCursor: [(/** @type {any} */ u) => this.#hovered(u)],
-            setSelect: [(/** @type {any} */ u) => this.#selected(u)],
+            setCursor: [(u) => this.#hovered(u)],
+            setSelect: [(u) => this.#selected(u)],
           },
         },
         [[0, 1], ...Array(5).fill([null, null])],
@@ -278,7 +282,7 @@ export class Plots {
         limit: limitOf(state.reply, signal),
         previous: fresh ? undefined : this.#ranges[signal],
       });
-      const columns = /** @type {any} */ ([data.t, ...data.plots[signal].map((v) => v ?? empty)]);
+      const columns = /** @type {uPlot.AlignedData} */ ([data.t, ...data.plots[signal].map((v) => v ?? empty)]);
       chart.batch(() => chart.setData(columns));
       marks.show(this.#marks(signal));
     }
@@ -297,7 +301,7 @@ export class Plots {
     return showMarks ? marksOf(reply, signal) : [];
   }
 
-  /** @param {any} u */
+  /** @param {uPlot} u */
   #hovered(u) {
     const { left } = u.cursor;
     this.#hover = left === undefined || left < 0 ? null : u.posToVal(left, 'x');
@@ -305,7 +309,7 @@ export class Plots {
     this.#showValues();
   }
 
-  /** @param {any} u */
+  /** @param {uPlot} u */
   #selected(u) {
     if (u.select.width < 8) return;
     this.#zoomTo([u.posToVal(u.select.left, 'x'), u.posToVal(u.select.left + u.select.width, 'x')]);

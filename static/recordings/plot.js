@@ -4,14 +4,13 @@ import { fixed } from '../text/index.js';
 import { followsPage, h, pictureScale, setText } from '../ui/index.js';
 import { rangeOfCurves } from './recordings.js';
 
-const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const FONT = '11px system-ui, sans-serif';
 const NAMES = ['measured', 'simulated', 'reference'];
 
 export class RecordingPlot {
   /** @type {Record<string, string>} */ #colors = {};
   /** @type {[number, number]} */ #range = [-1, 1];
-  /** @type {any[][]} */ #data = [[], [], [], []];
+  /** @type {import('./recordings.js').Curves} */ #data = [[], [], [], []];
 
   /** @param {string} axis @param {'pitch'|'yaw'} name */
   constructor(axis, name) {
@@ -70,8 +69,8 @@ export class RecordingPlot {
       points: { show: false },
       ...more,
     });
-    this.chart = followsPage(
-      new Chart(
+    const chart = followsPage(
+      new uPlot(
         {
           width: 300,
           height: 160,
@@ -90,7 +89,7 @@ export class RecordingPlot {
           ],
           cursor: { y: false, points: { show: false }, sync: { key: 'recording' } },
           hooks: {
-            setCursor: [(/** @type {any} */ u) => this.#values(u.cursor.left < 0 ? null : (u.cursor.idx ?? null))],
+            setCursor: [(u) => this.#values((u.cursor.left ?? -1) < 0 ? null : (u.cursor.idx ?? null))],
           },
         },
         this.#data,
@@ -99,16 +98,17 @@ export class RecordingPlot {
     );
     new ResizeObserver(([entry]) => {
       const { width, height } = entry.contentRect;
-      if (width > 60 && height > 40) this.chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
+      if (width > 60 && height > 40) chart.setSize({ width: Math.floor(width), height: Math.floor(height) });
     }).observe(this.body);
+    return (this.chart = chart);
   }
 
-  /** @param {(number|null)[][]} data t and degrees @param {string} fit */
+  /** @param {import('./recordings.js').Curves} data t and degrees @param {string} fit */
   show(data, fit) {
-    if (!this.chart) this.#build();
+    const chart = this.chart ?? this.#build();
     this.#data = data;
     this.#range = rangeOfCurves(data);
-    this.chart.setData(data);
+    chart.setData(data);
     setText(this.fit, fit);
     this.#values(null);
   }
@@ -127,7 +127,7 @@ export class RecordingPlot {
     const { idx, left } = this.chart.cursor;
     const last = this.#data[0].length - 1;
     const i =
-      left < 0 || idx === null || idx === undefined
+      left === undefined || left < 0 || idx === null || idx === undefined
         ? Math.round(last / 2)
         : Math.max(0, Math.min(last, idx + step * (e.shiftKey ? 50 : 5)));
     this.chart.setCursor({ left: this.chart.valToPos(this.#data[0][i], 'x'), top: 1 });

@@ -120,7 +120,7 @@ export class CloudFeed {
     this.#waiting = null;
   }
 
-  /** @param {any} message */
+  /** A cloud, or a problem, which has a status. @param {import('../types.js').Cloud & {status?: number}} message */
   #receive(message) {
     const refused = message.status !== undefined;
     if (refused || message.done === message.samples) this.#busy = false;
