@@ -2,13 +2,12 @@
  * The shapes that travel through the page: the server's, as the contract has them, and the page's own, built from them.
  */
 import type * as contract from './contract.js';
-import type { Angles, BothModels, Complex, Evaluation, Loops, ScenarioChanges } from './contract.js';
+import type { Angles, BothModels, Complex, Evaluation, ScenarioChanges } from './contract.js';
 
 export type {
   AxisMetrics,
   Complex,
   Gains,
-  Loops,
   Margins,
   Method,
   Metrics,
@@ -21,8 +20,6 @@ export type {
 
 /** 1 and 2 are pitch's pair, 3 and 4 yaw's; rad/s. */
 export type Poles = [Complex, Complex, Complex, Complex];
-/** Step sizes, rad. */
-export type Reference = Required<Angles>;
 export type Axis = keyof Angles;
 export type Motor = keyof contract.Voltages;
 export type Motion = Axis | 'both';
@@ -31,6 +28,8 @@ export type Connection = 'connecting' | 'open' | 'lost';
 export type Series = ArrayLike<number>;
 export type Encoders = Required<contract.EncoderCounts>;
 
+/** Without keys that it has. */
+type Except<T, K extends keyof T> = Omit<T, K>;
 /** Of a request, what is said at all: what the page leaves to the server it leaves out, and never says null. */
 type Said<T> = { [K in keyof T]: Said<Exclude<T[K], null>> };
 /** A request, with presets and methods by names that the page has from the server. */
@@ -39,23 +38,26 @@ export type Asked<T> = Omit<T, 'preset' | 'method'> & { preset?: string; method?
 /** The keys of a shape whose values are such. */
 export type KeysOf<T, V> = { [K in keyof T]-?: NonNullable<T[K]> extends V ? K : never }[keyof T];
 
+/** Step sizes, rad. */
+export type Reference = Required<Said<contract.Reference>>;
+export type Loops = Record<keyof contract.LoopsChanges, Required<Said<contract.LoopChanges>>>;
 /** What a design may choose of the loop's structure. */
 type Choices = Required<Said<Pick<contract.DesignRequest, 'coupling' | 'lead' | 'outer' | 'pairing' | 'decoupler'>>>;
 export type Coupling = Choices['coupling'];
 export type Disturbance = Required<contract.InputDisturbance>;
-export type Digital = Said<Omit<contract.DigitalController, 'encoders'>> & { encoders?: Encoders };
+export type Digital = Said<Except<contract.DigitalController, 'encoders'>> & { encoders?: Encoders };
 /** Overrides of the preset's; null: free travel. */
 export type Limits = Said<Pick<contract.LimitChanges, Motor>> & Pick<contract.LimitChanges, 'theta'>;
 
 /** An experiment; what is absent is standard (see experiment.js). */
 export interface Scenario extends Said<
-  Omit<ScenarioChanges, 'model' | 'samples' | 'reference' | 'duration' | 'initial' | 'digital' | 'disturbance'>
+  Except<ScenarioChanges, 'model' | 'samples' | 'reference' | 'duration' | 'initial' | 'digital' | 'disturbance'>
 > {
   reference: Reference;
   /** s */
   duration: number;
   /** rad, absolute; absent: at rest */
-  initial?: Angles;
+  initial?: Pick<Said<contract.Initial>, Axis>;
   /** absent: continuous */
   digital?: Digital;
   disturbance?: Disturbance;
@@ -77,18 +79,18 @@ export interface Design extends Choices {
 }
 
 /** Its choices are a design's, which the contract has as plain text. */
-export type Preset = Omit<contract.Preset, keyof Choices | 'encoders'> & Choices & { encoders: Encoders };
+export type Preset = Except<contract.Preset, keyof Choices | 'encoders'> & Choices & { encoders: Encoders };
 
 export type Finding = contract.Finding & { severity: 'info' | 'warning' | 'error' };
 
 type Courses = 't' | Axis | Motor;
 /** A response has both references, whatever was asked for. */
-export type Step = Omit<contract.Step, Courses | 'reference'> & Record<Courses, Series> & { reference: Reference };
+export type Step = Except<contract.Step, Courses | 'reference'> & Record<Courses, Series> & { reference: Reference };
 export type StepPair = Record<keyof BothModels, Step>;
 /** All that is shown of a design. */
-export type Reply = Omit<Evaluation, 'step' | 'axis_steps' | 'findings'> & {
+export type Reply = Except<Evaluation, 'step' | 'axis_steps' | 'findings'> & {
   step: StepPair;
-  axis_steps: Partial<Record<Axis, StepPair>>;
+  axis_steps: Partial<Record<keyof contract.AxisSteps, StepPair>>;
   findings: Finding[];
 };
 

@@ -158,7 +158,11 @@ async function post(path, body, type = 'application/octet-stream') {
 export const sendRecording = async (file, name, dialect = {}) =>
   (await post(`api/v1/recordings?${new URLSearchParams({ name, ...dialect })}`, file)).json();
 /** Files of one run as one recording. @param {string[]} recordings their ids @returns {Promise<Preview>} */
-export const joinRecordings = (recordings) => call('api/v1/recordings/join', { method: 'POST', body: { recordings } });
+export const joinRecordings = (recordings) =>
+  call('api/v1/recordings/join', {
+    method: 'POST',
+    body: /** @satisfies {import('../contract.js').JoinRequest} */ ({ recordings }),
+  });
 /**
  * A recording of a design's digital rig.
  * @param {Asked<import('../contract.js').SampleRequest>} design

@@ -139,12 +139,13 @@ export class RecordingFeed {
   /** @param {string[]} free */
   identify(free) {
     const { design, recorded } = this.store.state;
-    if (!design || !isMapped(recorded.columns)) return;
+    const { preview, columns } = recorded;
+    if (!design || !preview || !isMapped(columns)) return;
     this.cancel();
     const socket = this.open();
     this.#socket = socket;
     this.#set({ busy: 'Identifying…', progress: null, found: null, problem: null });
-    socket.onopen = () => socket.send(JSON.stringify(identifyBody(design, recorded, free)));
+    socket.onopen = () => socket.send(JSON.stringify(identifyBody(design, { preview, columns }, free)));
     socket.onmessage = ({ data }) => {
       if (socket !== this.#socket) return;
       const message = JSON.parse(data);

@@ -3,6 +3,7 @@
  * @typedef {import('../types.js').Recorded} Recorded
  * @typedef {import('../types.js').RecordingColumns} RecordingColumns
  * @typedef {import('../contract.js').Preview} Preview
+ * @typedef {import('../contract.js').Mapping} Mapping
  * @typedef {import('../contract.js').OverlayReply} OverlayReply
  * @typedef {[number[], ...(number|null)[][]]} Curves
  * @typedef {import('../contract.js').IdentificationReply} IdentificationReply
@@ -10,6 +11,7 @@
 import { count, DEGREE, fixed, forField, say, significant } from '../text/index.js';
 import { bodyOf, initialState } from '../model/index.js';
 
+/** @type {{role: keyof Mapping, base: string, sub?: string, title: string, optional?: boolean}[]} */
 export const ROLES = [
   { role: 'time', base: 't', title: 'time' },
   { role: 'theta', base: 'θ', title: 'pitch angle' },
@@ -56,7 +58,7 @@ export const guessed = ({ guess }) =>
  */
 export function columnsBody({ names, time_unit, unit, units, voltage_unit, signs, offsets, sample_time, decimate }) {
   const chosen = Object.fromEntries(Object.entries(names).filter(([, name]) => name));
-  return {
+  return /** @satisfies {Mapping} */ ({
     ...chosen,
     unit,
     units,
@@ -65,7 +67,7 @@ export function columnsBody({ names, time_unit, unit, units, voltage_unit, signs
     offsets,
     decimate,
     ...(chosen.time ? { time_unit } : { sample_time }),
-  };
+  });
 }
 
 /**
@@ -90,13 +92,18 @@ export const overlayBody = (design, { columns, driver }) => ({
 /** Free from the start: stiffness only where the rig has one. @param {Record<string, number>} parameters of the rig */
 export const freeAtFirst = (parameters) => IDENTIFIABLE.filter((name) => name !== 'K_s' || parameters.K_s);
 
-/** @param {import('../types.js').Design} design @param {Recorded} recorded @param {string[]} free */
-export const identifyBody = (design, { preview, columns }, free) => ({
-  ...bodyOf(design),
-  recording: preview?.id,
-  columns: columns && columnsBody(columns),
-  free,
-});
+/**
+ * @param {import('../types.js').Design} design
+ * @param {{preview: Preview, columns: RecordingColumns}} recorded
+ * @param {string[]} free
+ */
+export const identifyBody = (design, { preview, columns }, free) =>
+  /** @satisfies {import('../types.js').Asked<import('../contract.js').IdentifyRequest>} */ ({
+    ...bodyOf(design),
+    recording: preview.id,
+    columns: columnsBody(columns),
+    free: /** @type {NonNullable<import('../contract.js').IdentifyRequest['free']>} */ (free),
+  });
 
 /**
  * Measured and simulated, in degrees.

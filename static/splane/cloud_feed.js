@@ -23,12 +23,12 @@ const REST_MS = 500;
 export function cloudRequest(design, spread, motion, names, samples) {
   const scenario = cloudScenario(design.scenario);
   const played = motion === 'both' ? scenario.reference : { [motion]: scenario.reference[motion] };
-  return {
+  return /** @satisfies {import('../types.js').Asked<import('../contract.js').RobustnessRequest>} */ ({
     ...bodyOf(design),
     scenario: { ...scenario, reference: played },
     uncertainty: Object.fromEntries(names.filter((n) => n !== 'g').map((n) => [n, spread])),
     samples,
-  };
+  });
 }
 
 /**
