@@ -80,7 +80,10 @@ def _interface(name: str, known: Mapping[str, Schema], asked: bool) -> str:
 def _base(name: str, known: Mapping[str, Schema]) -> str:
     """Of a request, the largest other one whose fields it has all."""
     requests = {
-        key: {field: _union(part) for field, part in about["properties"].items()}.items()
+        key: {
+            (field, field in about.get("required", ()), _union(part))
+            for field, part in about["properties"].items()
+        }
         for key, about in known.items()
         if key.endswith("Request")
     }

@@ -33,12 +33,13 @@ def test_the_pages_types_are_current():
 def misplaced(value: Any, schema: Mapping[str, Any], place: str = "") -> Iterator[str]:
     """Where something is null that the types say is left out, or left out that they say is null."""
     if name := schema.get("$ref", "").removeprefix(REF):
-        required = KNOWN[name]["properties"] if name in WHOLE else KNOWN[name].get("required", ())
+        fields = KNOWN[name]["properties"]
+        required = fields if name in WHOLE else KNOWN[name].get("required", ())
         yield from (f"{place}.{key} is left out" for key in required if key not in value)
         for key, part in value.items():
             if part is None and key not in required:
                 yield f"{place}.{key} is null"
-            yield from misplaced(part, KNOWN[name]["properties"][key], f"{place}.{key}")
+            yield from misplaced(part, fields[key], f"{place}.{key}")
     elif isinstance(value, list):
         yield from (x for part in value for x in misplaced(part, schema.get("items", {}), f"{place}[]"))
     elif isinstance(value, dict):
