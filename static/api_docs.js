@@ -1,5 +1,6 @@
 /** Shows the REST API's description by Swagger UI, which the page has loaded before. */
-const { SwaggerUIBundle } = /** @type {any} */ (window);
+/** @typedef {((how: object) => void) & {presets: {apis: unknown}, SwaggerUIStandalonePreset: unknown}} Bundle */
+const { SwaggerUIBundle } = /** @type {Window & {SwaggerUIBundle: Bundle}} */ (/** @type {Window} */ (window));
 
 SwaggerUIBundle({
   url: 'openapi.json',

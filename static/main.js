@@ -232,7 +232,7 @@ function publish({ design, reply, problem, connection, motion, dragging, locks, 
 }
 
 /** The figures for scripts: `heli2dofStats.summary()`, `heli2dofStats.reset()`. */
-/** @type {any} */ (window).heli2dofStats = stats;
+/** @type {Window & {heli2dofStats?: typeof stats}} */ (window).heli2dofStats = stats;
 
 async function start() {
   for (let delay = 300; ; delay = Math.min(2 * delay, 5000)) {

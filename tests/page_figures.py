@@ -33,15 +33,13 @@ HEAD = """/**
  * @property {boolean} [signed]  its size alone is better or worse
  * @property {boolean} [detail]  seen only where more figures are asked for
  * @property {number} [least]  values that differ by less are alike
+ */
 """
-RESULTS = {"axis": "AxisMetrics", "motor": "MotorMetrics", "margins": "Margins", "sensitivity": "Sensitivity"}
-"""Kinds whose values stand together in replies, and the name of that type."""
 
 
 def module() -> str:
     """The whole module."""
-    parts = [HEAD, *map(_type, RESULTS.items()), " */\n"]
-    parts += (f"\n{_object(kind, known)}" for kind, known in KINDS.items())
+    parts = [HEAD, *(f"\n{_object(kind, known)}" for kind, known in KINDS.items())]
     parts += (
         "\n/** Rows of an axis' step, in their order. @type {Record<string, Figure>} */\n",
         "export const RESPONSE = {\n",
@@ -62,15 +60,6 @@ def _kind(name: str) -> str:
 def _place(name: str) -> str:
     kind = _kind(name)
     return f"{kind.upper()}.{_key(name, KINDS[kind][name])}"
-
-
-def _type(of: tuple[str, str]) -> str:
-    kind, name = of
-    lines = [f" *\n * @typedef {{object}} {name}\n"]
-    for own, figure in KINDS[kind].items():
-        kind_of = "boolean" if figure.notation == "flag" else "number"
-        lines.append(f" * @property {{{kind_of}}} {f'[{own}]' if figure.absent else own}\n")
-    return "".join(lines)
 
 
 def _object(kind: str, known: Mapping[str, Figure]) -> str:

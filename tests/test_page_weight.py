@@ -53,15 +53,61 @@ def test_the_page_is_light(record_property):
 
 def test_every_module_of_the_page_is_loaded_and_small():
     modules = {file for file in STATIC.rglob("*.js") if "vendor" not in file.parts}
-    types_only = {STATIC / "types.js"}
     scene_only = {STATIC / "scene/shim.js", STATIC / "scene/window.js"}
     api_only = {STATIC / "api_docs.js"}
-    assert modules - loaded() - types_only - scene_only - api_only == set()
+    assert modules - loaded() - scene_only - api_only == set()
     assert {file.name: size for file in modules if (size := file.stat().st_size) > SIZE} == {}
 
 
+def types_of(file: Path) -> list[str]:
+    """What a file says of types: in a module what stands in braces in its comments, else all but comments."""
+    text = file.read_text("utf-8")
+    if file.suffix == ".ts":
+        return [COMMENT.sub("", text)]
+    found = []
+    for comment in COMMENT.findall(text):
+        depth, start = 0, 0
+        for at, letter in enumerate(comment):
+            depth, before = max(depth + {"{": 1, "}": -1}.get(letter, 0), 0), depth
+            if (before, depth) == (0, 1):
+                start = at
+            elif (before, depth) == (1, 0):
+                found.append(re.sub("'[^']*'", "''", comment[start:at]))
+    return found
+
+
+def test_types_are_told():
+    """Nowhere `any`, which turns the check of types off for all that it reaches."""
+    files = [
+        file for end in ("js", "d.ts") for file in STATIC.rglob(f"*.{end}") if "vendor" not in file.parts
+    ]
+    kinds = {file: types_of(file) for file in files}
+    assert sum(map(len, kinds.values())) > 2000, "so many types are told"
+    some = {file.name: n for file in files if (n := len(re.findall(r"\bany\b", " ".join(kinds[file]))))}
+    assert some == {}
+    off = [
+        file.name
+        for file in files
+        if re.search(r"@ts-(?:ignore|nocheck|expect-error)", file.read_text("utf-8"))
+    ]
+    assert off == []
+
+
+def test_types_are_fetched_by_nobody():
+    """No module imports a file of declarations, and no browser could find one under the name that comments use."""
+    declared = {file.name.removesuffix(".d.ts") for file in STATIC.glob("*.d.ts")}
+    assert declared == {"contract", "types"}
+    assert [name for name in declared if (STATIC / f"{name}.js").exists()] == []
+    assert not {file for file in loaded() if ".d." in file.name}
+
+
 def test_no_line_of_javascript_is_long():
-    files = [*STATIC.rglob("*.js"), *(ROOT / "tests").rglob("*.mjs"), ROOT / "eslint.config.js"]
+    files = [
+        *STATIC.rglob("*.js"),
+        STATIC / "types.d.ts",
+        *(ROOT / "tests").rglob("*.mjs"),
+        ROOT / "eslint.config.js",
+    ]
     lines = (
         f"{file.relative_to(ROOT)}:{number}"
         for file in files

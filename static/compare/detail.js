@@ -7,7 +7,7 @@ function poles(name, poles) {
   return h('p', {}, h('span', { class: 'aside' }, `${name}, rad/s: `), polesText(poles).replaceAll(', ', ',\u2002'));
 }
 
-/** @param {any} row @param {string} key @param {string} title */
+/** @param {import('../contract.js').ComparisonRow} row @param {string} key @param {string} title */
 export function rowDetail(row, key, title) {
   const k = gainMatrix(`compare-k-${key}`, GAIN);
   k.render(row.K, (v) => significant(v, 4));
@@ -24,9 +24,9 @@ export function rowDetail(row, key, title) {
     h(
       'div',
       { class: 'said' },
-      poles('Poles of A − BK', row.closed_loop_poles),
-      poles('Poles of the whole loop', row.loop_poles),
-      (row.findings ?? []).map((/** @type {any} */ f) => h('p', { class: f.severity }, f.message)),
+      poles('Poles of A − BK', row.closed_loop_poles ?? []),
+      poles('Poles of the whole loop', row.loop_poles ?? []),
+      (row.findings ?? []).map((f) => h('p', { class: f.severity }, f.message)),
       h('p', { class: 'aside' }, title.replace('\n', ': ')),
     ),
   );

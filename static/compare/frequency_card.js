@@ -6,19 +6,21 @@ import { subtitle } from '../plots/index.js';
 import { FrequencyPlot } from './frequency_plot.js';
 
 /**
+ * @template R a reply
  * @typedef {object} Card
- * @property {import('./frequency_plot.js').About[]} charts
+ * @property {import('./frequency_plot.js').About<R>[]} charts
  * @property {number[]} frequencies rad/s
  * @property {(Node|string)[]} caption
  * @property {string} testid of the sentence
  * @property {string} wait
- * @property {(body: any) => Promise<any>} ask
- * @property {(reply: any) => {text: string, warning?: boolean, figures?: boolean}} words figures: whether there is
+ * @property {(body: ReturnType<typeof bodyOf> & {frequencies: number[]}) => Promise<R>} ask
+ * @property {(reply: R) => {text: string, warning?: boolean, figures?: boolean}} words figures: whether there is
  *   anything to plot
  */
 
+/** @template R */
 export class FrequencyCard {
-  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store @param {Card} card */
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store @param {Card<R>} card */
   constructor(root, store, card) {
     this.card = card;
     this.at = h('span', { class: 'at-frequency' });
@@ -47,7 +49,7 @@ export class FrequencyCard {
     });
   }
 
-  /** @param {any} reply */
+  /** @param {R} reply */
   #show(reply) {
     const { text, warning = false, figures = true } = this.card.words(reply);
     setText(this.words, text);

@@ -8,24 +8,31 @@ import { chartBody, ink, makeChart, readByKeys, readIndex, readingFigure, scaled
 import { drawNamedRules, pictureMenu } from '../plots/index.js';
 
 /** Only full powers of ten get a line and a number. */
-const decades = (/** @type {any} */ _u, /** @type {number[]} */ splits) =>
+const decades = (/** @type {uPlot} */ _u, /** @type {number[]} */ splits) =>
   splits.map((v) => (v && Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? v : null));
-const power = (/** @type {any} */ u, /** @type {number[]} */ splits) =>
+const power = (/** @type {uPlot} */ u, /** @type {number[]} */ splits) =>
   decades(u, splits).map((v) => (v === null ? '' : forField(v)));
-const plain = (/** @type {any} */ _u, /** @type {number[]} */ splits) => splits.map((v) => inField(v));
+const plain = (/** @type {uPlot} */ _u, /** @type {number[]} */ splits) => splits.map((v) => inField(v));
 
 /**
  * @typedef {'series-0'|'series-1'|'pitch'|'yaw'} Kind
- * @typedef {{kind: Kind, name: () => (Node|string)[], plain: string, title: string, of: (reply: any) => number[]}}
- *   Series plain: the name where only letters can be
  * @typedef {{kind: Kind, at: number, from: number, to: number, label: string}} Span  a measured height at a frequency
+ */
+/**
+ * @template R a reply
+ * @typedef {{kind: Kind, name: () => (Node|string)[], plain: string, title: string, of: (reply: R) => number[]}}
+ *   Series plain: the name where only letters can be
+ */
+/**
+ * @template R a reply
  * @typedef {{id: string, title: string, full?: string, unit?: string, steps?: number[], rule?: {value: number, every?:
- *   number, label: string, above: boolean}, range: (data: number[][]) => [number, number], spans?: (reply: any) =>
- *   Span[], series: Series[]}} About
+ *   number, label: string, above: boolean}, range: (data: number[][]) => [number, number], spans?: (reply: R) =>
+ *   Span[], series: Series<R>[]}} About
  *   full: the title where it stands alone. steps: between the numbers of a linear axis; a logarithmic one without.
  *   rule: a border, where it comes again, and whether what lies above it is shaded
  */
 
+/** @template R */
 export class FrequencyPlot {
   /** @type {any} */ #chart;
   /** @type {[number, number]} */ #range = [0.001, 10];
@@ -33,7 +40,7 @@ export class FrequencyPlot {
   /** @type {Span[]} */ #spans = [];
 
   /**
-   * @param {About} about
+   * @param {About<R>} about
    * @param {number[]} frequencies rad/s
    * @param {{onHover: (i: number|null) => void, subtitle: () => string}} how subtitle: of its picture
    */
@@ -76,7 +83,7 @@ export class FrequencyPlot {
       ],
       cursor: { drag: { x: false, y: false }, sync: { key: `frequency-${frequencies.length}` } },
       hooks: {
-        drawAxes: [() => this.#shade()],
+        drawAxes: [(/** @type {any} */ u) => this.#shade(u)],
         draw: [(/** @type {any} */ u) => drawNamedRules(u, this.#borders(), ink, -1), () => this.#drawSpans()],
         setCursor: [(/** @type {any} */ u) => this.onHover(readIndex(u))],
       },
@@ -111,9 +118,10 @@ export class FrequencyPlot {
     };
   }
 
-  #shade() {
+  /** @param {uPlot} chart */
+  #shade(chart) {
     if (!this.about.rule?.above) return;
-    const { ctx, bbox, valToPos } = this.#chart;
+    const { ctx, bbox, valToPos } = chart;
     ctx.fillStyle = ink('limit-fill');
     ctx.fillRect(
       bbox.left,
@@ -171,7 +179,7 @@ export class FrequencyPlot {
     ctx.restore();
   }
 
-  /** @param {any} reply */
+  /** @param {R} reply */
   show(reply) {
     if (!this.#chart) this.#build();
     this.#data = this.about.series.map((s) => s.of(reply));

@@ -19,7 +19,8 @@ function range(data) {
   return [10 ** Math.max(-6, Math.floor(Math.min(-1, ...seen))), 10 ** Math.min(6, Math.ceil(Math.max(1, ...seen)))];
 }
 
-/** @type {import('./frequency_plot.js').About[]} */
+/** @typedef {import('../contract.js').Rga} Rga */
+/** @type {import('./frequency_plot.js').About<Rga>[]} */
 const CHARTS = [
   {
     id: 'gains',
@@ -31,14 +32,14 @@ const CHARTS = [
         name: () => [size('11')],
         plain: '|λ₁₁|',
         title: 'relative gain of the diagonal pairing at this frequency',
-        of: (r) => r.rga_magnitude.map((/** @type {number[][]} */ m) => m[0][0]),
+        of: (r) => (r.rga_magnitude ?? []).map((m) => m[0][0]),
       },
       {
         kind: 'series-1',
         name: () => [size('12')],
         plain: '|λ₁₂|',
         title: 'relative gain of the crosswise pairing at this frequency',
-        of: (r) => r.rga_magnitude.map((/** @type {number[][]} */ m) => m[0][1]),
+        of: (r) => (r.rga_magnitude ?? []).map((m) => m[0][1]),
       },
     ],
   },
@@ -66,16 +67,17 @@ const CHARTS = [
   },
 ];
 
-/** @param {any} reply */
+/** @param {Rga} reply */
 function words(reply) {
   if (!reply.rga_magnitude)
     return { figures: false, text: reply.findings?.[0]?.message ?? 'There is no steady state, so no RGA.' };
   const { dominant, text } = reply.dominance
-    ? dominanceWords(reply.frequencies, reply.dominance)
+    ? dominanceWords(reply.frequencies ?? [], reply.dominance)
     : { dominant: false, text: 'A diagonal entry of Ĝ(jω) is 0, so there is no diagonal dominance.' };
   return { text, warning: !dominant };
 }
 
+/** @extends {FrequencyCard<Rga>} */
 export class InteractionCard extends FrequencyCard {
   /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {

@@ -20,24 +20,30 @@ const around = (step, low, high) => (/** @type {number[][]} */ data) => {
   ]);
 };
 
-/** @param {'phase'|'gain'} kind @param {(m: any) => string} label */
-const spans = (kind, label) => (/** @type {any} */ reply) =>
+/**
+ * @typedef {import('../contract.js').OpenLoops} OpenLoops
+ * @typedef {import('../types.js').Margins} Margins
+ */
+
+/** @param {'phase'|'gain'} kind @param {(m: Margins) => string} label */
+const spans = (kind, label) => (/** @type {OpenLoops} */ reply) =>
   AXES.flatMap((axis) => {
-    const place = marginPlaces(reply.frequencies, reply[axis], reply.margins[axis])[kind];
-    return place ? [{ kind: axis, ...place, label: label(reply.margins[axis]) }] : [];
+    const margins = reply.margins[axis];
+    const place = marginPlaces(reply.frequencies, reply[axis], margins)[kind];
+    return place && margins ? [{ kind: axis, ...place, label: label(margins) }] : [];
   });
 
-/** @param {(own: any) => number[]} of */
+/** @param {(own: import('../contract.js').FrequencyResponse) => number[]} of */
 const series = (of) =>
   AXES.map((axis) => ({
     kind: axis,
     name: () => [NAMES[axis]],
     plain: NAMES[axis],
     title: TITLE,
-    of: (/** @type {any} */ r) => of(r[axis]),
+    of: (/** @type {OpenLoops} */ r) => of(r[axis]),
   }));
 
-/** @type {import('./frequency_plot.js').About[]} */
+/** @type {import('./frequency_plot.js').About<OpenLoops>[]} */
 const CHARTS = [
   {
     id: 'loop-gain',
@@ -59,16 +65,16 @@ const CHARTS = [
     range: around(45, -1080, 360),
     rule: { value: -180, every: 360, label: 'critical', above: false },
     spans: spans('phase', (m) => degrees(m.phase_margin, 0)),
-    series: series((own) => own.phase.map((/** @type {number} */ v) => v * DEGREE)),
+    series: series((own) => own.phase.map((v) => v * DEGREE)),
   },
 ];
 
-/** One motor's margins in words. @param {any} reply @param {'pitch'|'yaw'} axis */
+/** One motor's margins in words. @param {OpenLoops} reply @param {'pitch'|'yaw'} axis */
 function words(reply, axis) {
   const margins = reply.margins[axis];
   const place = marginPlaces(reply.frequencies, reply[axis], margins);
   const phase = place.phase
-    ? say`${degrees(margins.phase_margin, 0)} at ${significant(place.phase.at, 3)} rad/s`
+    ? say`${degrees(margins?.phase_margin, 0)} at ${significant(place.phase.at, 3)} rad/s`
     : degrees(margins?.phase_margin, 0);
   const gain =
     margins?.gain_margin === undefined
@@ -83,11 +89,12 @@ function words(reply, axis) {
     : say`Yaw motor: phase margin ${phase}, gain margin ${gain}${lower}.`;
 }
 
+/** @extends {FrequencyCard<OpenLoops>} */
 export class OpenLoopsCard extends FrequencyCard {
   /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
     const caption = ['The loop opened at one motor, all else closed, PI loops included; ', symbol('ω'), ' in rad/s.'];
-    const tell = (/** @type {any} */ reply) =>
+    const tell = (/** @type {OpenLoops} */ reply) =>
       reply.stable
         ? { text: AXES.map((axis) => words(reply, axis)).join(' ') }
         : { text: 'The whole loop is unstable: it has no margins.', warning: true };

@@ -39,7 +39,7 @@ export class SplitsCard {
     });
   }
 
-  /** @param {any[]} splits */
+  /** @param {import('../contract.js').Split[]} splits */
   #show(splits) {
     const focused = this.#rows.findIndex((r) => r.use === document.activeElement);
     const texts = splits.map((s) => significant(s.norm, 4));

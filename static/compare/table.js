@@ -7,6 +7,7 @@ import {
   best,
   bodyOf,
   DESIGN,
+  figureIn,
   FULL_RANK,
   hardest,
   keyOf,
@@ -24,13 +25,17 @@ import { button, groupedHead, h, keepingFocus, Lazy, printed, setAttr, setText, 
 import { motorText } from '../panels/index.js';
 import { rowDetail } from './detail.js';
 
-/** @typedef {'theta'|'psi'} Axis */
+/**
+ * @typedef {import('../types.js').Axis} Axis
+ * @typedef {import('../types.js').Motor} Motor
+ * @typedef {import('../contract.js').ComparisonRow} Row
+ */
 const ROUNDING = 1e-9; // below it all pole errors are equally good
-const step = (/** @type {any} */ row, /** @type {Axis} */ axis) =>
+const step = (/** @type {Row} */ row, /** @type {Axis} */ axis) =>
   row.stable ? row.axis_metrics?.[axis]?.[axis] : undefined;
-const voltage = (/** @type {any} */ row, /** @type {'V_p'|'V_y'} */ name) => hardest(row.axis_metrics)[name];
+const voltage = (/** @type {Row} */ row, /** @type {Motor} */ name) => hardest(row.axis_metrics)[name];
 
-/** @param {any} row */
+/** @param {Row} row */
 function marginText(row) {
   const worse = worseMargins(row.margins);
   return worse
@@ -50,15 +55,18 @@ function marginText(row) {
  * What the registry says of a figure.
  * @param {string} id
  * @param {Known} f
- * @param {(row: any) => any} of
+ * @param {(row: Row) => number|undefined} of
  * @returns {Column}
  */
-const column = (id, f, of = (r) => r[f.name]) => ({
+const column = (id, f, of = (r) => figureIn(r, f.name)) => ({
   id,
   name: () => [f.short ?? ''],
   title: f.hint ?? '',
   text: (r) => textOf(f, of(r)),
-  cost: (r) => (f.better === 'none' || of(r) === undefined ? undefined : signOf(f) * of(r)),
+  cost: (r) => {
+    const v = of(r);
+    return f.better === 'none' || v === undefined ? undefined : signOf(f) * v;
+  },
 });
 
 /** A figure of the state feedback, under its symbol. @param {string} id @param {Known} f @returns {Column} */
@@ -66,7 +74,7 @@ const designColumn = (id, f) => ({ ...column(id, f), name: () => [f.symbol ? pri
 
 /** @param {Axis} axis @param {'rise'|'overshoot'|'undershoot'} key @returns {Column} */
 const axisColumn = (axis, key) => ({
-  ...column(`${key}-${axis}`, AXIS[key], (r) => step(r, axis)?.[AXIS[key].name]),
+  ...column(`${key}-${axis}`, AXIS[key], (r) => figureIn(step(r, axis), AXIS[key].name)),
   axis,
   title: `${AXIS[key].hint}, nonlinear rig`,
 });
@@ -89,16 +97,16 @@ const COLUMNS = [
   .../** @type {Axis[]} */ (['theta', 'psi']).flatMap((axis) =>
     /** @type {const} */ (['rise', 'overshoot', 'undershoot']).map((key) => axisColumn(axis, key)),
   ),
-  .../** @type {('V_p'|'V_y')[]} */ (['V_p', 'V_y']).map((name) => ({
+  .../** @type {Motor[]} */ (['V_p', 'V_y']).map((name) => ({
     id: name,
     name: () => [printed(name), ` ${MOTOR.peak.short}`],
     title: `${name === 'V_p' ? 'pitch' : 'yaw'} ${MOTOR.peak.hint}; or the longer share of time at its limit`,
-    text: (/** @type {any} */ r) => motorText({ [name]: voltage(r, name) ?? {} }, name),
-    cost: (/** @type {any} */ r) => {
+    text: (/** @type {Row} */ r) => motorText({ [name]: voltage(r, name) }, name),
+    cost: (/** @type {Row} */ r) => {
       const m = voltage(r, name);
       return !r.stable || !m || m.saturated > 0 ? undefined : m.peak;
     },
-    warn: (/** @type {any} */ r) => (voltage(r, name)?.saturated ?? 0) > 0,
+    warn: (/** @type {Row} */ r) => (voltage(r, name)?.saturated ?? 0) > 0,
   })),
   {
     id: 'margin',
@@ -119,7 +127,7 @@ const COLUMNS = [
   },
 ];
 
-/** @param {any} row */
+/** @param {Row} row */
 const marginTitle = (row) =>
   Object.entries(row.margins ?? {})
     .map(
@@ -161,8 +169,8 @@ export class CompareTable {
       body: (d) => ({
         ...bodyOf(d),
         method: FULL_RANK,
-        coupling: 'triangular',
-        lead: 'pitch',
+        coupling: /** @type {const} */ ('triangular'),
+        lead: /** @type {const} */ ('pitch'),
         scenario: scenarioOf(d),
       }),
     });
@@ -190,7 +198,7 @@ export class CompareTable {
     this.render(this.store.state);
   }
 
-  /** @param {any} row @param {Set<any>[]} marks @param {any} above @returns {HTMLElement[]} */
+  /** @param {Row} row @param {Set<Row>[]} marks @param {Row|undefined} above @returns {HTMLElement[]} */
   #row(row, marks, above) {
     const key = keyOf(row);
     const full = row.method === FULL_RANK;

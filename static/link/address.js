@@ -38,8 +38,9 @@ const held = (s) => [s.design, s.motion, s.showLinear, s.showMarks, s.spread, s.
 const pinKey = (pins) => pins.map((p) => `${p.id} ${p.index} ${p.name}`).join('\n');
 
 /**
+ * @typedef {ReturnType<typeof setTimeout>} Timer
  * @typedef {{hash: () => string, push: (hash: string) => void, replace: (hash: string) => void, now: () => number,
- *   later: (f: () => void, ms: number) => any, cancel: (id: any) => void}} Browser
+ *   later: (f: () => void, ms: number) => Timer, cancel: (id: Timer) => void}} Browser
  */
 /** @type {() => Browser} */
 const browser = () => ({
@@ -55,9 +56,9 @@ export class Address {
   #shown = '';
   #step = -1;
   /** @type {string|null} */ #place = null;
-  /** @type {any[]} */ #seen = [];
+  /** @type {unknown[]} */ #seen = [];
   /** @type {{state: State, step: number}|null} */ #pending = null;
-  /** @type {any} */ #timer = null;
+  /** @type {Timer|null} */ #timer = null;
   #wrote = -Infinity;
 
   /** @param {import('../model/store.js').Store} store @param {Browser} [of] */
@@ -91,7 +92,7 @@ export class Address {
     const link = readLink(this.of.hash(), this.#known);
     const { design } = readLink('#v1', this.#known);
     if (link.shown) this.store.set(link.shown);
-    this.store.load(/** @type {any} */ (link.design ?? design));
+    this.store.load(/** @type {import('../types.js').Design} */ (link.design ?? design));
     if (link.pins?.length) this.store.addPins(link.pins.map((pin) => ({ ...pin, reply: null })));
     this.store.set({ notice: troubleWords(link.trouble) });
     this.#place = link.place ?? null;

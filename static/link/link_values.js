@@ -77,13 +77,13 @@ export function polesOf(text) {
 
 /**
  * Every leaf of an object under its dotted path; arrays are leaves.
- * @param {any} value
+ * @param {unknown} value
  * @param {string} [path]
  * @returns {[string, Leaf][]}
  */
 export function leaves(value, path = '') {
   if (value === undefined) return [];
-  if (value === null || typeof value !== 'object' || Array.isArray(value)) return [[path, value]];
+  if (value === null || typeof value !== 'object' || Array.isArray(value)) return [[path, /** @type {Leaf} */ (value)]];
   return Object.entries(value).flatMap(([key, inner]) => leaves(inner, path ? `${path}.${key}` : key));
 }
 
@@ -92,8 +92,8 @@ const same = (a, b) => Object.is(a, b) || (typeof a === 'object' && JSON.stringi
 
 /**
  * What must be written so that `base` becomes `value`: leaves that differ, and empty ones that are gone.
- * @param {any} value
- * @param {any} base
+ * @param {unknown} value
+ * @param {unknown} base
  * @returns {[string, string][]} path, text
  */
 export function differences(value, base) {
@@ -111,25 +111,26 @@ export function differences(value, base) {
 
 /**
  * Sets a leaf, or takes it away with the parents that it leaves empty.
- * @param {any} target changed in place
+ * @param {object} target changed in place
  * @param {string} path
  * @param {Leaf|undefined} leaf
  * @returns {boolean} whether the path can be one
  */
 export function setLeaf(target, path, leaf) {
+  const own = /** @type {Record<string, unknown>} */ (target);
   const [key, ...rest] = path.split('.');
   if (!SEGMENT.test(key)) return false;
-  const inner = Object.hasOwn(target, key) ? target[key] : undefined;
+  const inner = Object.hasOwn(own, key) ? own[key] : undefined;
   if (!rest.length) {
-    if (leaf === undefined) delete target[key];
-    else Object.defineProperty(target, key, { value: leaf, writable: true, enumerable: true, configurable: true });
+    if (leaf === undefined) delete own[key];
+    else Object.defineProperty(own, key, { value: leaf, writable: true, enumerable: true, configurable: true });
     return true;
   }
   if (leaf === undefined && (inner === undefined || inner === null || typeof inner !== 'object'))
     return rest.every((part) => SEGMENT.test(part));
   const nested = inner !== null && typeof inner === 'object' && !Array.isArray(inner) ? inner : {};
   if (!setLeaf(nested, rest.join('.'), leaf)) return false;
-  if (leaf === undefined && !Object.keys(nested).length) delete target[key];
-  else Object.defineProperty(target, key, { value: nested, writable: true, enumerable: true, configurable: true });
+  if (leaf === undefined && !Object.keys(nested).length) delete own[key];
+  else Object.defineProperty(own, key, { value: nested, writable: true, enumerable: true, configurable: true });
   return true;
 }

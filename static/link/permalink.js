@@ -13,6 +13,7 @@
  * @typedef {import('../types.js').Design} Design
  * @typedef {import('../types.js').State} State
  * @typedef {import('../types.js').Preset} Preset
+ * @typedef {import('./link_values.js').Leaf} Leaf
  * @typedef {{part: string, why: string}} Trouble
  * @typedef {{index: number, name: string, design: Design}} PinnedDesign
  * @typedef {Pick<State, 'motion'|'showLinear'|'showMarks'|'spread'|'requirements'|'locks'>} Shown
@@ -93,8 +94,8 @@ export function linkOf(state, { presets }, place = null, most = MOST) {
 /**
  * Why a leaf cannot be what the link says, or nothing.
  * @param {string} path
- * @param {any} leaf
- * @param {any} base what the preset proposes there
+ * @param {Leaf|undefined} leaf
+ * @param {unknown} base what the preset proposes there
  * @param {Known} known
  * @param {Preset} preset
  */
@@ -102,7 +103,7 @@ function objection(path, leaf, base, { methods }, preset) {
   const [top, key] = path.split('.');
   if (typeof leaf === 'number' && !Number.isFinite(leaf)) return 'not a finite number';
   const words = path.includes('.') ? undefined : QUANTITIES[path]?.words; // deeper ones are the server's to judge
-  if (words) return words.includes(leaf) ? '' : `neither ${words.join(' nor ')}`;
+  if (words) return words.some((word) => word === leaf) ? '' : `neither ${words.join(' nor ')}`;
   if (path === 'method')
     return !methods.length || methods.some((m) => m.name === leaf) ? '' : 'no method of this server';
   if (top === 'parameters')
@@ -124,13 +125,15 @@ function objection(path, leaf, base, { methods }, preset) {
   return base !== undefined || top === 'scenario' ? '' : 'unknown here';
 }
 
-/** @param {any} object @param {string} path */
+/** @param {unknown} object @param {string} path @returns {unknown} */
 const at = (object, path) =>
   path
     .split('.')
     .reduce(
-      (inner, key) =>
-        inner !== null && typeof inner === 'object' && Object.hasOwn(inner, key) ? inner[key] : undefined,
+      (/** @type {unknown} */ inner, key) =>
+        inner !== null && typeof inner === 'object' && Object.hasOwn(inner, key)
+          ? /** @type {Record<string, unknown>} */ (inner)[key]
+          : undefined,
       object,
     );
 
@@ -167,7 +170,7 @@ function readDesign(parts, known, trouble, where = '') {
       else complain('pi', 'not four PI values');
     } else {
       const path = lengthened(key);
-      /** @type {any} */ let leaf;
+      /** @type {Leaf|undefined} */ let leaf;
       try {
         leaf = leafOf(text);
       } catch {

@@ -2,7 +2,9 @@
  * What is read off the comparisons: the best of a column, the worse of two motors, how poles are dealt, and where Ĝ(jω)
  * is dominant. Pure.
  * @typedef {import('../types.js').Complex} Complex
- * @typedef {{rows: number[][], columns: number[][]}} Dominance  off-diagonal over diagonal size, one pair a frequency
+ * @typedef {import('../contract.js').Dominance} Dominance
+ * @typedef {import('../types.js').Metrics} Metrics
+ * @typedef {import('../types.js').Margins} Margins
  */
 import { complex, conjugates, forField, significant } from '../text/index.js';
 
@@ -26,11 +28,11 @@ export function best(costs, texts) {
 /**
  * The smaller margins of both motors; a gain margin that is missing is infinite. Without any margin (unstable)
  * undefined.
- * @param {Record<string, {gain_margin?: number, phase_margin?: number}>|undefined} margins
+ * @param {import('../contract.js').LoopMargins|undefined} margins
  * @returns {{gain: number, phase: number}|undefined}
  */
 export function worseMargins(margins) {
-  const both = Object.values(margins ?? {});
+  /** @type {Margins[]} */ const both = Object.values(margins ?? {});
   if (!both.length) return undefined;
   return {
     gain: Math.min(...both.map((m) => m.gain_margin ?? Infinity)),
@@ -40,13 +42,12 @@ export function worseMargins(margins) {
 
 /**
  * Each motor over both single steps: the higher peak, the longer share of time at the limit.
- * @param {Record<string, any>|undefined} steps
+ * @param {Partial<Record<import('../types.js').Axis, Metrics>>|undefined} steps
  */
 export function hardest(steps) {
-  const of = (/** @type {string} */ name) => {
-    const both = Object.values(steps ?? {})
-      .map((s) => s?.[name])
-      .filter((m) => m?.peak !== undefined);
+  /** @type {(Metrics|undefined)[]} */ const all = Object.values(steps ?? {});
+  const of = (/** @type {import('../types.js').Motor} */ name) => {
+    const both = all.map((s) => s?.[name]).filter((m) => m !== undefined);
     return both.length
       ? { peak: Math.max(...both.map((m) => m.peak)), saturated: Math.max(...both.map((m) => m.saturated ?? 0)) }
       : undefined;

@@ -25,11 +25,18 @@ export const tipOf = ({ meaning, source }) => `${meaning}${source ? ` (${source}
 export const signOf = ({ better }) => (better === 'higher' ? -1 : 1);
 
 /**
+ * A figure of a reply's part, by its name in the registry.
+ * @param {object|undefined} part
+ * @param {string} name
+ */
+export const figureIn = (part, name) => /** @type {Record<string, number|undefined>} */ (part ?? {})[name];
+
+/**
  * The value of a figure of an axis' step: the axis' own, or one that its step has.
- * @param {any} metrics
- * @param {string} axis
+ * @param {import('../types.js').Metrics|undefined} metrics
+ * @param {import('../types.js').Axis} axis
  * @param {string} key  of RESPONSE
  * @param {Figure} figure
  * @returns {number|undefined}
  */
-export const valueIn = (metrics, axis, key, { name }) => (key in STEP ? metrics : metrics?.[axis])?.[name];
+export const valueIn = (metrics, axis, key, { name }) => figureIn(key in STEP ? metrics : metrics?.[axis], name);

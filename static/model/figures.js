@@ -18,38 +18,6 @@
  * @property {boolean} [signed]  its size alone is better or worse
  * @property {boolean} [detail]  seen only where more figures are asked for
  * @property {number} [least]  values that differ by less are alike
- *
- * @typedef {object} AxisMetrics
- * @property {number} [rise_time]
- * @property {number} [settling_time]
- * @property {number} overshoot
- * @property {number} undershoot
- * @property {number} peak
- * @property {number} [peak_time]
- * @property {number} steady_state_error
- * @property {number} iae
- * @property {number} itae
- * @property {boolean} settled
- *
- * @typedef {object} MotorMetrics
- * @property {number} peak
- * @property {number} saturated
- * @property {number} effort
- *
- * @typedef {object} Margins
- * @property {number} [gain_margin]
- * @property {number} [gain_reduction_margin]
- * @property {number} [phase_margin]
- * @property {number} [delay_margin]
- *
- * @typedef {object} Sensitivity
- * @property {number} peak
- * @property {number} [peak_frequency]
- * @property {number} disk_margin
- * @property {number} [disk_frequency]
- * @property {number} gain_low
- * @property {number} [gain_high]
- * @property {number} phase
  */
 
 /**

@@ -84,7 +84,7 @@ export function remarksOf({ reply, problem }) {
   const remark = (/** @type {Finding|undefined} */ f, /** @type {string} */ text) =>
     f ? { text: `${f.severity === 'error' ? '✕' : '▲'} ${text}`, severity: f.severity, message: f.message } : null;
   const motor = (/** @type {'V_p'|'V_y'} */ name) => {
-    const share = reply?.step.nonlinear.metrics?.[name]?.saturated;
+    const share = reply?.step.nonlinear.metrics?.[name]?.saturated ?? 0;
     return remark(
       first(findings, [`saturation_${name}`]),
       share > 0 ? say`at limit ${percent(share, share < 0.01 ? 1 : 0)}` : t('at limit'),

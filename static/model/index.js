@@ -25,7 +25,7 @@ export {
   withStart,
 } from './experiment.js';
 export { AXIS, DESIGN, MARGINS, MOTOR, RESPONSE, SENSITIVITY, STEP } from './figures.js';
-export { signOf, textOf, tipOf, valueIn } from './figure_texts.js';
+export { figureIn, signOf, textOf, tipOf, valueIn } from './figure_texts.js';
 export { placeOf, remarksOf } from './finding_places.js';
 export { lockNames, LOCKS } from './locks.js';
 export { inverseOf, mixingOf } from './loop_values.js';

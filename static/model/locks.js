@@ -38,9 +38,12 @@ export const LOCKS = {
  */
 export function guarded(before, after, locks) {
   if (!locks.length || after === before) return after;
-  /** @type {any} */ const kept = { ...after };
-  for (const lock of locks) for (const key of LOCKS[lock]?.keys ?? []) kept[key] = before[key];
-  const same = Object.keys({ ...before, ...kept }).every((key) => kept[key] === /** @type {any} */ (before)[key]);
+  const kept = { ...after };
+  /** @template {keyof Design} K @param {K} key */
+  const keep = (key) => (kept[key] = before[key]);
+  for (const lock of locks) LOCKS[lock]?.keys.forEach(keep);
+  const keys = /** @type {(keyof Design)[]} */ (Object.keys({ ...before, ...kept }));
+  const same = keys.every((key) => kept[key] === before[key]);
   return same ? before : kept;
 }
 

@@ -17,7 +17,11 @@ export function keyOf({ method, coupling, lead }) {
 export function partOf(key) {
   const [method, coupling, lead] = key.split('/');
   return coupling
-    ? { method, coupling: /** @type {any} */ (coupling), lead: /** @type {any} */ (lead ?? 'pitch') }
+    ? {
+        method,
+        coupling: /** @type {Design['coupling']} */ (coupling),
+        lead: /** @type {Design['lead']} */ (lead ?? 'pitch'),
+      }
     : { method };
 }
 

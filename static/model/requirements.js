@@ -77,7 +77,7 @@ export function guideWords(p, r) {
 }
 
 /**
- * @typedef {'theta'|'psi'} Axis
+ * @typedef {import('../types.js').Axis} Axis
  * @typedef {{met: boolean, settling: boolean, overshoot: boolean, text: string}} Verdict of each requirement whether it
  *   is missed
  */

@@ -8,6 +8,10 @@
  * @typedef {import('../types.js').Preset} Preset
  * @typedef {import('../types.js').Pin} Pin
  */
+/**
+ * @template T
+ * @typedef {import('../types.js').Asked<T>} Asked
+ */
 import { scenarioBody } from './experiment.js';
 import { guarded } from './locks.js';
 import { FULL_RANK } from './methods.js';
@@ -86,7 +90,7 @@ export function designOf(preset, keep = {}) {
 
 /** A design as the server's calls take it. @param {Design} design */
 export function bodyOf(design) {
-  return {
+  return /** @satisfies {Asked<import('../contract.js').DesignRequest>} */ ({
     preset: design.preset,
     parameters: design.parameters,
     limits: design.limits,
@@ -95,17 +99,24 @@ export function bodyOf(design) {
     method: design.method,
     ...plainOf(design),
     loops: design.loops,
-  };
+  });
 }
 
 /** The experiment, sampled for the screen. @param {Design} design */
-export const scenarioOf = ({ scenario }) => ({ ...scenarioBody(scenario), samples: 501 });
+export const scenarioOf = ({ scenario }) =>
+  /** @satisfies {import('../contract.js').ScenarioChanges} */ ({ ...scenarioBody(scenario), samples: 501 });
 
 /** All that the page shows of a design, asked of the server. @param {Design} design */
-export const evaluationOf = (design) => ({ ...bodyOf(design), scenario: scenarioOf(design), each_axis: true });
+export const evaluationOf = (design) =>
+  /** @satisfies {Asked<import('../contract.js').EvaluateRequest>} */ ({
+    ...bodyOf(design),
+    scenario: scenarioOf(design),
+    each_axis: true,
+  });
 
 /** The message to the live socket. @param {Design} design @param {number} seq */
-export const requestOf = (design, seq) => ({ seq, ...evaluationOf(design) });
+export const requestOf = (design, seq) =>
+  /** @satisfies {Asked<import('../contract.js').LiveRequest>} */ ({ seq, ...evaluationOf(design) });
 
 /** @param {Pick<State, 'presets'|'design'>} state @returns {Preset|undefined} */
 export const presetOf = ({ presets, design }) => presets.find((p) => p.name === design?.preset);

@@ -52,7 +52,9 @@ export function tracesOf(reply, motion, showLinear) {
     trace(steps.psi?.nonlinear, s, false),
     trace(steps.theta?.nonlinear, s, false),
   ];
-  const plots = /** @type {any} */ (Object.fromEntries(SIGNALS.map((s) => [s, of(s)])));
+  const plots = /** @type {Record<Signal, ReturnType<typeof of>>} */ (
+    Object.fromEntries(SIGNALS.map((s) => [s, of(s)]))
+  );
   return { t: reply.step.nonlinear.t, plots };
 }
 

@@ -2,6 +2,14 @@
  * The server, as the page sees it: a few REST calls and the live socket. All addresses are relative to the page and
  * name the tab's session, by which a proxy in front of several servers finds the one that knows this tab.
  * @typedef {import('../types.js').Connection} Connection
+ * @typedef {import('../types.js').Reply} Reply
+ * @typedef {import('../types.js').LiveReply} LiveReply
+ * @typedef {import('../contract.js').Preview} Preview
+ */
+/**
+ * A request's body.
+ * @template T
+ * @typedef {import('../types.js').Asked<T>} Asked
  */
 import { LatestSocket } from './latest.js';
 import { ofSession, session } from './session.js';
@@ -64,8 +72,9 @@ async function call(path, body, method = body === undefined ? 'GET' : 'POST') {
 const fileOf = async (path, design) => (await answerOf(path, { method: 'POST', body: JSON.stringify(design) })).blob();
 
 export const getPresets = () => call('api/v1/presets');
+/** @returns {Promise<import('../types.js').Method[]>} */
 export const getMethods = () => call('api/v1/methods');
-/** @param {string} coupling @param {string} lead */
+/** @param {string} coupling @param {string} lead @returns {Promise<import('../contract.js').Symbolic>} */
 export const getSymbolic = (coupling, lead) => call(`api/v1/symbolic?${new URLSearchParams({ coupling, lead })}`);
 /** @param {unknown} design */
 export const suggestLoops = (design) => call('api/v1/suggest', design);
@@ -93,6 +102,7 @@ export const getRigViews = () => call('scene/rigs');
  * @param {Blob} file
  * @param {string} name
  * @param {Record<string, string>} [dialect]
+ * @returns {Promise<Preview>}
  */
 export const sendRecording = (file, name, dialect = {}) =>
   answerOf(`api/v1/recordings?${new URLSearchParams({ name, ...dialect })}`, {
@@ -107,13 +117,17 @@ export const sampleRecording = (design) => fileOf('api/v1/recordings/sample', de
 /** @param {string} id @param {unknown} body */
 export const overlayRecording = (id, body) => call(`api/v1/recordings/${encodeURIComponent(id)}/overlay`, body);
 
-/** The motion of a design as a file. @param {'html'|'viser'} format @param {unknown} design */
+/**
+ * The motion of a design as a file.
+ * @param {'html'|'viser'} format
+ * @param {Asked<import('../contract.js').StepRequest>} design
+ */
 export const motionFile = (format, design) => fileOf(`api/v1/motion?format=${format}`, design);
 /**
  * A design for another program or for print.
  * @param {string} format
  * @param {string} link that opens it
- * @param {unknown} design
+ * @param {Asked<import('../contract.js').StepRequest>} design
  */
 export const exportDesign = (format, link, design) =>
   fileOf(`api/v1/export/${format}?${new URLSearchParams({ link: link.replace(UNUSUAL, encodeURIComponent) })}`, design);
@@ -141,8 +155,8 @@ export class Live {
   /** @type {LatestSocket} */ #socket;
 
   /**
-   * @param {{onReply: (reply: any) => void, onProblem: (problem: any) => void, onStatus: (c: Connection) => void,
-   *   open?: () => WebSocket}} handlers  `open` makes the socket
+   * @param {{onReply: (reply: LiveReply) => void, onProblem: (problem: import('../types.js').Problem) => void,
+   *   onStatus: (c: Connection) => void, open?: () => WebSocket}} handlers  `open` makes the socket
    */
   constructor({ onReply, onProblem, onStatus, open = liveSocket }) {
     this.onReply = onReply;

@@ -12,22 +12,23 @@ function floats(buffer, at, length) {
   return Float32Array.from({ length }, (_, i) => view.getFloat32(at + 4 * i, true));
 }
 
-/** @param {ArrayBuffer} buffer @returns {any} the reply, its long arrays as views on the buffer */
+/** @param {ArrayBuffer} buffer @returns {unknown} the reply, its long arrays as views on the buffer */
 export function decodeFrame(buffer) {
   const size = new DataView(buffer).getUint32(0, true);
   const data = 4 + size;
   if (data > buffer.byteLength) throw new RangeError('the frame is shorter than its header says');
   const text = new TextDecoder().decode(new Uint8Array(buffer, 4, size));
-  const filled = (/** @type {any} */ value) => {
+  const filled = (/** @type {Record<string, unknown>} */ value) => {
     if (Array.isArray(value.$f32)) return floats(buffer, data + 4 * value.$f32[0], value.$f32[1]);
     for (const key of Object.keys(value))
-      if (typeof value[key] === 'object' && value[key] !== null) value[key] = filled(value[key]);
+      if (typeof value[key] === 'object' && value[key] !== null)
+        value[key] = filled(/** @type {Record<string, unknown>} */ (value[key]));
     return value;
   };
   return filled(JSON.parse(text)); // a reviver would be called for each number: several times slower
 }
 
-/** @param {any} value @returns {ArrayBuffer} the counterpart, for tests and recordings */
+/** @param {unknown} value @returns {ArrayBuffer} the counterpart, for tests and recordings */
 export function encodeFrame(value) {
   /** @type {Float32Array[]} */ const arrays = [];
   let offset = 0;

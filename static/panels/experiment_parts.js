@@ -16,7 +16,7 @@ import { check, Choice, h, designField, setText, symbol } from '../ui/index.js';
  * @typedef {import('../types.js').Scenario} Scenario
  * @typedef {import('../types.js').Design} Design
  * @typedef {import('../types.js').Finding} Finding
- * @typedef {'theta'|'psi'} Axis
+ * @typedef {import('../types.js').Axis} Axis
  */
 const AXES = /** @type {Axis[]} */ (['theta', 'psi']);
 const GREEK = { theta: 'θ', psi: 'ψ' };
@@ -147,7 +147,7 @@ export class LimitsPart {
     this.windup = new Choice({
       label: 'Anti-windup',
       testid: 'experiment-windup',
-      onChange: (v) => fields.edit((s) => withOption(s, { anti_windup: /** @type {any} */ (v) })),
+      onChange: (v) => fields.edit((s) => withOption(s, { anti_windup: v })),
       options: [
         ['none', 'none', 'the integrals go on while a motor is at its limit'],
         ['clamping', 'clamping', 'the integral that pushes a motor beyond its limit stands still'],

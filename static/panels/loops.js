@@ -47,7 +47,7 @@ export class LoopsPanel {
     this.outer = new Choice({
       label: 'Outer loop',
       testid: 'outer',
-      onChange: (v) => this.#set({ outer: /** @type {any} */ (v) }),
+      onChange: (v) => this.#set({ outer: v }),
       options: [
         ['none', 'Inner loop alone', 'v = Ĝ(0)⁻¹ r: the placed poles, and no others'],
         ['pi', 'PI loops', 'a PI controller on each axis, which moves the placed poles'],
@@ -71,7 +71,7 @@ export class LoopsPanel {
         ['diagonal', 'diagonal', 'pitch error to the pitch motor'],
         ['cross', 'crosswise', 'pitch error to the yaw motor'],
       ],
-      (value) => ({ pairing: /** @type {any} */ (value) }),
+      (value) => ({ pairing: value }),
     );
     const decoupler = check(
       {
@@ -104,15 +104,16 @@ export class LoopsPanel {
   }
 
   /**
+   * @template {string} V
    * @param {string} text
    * @param {string} key
-   * @param {string[][]} options value, name, explanation
-   * @param {(value: string) => Partial<import('../types.js').Design>} read
+   * @param {[V, string, string][]} options value, name, explanation
+   * @param {(value: V) => Partial<import('../types.js').Design>} read
    */
   #select(text, key, options, read) {
     const select = h(
       'select',
-      { 'data-testid': key, 'data-field': key, onchange: () => this.#set(read(select.value)) },
+      { 'data-testid': key, 'data-field': key, onchange: () => this.#set(read(/** @type {V} */ (select.value))) },
       optionsOf(options),
     );
     return { select, node: h('label', { class: 'select' }, h('span', {}, text), select) };

@@ -6,6 +6,7 @@ import { brief, differs, percent, say, t } from '../text/index.js';
 import {
   AXES,
   AXIS,
+  figureIn,
   MARGINS,
   MOTOR,
   RESPONSE,
@@ -18,24 +19,26 @@ import {
 import { button, h, head, printed, recall, remember, setAttr, setText, shape } from '../ui/index.js';
 
 /** @typedef {import('../types.js').Reply} Reply */
-/** @typedef {'theta'|'psi'} Axis */
-/** @typedef {'V_p'|'V_y'} Motor */
+/** @typedef {import('../types.js').Axis} Axis @typedef {import('../types.js').Motor} Motor */
+/** @typedef {import('../types.js').Metrics} Metrics @typedef {import('../types.js').Margins} Margins */
 
 const OPEN = 'figures';
 
-/** Peaks may be plain numbers or carry their share of saturation. @param {any} m @param {Motor} motor */
-const motor = (m, motor) => (typeof m?.[motor] === 'object' ? m[motor] : { peak: undefined, saturated: undefined });
+/**
+ * As much of the motors' figures as says how hard each works.
+ * @typedef {Partial<Record<Motor, Pick<import('../contract.js').MotorMetrics, 'peak'|'saturated'>>>} Motors
+ */
 
-/** The share of time at the limit. @param {any} m @param {Motor} name @returns {string|undefined} */
+/** The share of time at the limit. @param {Motors|undefined} m @param {Motor} name @returns {string|undefined} */
 function limitText(m, name) {
-  const { saturated } = motor(m, name);
+  const saturated = m?.[name]?.saturated ?? 0;
   return saturated > 0 ? `limit ${percent(saturated, saturated < 0.01 ? 1 : 0)}` : undefined;
 }
 
-/** The peak, or the share of time at the limit. @param {any} m @param {Motor} name */
+/** The peak, or the share of time at the limit. @param {Motors|undefined} m @param {Motor} name */
 export function motorText(m, name) {
   const limit = limitText(m, name);
-  return limit ? `at ${limit}` : textOf(MOTOR.peak, motor(m, name).peak);
+  return limit ? `at ${limit}` : textOf(MOTOR.peak, m?.[name]?.peak);
 }
 
 /**
@@ -55,15 +58,19 @@ export function linearPeak(step, name) {
  * registry says; `most` replaces that text where the rig has something else to say.
  * @typedef {import('../model/figures.js').Figure} Known
  * @typedef {{id: string, group: string, known: Known, more?: boolean, name: () => (Node|string)[], title: string,
- *   value: (m: any, axis: Axis) => number|undefined,
+ *   value: (m: Metrics|undefined, axis: Axis) => number|undefined,
  *   linear?: (step: import('../types.js').Step|undefined) => number|undefined,
- *   most?: (m: any, axis: Axis) => string|undefined}} Figure
+ *   most?: (m: Metrics|undefined, axis: Axis) => string|undefined}} Figure
  * One figure of the loop: per motor, or of both at once.
  * @typedef {{id: string, group: string, more?: boolean, name: () => (Node|string)[], title: string,
- *   margin?: (g: any) => string, both?: (s: NonNullable<Reply['sensitivity']>) => string}} Robustness
+ *   margin?: (g: Margins|undefined) => string, both?: (s: NonNullable<Reply['sensitivity']>) => string}} Robustness
  */
 
-/** What stands in place of a settling time that lies beyond the window. @param {any} m @param {Axis} axis */
+/**
+ * What stands in place of a settling time that lies beyond the window.
+ * @param {Metrics|undefined} m
+ * @param {Axis} axis
+ */
 export const notSettled = (m, axis) => (m?.[axis]?.settled === false ? t('not settled') : undefined);
 
 /** What the registry says of a row. @param {string} id @param {string} group @param {Known} known */
@@ -90,13 +97,13 @@ const motorRows = (name) =>
     .map((known) => ({
       ...row(known === MOTOR.peak ? name : `${known.name}-${name}`, 'motors', known),
       name: () => [printed(name), ` ${known.head}`],
-      value: (m) => motor(m, name)[known.name],
+      value: (m) => figureIn(m?.[name], known.name),
       ...(known === MOTOR.peak && {
         title:
           `${tipOf(known).replace('the motor', `the ${name === 'V_p' ? 'pitch' : 'yaw'} motor`)}; or the share of ` +
           'time at its limit. In parentheses what the linear model asks for.',
         linear: (/** @type {import('../types.js').Step|undefined} */ step) => linearPeak(step, name),
-        most: (/** @type {any} */ m) => limitText(m, name),
+        most: (/** @type {Metrics|undefined} */ m) => limitText(m, name),
       }),
     }));
 

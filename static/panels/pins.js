@@ -45,7 +45,7 @@ class Cell {
 const UNSTABLE = '✕ unstable';
 
 export class PinsPanel {
-  /** @type {any[]} */ #seen = [];
+  /** @type {unknown[]} */ #seen = [];
   /** @type {Pin[]} */ #pins = [];
   /** @type {Cell[][]} */ #cells = [];
   #visible = false;

@@ -5,7 +5,7 @@ import { DEGREE } from '../text/index.js';
 import { allowed } from '../model/index.js';
 import { designField, h, symbol } from '../ui/index.js';
 
-/** @typedef {'theta'|'psi'} Axis */
+/** @typedef {import('../types.js').Axis} Axis */
 
 export class ScenarioPanel {
   /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */

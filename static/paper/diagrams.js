@@ -32,7 +32,7 @@ const label = (
 
 const short = (/** @type {number} */ v) => figure(v, Math.abs(v) < 1 ? 3 : 4);
 
-/** @param {number} x @param {number} y @param {number} width @param {number} height @param {...any} children */
+/** @param {number} x @param {number} y @param {number} width @param {number} height @param {...Node} children */
 const block = (x, y, width, height, ...children) =>
   svg('g', { class: 'box' }, svg('rect', { x, y, width, height, rx: 4 }), ...children);
 

@@ -92,7 +92,7 @@ export function dimension([x1, y1], [x2, y2]) {
  * @param {number} height
  * @param {string} title
  * @param {string} description
- * @param {...any} children
+ * @param {...(import('../ui/dom.js').Child|readonly import('../ui/dom.js').Child[])} children
  */
 export const drawing = (id, width, height, title, description, ...children) =>
   svg(

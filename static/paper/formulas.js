@@ -10,6 +10,8 @@ import { SymbolCards } from './symbol_cards.js';
 import { walk } from './walk.js';
 
 const SUB = '₀₁₂₃₄';
+/** @typedef {import('../contract.js').Symbolic} Symbolic */
+/** @type {[import('../types.js').KeysOf<Symbolic, import('../contract.js').Formula>, string][]} */
 const OTHERS = [
   ['RGA', 'Relative gain array at s = 0'],
   ['A', 'System matrix A'],
@@ -25,7 +27,7 @@ export class FormulasPanel {
   #structure = '';
   #visible = false;
   /** @type {{cell: Node, i: number, j: number}[]} */ #values = [];
-  /** @type {any} */ #walk = null;
+  /** @type {import('./walk.js').Walk|null} */ #walk = null;
 
   /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
@@ -81,13 +83,11 @@ export class FormulasPanel {
     this.body.removeAttribute('aria-busy');
   }
 
-  /** @param {any} symbolic */
+  /** @param {Symbolic} symbolic */
   #show(symbolic) {
     this.#values = [];
-    const known = Object.fromEntries(
-      Object.entries(symbolic.definitions ?? {}).map(([name, d]) => [name, /** @type {any} */ (d).sympy]),
-    );
-    const copy = (/** @type {string} */ name, /** @type {any} */ f) =>
+    const known = Object.fromEntries(Object.entries(symbolic.definitions ?? {}).map(([name, d]) => [name, d.sympy]));
+    const copy = (/** @type {string} */ name, /** @type {import('../contract.js').Formula} */ f) =>
       copyButton(
         `formula-${name}`,
         () => [{ name, latex: f.latex, sympy: f.sympy, definitions: known }],
@@ -98,7 +98,7 @@ export class FormulasPanel {
       ? h(
           'div',
           { class: 'entries', 'data-testid': 'k-formulas' },
-          entries.map(([name, entry]) => this.#entry(name, /** @type {any} */ (entry), copy(name, entry))),
+          entries.map(([name, entry]) => this.#entry(name, entry, copy(name, entry))),
         )
       : h('div', { class: 'scroll', 'data-testid': 'k-formulas' }, formula(symbolic.K?.mathml));
     const cards = OTHERS.filter(([key]) => symbolic[key]?.mathml).map(([key, title]) =>
@@ -113,15 +113,9 @@ export class FormulasPanel {
         ),
       ),
     );
-    const marks = new Map((symbolic.symbols ?? []).map((/** @type {any} */ s) => [s.name, s.mathml]));
+    const marks = new Map((symbolic.symbols ?? []).map((s) => [s.name, s.mathml]));
     const definitions = Object.entries(symbolic.definitions ?? {}).map(([name, d]) =>
-      h(
-        'div',
-        { class: 'definition' },
-        formula(marks.get(name)),
-        h('span', {}, '='),
-        formula(/** @type {any} */ (d).mathml),
-      ),
+      h('div', { class: 'definition' }, formula(marks.get(name)), h('span', {}, '='), formula(d.mathml)),
     );
     const symbols = h(
       'section',
@@ -133,7 +127,7 @@ export class FormulasPanel {
         h(
           'tbody',
           {},
-          (symbolic.symbols ?? []).map((/** @type {any} */ s) =>
+          (symbolic.symbols ?? []).map((s) =>
             h(
               'tr',
               {},

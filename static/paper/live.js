@@ -18,8 +18,10 @@ const chain = (/** @type {string} */ z) => [1, 2, 3, 4].map((i) => sym(z, String
 const pairs = (/** @type {string[]} */ names) => names.flatMap((n) => [sym(n, '1'), sym(n, '2')]);
 
 /**
- * @typedef {{key: string, name: () => Node, rows: () => Node[], columns: () => Node[], unit: string, above?: string}}
- *   Spec
+ * @typedef {import('./walk.js').Walk} Walk
+ * @typedef {import('./walk.js').Walkthrough} Walkthrough
+ * @typedef {{key: import('../types.js').KeysOf<Walkthrough, number[][]>, name: () => Node, rows: () => Node[], columns:
+ *   () => Node[], unit: string, above?: string}} Spec
  */
 const bar = (/** @type {string} */ name) => () => h('b', {}, name);
 const outputs = () => [sym('θ'), sym('ψ')];
@@ -62,7 +64,10 @@ const MATRICES = {
   'steady state': [{ key: 'G_0', name: bar('Ĝ(0)'), rows: outputs, columns: commands, unit: 'rad/V' }],
   'Eq. 23': [{ key: 'rga', name: bar('RGA'), rows: outputs, columns: commands, unit: '' }],
 };
-/** @type {Record<string, [string, string, string, string][]>} step → group, key, as written, unit */
+/**
+ * Step → group, key, as written, unit.
+ * @type {Record<string, ['constants'|'trim'|'coefficients', string, string, string][]>}
+ */
 const CONSTANTS = {
   'Eq. 12': [['constants', 'gravity_torque', 'held at rest', 'N·m']],
   trim: [
@@ -82,7 +87,7 @@ const CONSTANTS = {
     ['coefficients', 'd_21', 'd_21 = −p_3 − p_4', 's⁻¹'],
   ],
 };
-/** @type {Record<string, (answer: any) => string>} step → what is said in words */
+/** @type {Record<string, (answer: import('./walk.js').Answer) => string>} step → what is said in words */
 const LINES = {
   controllability: ({ controllability_indices: [p, y] }) =>
     `Indices: ${p} for the pitch motor, ${y} for the yaw motor.`,
@@ -94,7 +99,7 @@ const LINES = {
 const OWN = new Set(['T', 'Q', 'A_bar', 'B_bar', 'K_bar', 'closed_loop_bar', 'coefficients']);
 const DIAGRAMS = { 'Fig. 2': stateFeedback, 'Fig. 3': outerLoops };
 
-/** Why a step has no numbers. @param {string} key @param {any} answer */
+/** Why a step has no numbers. @param {string} key @param {Walk} answer */
 function whyNot(key, { asked }) {
   if (OWN.has(key))
     return (
@@ -105,7 +110,7 @@ function whyNot(key, { asked }) {
 }
 
 export class LiveNumbers {
-  /** @type {((answer: any) => void)[]} */ #fill = [];
+  /** @type {((answer: Walk) => void)[]} */ #fill = [];
 
   constructor() {
     this.machine = new Machine();
@@ -161,7 +166,7 @@ export class LiveNumbers {
     const say = LINES[number];
     if (!say) return [];
     const node = h('p', { class: 'live-line', 'data-testid': `paper-line-${number.replaceAll(/[ .]+/g, '-')}` });
-    this.#fill.push((answer) => setText(node, answer.refused ? '' : say(answer)));
+    this.#fill.push((answer) => setText(node, answer.refused === undefined ? say(answer) : ''));
     return [node];
   }
 
@@ -217,7 +222,7 @@ export class LiveNumbers {
     );
   }
 
-  /** The walkthrough's answer, or why there is none. @param {any} answer */
+  /** The walkthrough's answer, or why there is none. @param {Walk} answer */
   show(answer) {
     for (const fill of this.#fill) fill(answer);
   }
@@ -244,7 +249,7 @@ export class LiveNumbers {
       this.loop,
       own
         ? 'The method’s own integral action takes the place of the PI loops. Poles of the whole loop: ' +
-            `${polesText(/** @type {any} */ (reply).loop_poles, 2)} rad/s.`
+            `${polesText(reply.loop_poles, 2)} rad/s.`
         : design.outer === 'pi'
           ? `PI: ${controllers}. Poles of the whole loop: ${reply ? polesText(reply.loop_poles, 2) : '–'} rad/s.`
           : `No PI loops now. Poles of the loop: ${reply ? polesText(reply.loop_poles, 2) : '–'} rad/s.`,

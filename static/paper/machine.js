@@ -3,7 +3,7 @@ import { h, setText } from '../ui/index.js';
 import { centreSteps, figure, thrustSteps } from './math.js';
 import { named, rich } from './rich.js';
 
-/** @typedef {import('./math.js').Step} Step */
+/** @typedef {import('./math.js').Step} Step @typedef {import('../types.js').Preset} Preset */
 
 export class Machine {
   #key = '';
@@ -21,7 +21,7 @@ export class Machine {
     }));
   }
 
-  /** @param {any[]} presets @param {any} preset @param {Record<string, number>} overrides */
+  /** @param {Preset[]} presets @param {Preset|undefined} preset @param {Record<string, number>} overrides */
   render(presets, preset, overrides) {
     const key = JSON.stringify([preset?.name, overrides]);
     if (!preset || key === this.#key) return;
@@ -36,9 +36,9 @@ export class Machine {
             'tr',
             {},
             h('th', { scope: 'row' }, named(name)),
-            h('td', {}, /** @type {any} */ (info).meaning),
+            h('td', {}, info.meaning),
             h('td', { class: name in overrides ? 'changed' : '' }, figure(values[name], 7)),
-            h('td', { class: 'aside' }, /** @type {any} */ (info).unit),
+            h('td', { class: 'aside' }, info.unit),
           ),
         ),
       ),

@@ -1,34 +1,14 @@
 /**
  * What the paper's section computes for itself: anchors, counts, figures, one worked example. Pure.
  *
- * @typedef {{latex?: string, mathml?: string, text?: string}} Form
- * @typedef {'reproduced'|'corrected'|'explained'} Status
- * @typedef {{number: string, title: string, chapter: string, plain: string, status: Status, note: string, errata:
- *   string[], formulas: string[], printed?: Form, derived?: Form}} Equation
- * @typedef {object} PrintedNumber
- * @property {string} where
- * @property {string} name
- * @property {string} printed
- * @property {string} unit
- * @property {string} [printed_unit]
- * @property {string} formula
- * @property {number} [recomputed]
- * @property {number} [corrected]
- * @property {number} [on_rig]
- * @property {number} [digits]
- * @property {number} digits_printed
- * @property {'reproduced'|'differs'|'given'} verdict
- * @property {string} note
- * @typedef {{statement: string, correct: Form, printed: Form, holds: boolean, labels: [string, string]}} Proof
- * @typedef {{name: string, where: string, printed: Form, correct: Form, why: string, effect: string, standing:
- *   'confirmed'|'unclear', evidence?: string, proof: Proof}} Erratum an erratum of the paper where its own numbers
- *   confirm it, else unclear in our copy
+ * @typedef {Partial<import('../contract.js').Evidence>} Form
+ * @typedef {import('../contract.js').Equation} Equation
+ * @typedef {import('../contract.js').PrintedNumber} PrintedNumber
+ * @typedef {import('../contract.js').Erratum} Erratum
+ * @typedef {import('../contract.js').Outcome} Consequence
+ * @typedef {import('../contract.js').Figure} Curves
+ * @typedef {import('../contract.js').Paper} Paper
  * @typedef {import('../types.js').Complex} Complex
- * @typedef {{plant: string, poles: Complex[], unrounded: Complex[]}} Consequence
- * @typedef {{number: number, output: string, t: number[], curves: {name: string, title: string, angle: number[]}[]}}
- *   Curves
- * @typedef {{title: string, authors: string, equations: Equation[], symbols: import('./symbols.js').Term[], numbers:
- *   PrintedNumber[], errata: Erratum[], consequence: Consequence[], figures: Curves[]}} Paper
  */
 import { polesText as plainPoles, typographic } from '../text/index.js';
 

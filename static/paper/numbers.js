@@ -18,6 +18,7 @@ const COLUMNS = [
   'verdict',
   'note',
 ];
+/** @type {Record<string, string>} */
 const VERDICTS = { reproduced: '✓ reproduced', differs: '≠ differs', given: 'given' };
 
 /** @param {PrintedNumber} n */

@@ -37,8 +37,8 @@ function print() {
 
 export class PaperPanel {
   /** @type {LiveNumbers|null} */ #live = null;
-  /** @type {Lazy[]} */ #lazy = [];
-  /** @type {any} */ #walk = null;
+  /** @type {{render: (state: import('../types.js').State) => void, status: HTMLElement}[]} */ #lazy = [];
+  /** @type {import('./walk.js').Walk|null} */ #walk = null;
 
   /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
@@ -65,7 +65,7 @@ export class PaperPanel {
 
   /** What the symbols are worth. @returns {import('./symbols.js').Now} */
   #now() {
-    const preset = /** @type {any} */ (presetOf(this.store.state));
+    const preset = presetOf(this.store.state);
     return {
       parameters: { ...preset?.parameters, ...this.store.state.design?.parameters },
       components: preset?.components ?? {},
@@ -117,7 +117,7 @@ export class PaperPanel {
     );
     this.body.replaceChildren(nav, text);
     follow(nav, text);
-    const show = (/** @type {any} */ answer) => {
+    const show = (/** @type {import('./walk.js').Walk} */ answer) => {
       this.#walk = answer;
       live.show(answer);
       list.render(this.#now());

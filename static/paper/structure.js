@@ -5,7 +5,12 @@ import { h } from '../ui/index.js';
 import { rich } from './rich.js';
 import { typeset } from './forms.js';
 
-/** @typedef {import('../types.js').Design} Design @typedef {import('./math.js').Equation} Equation */
+/**
+ * @typedef {import('../types.js').Design} Design
+ * @typedef {import('./math.js').Equation} Equation
+ * @typedef {import('../contract.js').Formula} Formula
+ * @typedef {import('../contract.js').Symbolic} Symbolic
+ */
 /** @type {Record<string, string>} what stands before a formula, as rich text */
 const NAMES = {
   T: '$T$ =',
@@ -51,12 +56,12 @@ export class StructureForms {
     return node;
   }
 
-  /** @param {{structure: ReturnType<typeof structureOf>, formulas: any}} answer */
+  /** @param {{structure: ReturnType<typeof structureOf>, formulas: Symbolic|null}} answer */
   show({ structure, formulas }) {
     for (const { names, node, number, chapter } of this.#places) {
       node.hidden = !formulas;
       if (!formulas || !structure) continue;
-      const title = nameOf(/** @type {any} */ ({ method: FULL_RANK, ...structure }));
+      const title = nameOf({ method: FULL_RANK, ...structure });
       node.replaceChildren(
         h('figcaption', {}, `in the structure chosen above: ${title}`),
         ...names.map((name) =>
@@ -64,7 +69,10 @@ export class StructureForms {
             'div',
             { class: 'named-formula' },
             h('span', { class: 'before' }, rich(NAMES[name] ?? name)),
-            typeset(formulas[name], `${number}, ${name}, ${title}`),
+            typeset(
+              formulas[/** @type {import('../types.js').KeysOf<Symbolic, Formula>} */ (name)],
+              `${number}, ${name}, ${title}`,
+            ),
           ),
         ),
       );

@@ -107,7 +107,7 @@ export class SymbolCards {
   /** @param {Term[]} terms */
   learn(terms) {
     card ??= make(this.root); // with the hint that the formulas refer to
-    this.#glossary = new Glossary(terms, (mathml) => /** @type {any} */ (formula(mathml)));
+    this.#glossary = new Glossary(terms, (mathml) => /** @type {Element} */ (formula(mathml)));
   }
 
   /**
@@ -119,8 +119,9 @@ export class SymbolCards {
     const glossary = this.#glossary;
     if (!glossary) return;
     for (const math of part.querySelectorAll('math')) {
-      const found = symbolsIn(/** @type {any} */ (math), (sign, applied) => glossary.find(sign, applied, chapter));
-      for (const { element, term } of found) {
+      const found = symbolsIn(math, (sign, applied) => glossary.find(sign, applied, chapter));
+      for (const { element: sign, term } of found) {
+        const element = /** @type {Element} */ (sign);
         element.setAttribute('data-symbol', term.name);
         element.setAttribute('tabindex', '-1');
         this.#terms.set(element, term);

@@ -2,10 +2,11 @@
  * The symbols in a formula: how a sign of MathML is told from another, what it means where it stands, and what it is
  * worth now. Pure.
  *
- * @typedef {{localName: string, textContent: string|null, children: ArrayLike<any>, nextElementSibling: any}}
- *   MathElement as much of an element as is looked at
- * @typedef {{name: string, mathml: string, meaning: string, unit: string, chapters?: string[], latex?: string}} Term
- * @typedef {{parameters: Record<string, number>, components: Record<string, number>, walk: any}} Now
+ * @typedef {Pick<Element, 'localName'|'textContent'> & {children: ArrayLike<MathElement>, nextElementSibling:
+ *   MathElement|null}} MathElement as much of an element as is looked at
+ * @typedef {import('../contract.js').Symbol & {chapters?: string[]}} Term
+ * @typedef {import('./walk.js').Walk} Walk
+ * @typedef {{parameters: Record<string, number>, components: Record<string, number>, walk: Walk|null}} Now
  * @typedef {{text?: string, matrix?: number[][], of?: string}} Worth
  */
 import { complex } from '../text/index.js';
@@ -33,10 +34,10 @@ export function signOf(e) {
  * @template T
  * @param {MathElement} root
  * @param {(sign: string, applied: boolean) => T|undefined} find
- * @returns {{element: any, term: T}[]}
+ * @returns {{element: MathElement, term: T}[]}
  */
 export function symbolsIn(root, find) {
-  /** @type {{element: any, term: T}[]} */ const found = [];
+  /** @type {{element: MathElement, term: T}[]} */ const found = [];
   const visit = (/** @type {MathElement} */ e, /** @type {MathElement|null} */ outer) => {
     const sign = signOf(e);
     const next = (outer ?? e).nextElementSibling;
@@ -109,6 +110,12 @@ const SIGNALS = new Set([
 ]);
 const INERTIAS = { beta: (/** @type {Record<string, number>} */ p) => p.J_y + p.m * p.l ** 2 };
 
+/** A matrix of the derivation by its name. @param {object} walk @param {string} name @returns {number[][]|undefined} */
+function matrixIn(walk, name) {
+  const found = /** @type {Record<string, unknown>} */ (walk)[name];
+  return Array.isArray(found) ? found : undefined;
+}
+
 /** What a symbol is worth on the present rig. @param {string} name @param {Now} now @returns {Worth} */
 export function worthOf(name, { parameters, components, walk }) {
   const number = (/** @type {number|undefined} */ v) => (v === undefined ? {} : { text: figure(v, 6) });
@@ -123,9 +130,9 @@ export function worthOf(name, { parameters, components, walk }) {
     return { text: `${figure(asked.loops.pitch[name])}, ${figure(asked.loops.yaw[name])}` };
   if (SIGNALS.has(name)) return { text: 'varies in time' };
   if (name === 's') return { text: 'any complex number' };
-  if (!walk || walk.refused) return {};
+  if (!walk || walk.refused !== undefined) return {};
   const cell = /^(A|B)_(\d)(\d)$/.exec(name);
-  if (cell) return number(walk[cell[1]]?.[Number(cell[2]) - 1]?.[Number(cell[3]) - 1]);
+  if (cell) return number(matrixIn(walk, cell[1])?.[Number(cell[2]) - 1]?.[Number(cell[3]) - 1]);
   if (walk.constants[name] !== undefined) return number(walk.constants[name]);
   if (walk.coefficients?.[name] !== undefined) return number(walk.coefficients[name]);
   const entry = /^(k|lambda|sigma)_(\d)(\d)?$/.exec(name);
@@ -134,7 +141,8 @@ export function worthOf(name, { parameters, components, walk }) {
   if (name === 'trim') return { text: `${figure(walk.trim.V_p)}, ${figure(walk.trim.V_y)}` };
   if (name === 'd_1' || name === 'd_2') return walk.coefficients ? { text: polynomial(walk.coefficients, name) } : {};
   if (name === 'G') return walk.G_0 ? { matrix: clean(walk.G_0), of: 'at s = 0' } : {};
-  return Array.isArray(walk[name]) ? { matrix: clean(walk[name]) } : {};
+  const matrix = matrixIn(walk, name);
+  return matrix ? { matrix: clean(matrix) } : {};
 }
 
 /** @param {Record<string, number>} coefficients @param {string} name */

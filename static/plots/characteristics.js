@@ -48,7 +48,7 @@ export function reaches(t, values, from, to, share) {
 function ownMarks(step, axis) {
   const { t } = step;
   const values = step[axis];
-  /** @type {import('../types.js').AxisMetrics|undefined} */ const m = step.metrics[axis];
+  const m = step.metrics[axis];
   if (!m) return [];
   const [from, to] = [values[0], step.reference[axis]];
   const end = m.rise_time === undefined ? undefined : reaches(t, values, from, to, HIGH);
@@ -101,7 +101,7 @@ function couplingMark(step, stepped, other) {
   const moved = (values[k] - values[0]) * DEGREE;
   if (!(Math.abs(moved) >= MOVES)) return [];
   // the server's, for the samples may miss it
-  const figure = `${fixed(Math.abs(step.metrics.coupling_peak * DEGREE || moved), 2)}°`;
+  const figure = `${fixed(Math.abs((step.metrics.coupling_peak ?? 0) * DEGREE || moved), 2)}°`;
   const text =
     stepped === 'theta'
       ? say`The pitch step moves yaw by ${figure} at ${seconds(step.t[k])}`

@@ -30,12 +30,12 @@ export class PlotGhosts {
   /** @type {Pin[]|null} */ #pins = null;
   #key = '';
 
-  /** @param {any} chart @param {Signal} signal */
+  /** @param {import('../ui/picture_scale.js').Chart} chart @param {Signal} signal */
   constructor(chart, signal) {
     this.chart = chart;
     this.signal = signal;
     this.canvas = h('canvas', { class: 'ghosts', hidden: true, 'aria-hidden': 'true' });
-    chart.root.querySelector('.u-wrap').append(this.canvas);
+    chart.root.querySelector('.u-wrap')?.append(this.canvas);
   }
 
   /** @param {Pin[]} pins @returns {boolean} whether they are others than before */

@@ -14,7 +14,7 @@ import { isVoltage } from '../model/index.js';
 /**
  * @param {Signal} signal
  * @param {Line[]} lines
- * @param {any[]} pins their pins, for the letters
+ * @param {import('../types.js').Pin[]} pins their pins, for the letters
  * @param {Seen & {subtitle: string}} how
  * @returns {HTMLCanvasElement}
  */

@@ -11,7 +11,7 @@ export class PlotMarks {
   /** @type {Mark[]} */ #marks = [];
   /** @type {number|null} which one speaks */ #told = null;
 
-  /** @param {any} chart @param {(t: number) => void} onSeek */
+  /** @param {import('../ui/picture_scale.js').Chart} chart @param {(t: number) => void} onSeek */
   constructor(chart, onSeek) {
     this.chart = chart;
     this.points = Array.from({ length: MOST }, (_, i) =>
@@ -50,7 +50,7 @@ export class PlotMarks {
   /** To be called when the scales have changed. */
   place() {
     const { chart } = this;
-    const { x, y } = chart.scales;
+    const { x, y } = /** @type {import('../ui/picture_scale.js').Ranges} */ (chart.scales);
     this.points.forEach((point, i) => {
       const mark = this.#marks[i];
       point.hidden = !mark || !(mark.t >= x.min && mark.t <= x.max && mark.value >= y.min && mark.value <= y.max);

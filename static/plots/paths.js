@@ -34,16 +34,17 @@ export function corners(xs, ys, first, last, corner, tolerance = TOLERANCE) {
 
 /**
  * uPlot's builder of paths.
- * @param {any} u
+ * @param {import('../ui/picture_scale.js').Chart} u
  * @param {number} k of the series
  * @param {number} first
  * @param {number} last indices
  */
 export function plainPath(u, k, first, last) {
-  const [t, values] = [u.data[0], u.data[k]];
+  const t = u.data[0];
+  const values = /** @type {ArrayLike<number>} */ (u.data[k]);
   if (values[first] === null) return null; // a trace is there as a whole or not at all
   const { left, top, width, height } = u.bbox;
-  const { x, y } = u.scales;
+  const { x, y } = /** @type {import('../ui/picture_scale.js').Ranges} */ (u.scales);
   const [perSecond, perUnit] = [width / (x.max - x.min), height / (y.max - y.min)];
   const [xs, ys] = [scratch(0, last + 1), scratch(1, last + 1)];
   for (let i = first; i <= last; i++) {
@@ -52,7 +53,7 @@ export function plainPath(u, k, first, last) {
   }
   const stroke = new Path2D();
   corners(xs, ys, first, last, (i) => stroke.lineTo(xs[i], ys[i]));
-  return { stroke, fill: null, clip: null, band: null, gaps: null, flags: 1 };
+  return { stroke, fill: null, clip: null, band: null, flags: 1 };
 }
 
 const kept = [new Float64Array(0), new Float64Array(0)];

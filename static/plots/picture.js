@@ -15,8 +15,15 @@ import { hatch } from './rules.js';
  */
 /**
  * @typedef {{title: string, subtitle: string, x: Axis, y: Axis, lines: Line[], rules?: Rule[], regions?:
- *   import('./rules.js').Region[], pins?: any[], marks?: (Mark & {to?: number})[]}} Picture to: where a line leads from
- *   the mark. pins: those of the lines, for their letters
+ *   import('./rules.js').Region[], pins?: import('../types.js').Pin[], marks?: (Mark & {to?: number})[]}} Picture to:
+ *   where a line leads from the mark. pins: those of the lines, for their letters
+ */
+
+/**
+ * @typedef {(words: string, left: number, top: number, align: CanvasTextAlign, font: string, color: string) => void}
+ *   Write
+ * @typedef {{color: string, width: number, dash: number[]}} Style
+ * @typedef {(Line & {style?: undefined})|{t: ArrayLike<number>, values: ArrayLike<number>, style: Style}} Styled
  */
 
 /** style.css's, sharing.css's and compare.css's own for a light page. @type {Record<string, string>} */
@@ -53,7 +60,7 @@ const BESIDE = {
   settling: ['left', 7, 15],
 };
 
-/** @param {Line} line @returns {{color: string, width: number, dash: number[]}} as on the page */
+/** @param {Line} line @returns {Style} as on the page */
 function styleOf({ kind, linear, index = 0, axis }) {
   if (kind === 'played') return { color: LIGHT.halo, width: 7, dash: [] };
   if (kind === 'pin') return { color: LIGHT[`pin-${index % 6}`], width: axis === 'theta' ? 1.6 : 1.1, dash: [] };
@@ -87,18 +94,12 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions 
   const box = { left: LEFT, top: TOP, right: WIDTH - RIGHT, bottom: HEIGHT - BOTTOM };
   const px = (/** @type {number} */ v) => box.left + share(x, v) * (box.right - box.left);
   const py = (/** @type {number} */ v) => box.bottom - share(y, v) * (box.bottom - box.top);
-  const text = (
-    /** @type {string} */ words,
-    /** @type {number} */ left,
-    /** @type {number} */ top,
-    /** @type {CanvasTextAlign} */ align,
-    /** @type {string} */ font,
-    /** @type {string} */ color,
-  ) => {
+  /** @type {Write} */
+  const text = (words, left, top, align, font, color) => {
     Object.assign(ctx, { textAlign: align, textBaseline: 'middle', font: `${font} ${FONT}`, fillStyle: color });
     ctx.fillText(words, left, top);
   };
-  /** On paper, so that it can be read over lines. @type {typeof text} */
+  /** On paper, so that it can be read over lines. @type {Write} */
   const label = (words, left, top, align, font, color) => {
     ctx.font = `${font} ${FONT}`;
     const width = ctx.measureText(words).width + 4;
@@ -133,7 +134,7 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions 
   const ghosts = lines
     .filter((l) => l.kind === 'pin')
     .map((l) => ({
-      pin: pins.find((p) => p.index === l.index),
+      pin: /** @type {import('../types.js').Pin} */ (pins.find((p) => p.index === l.index)),
       axis: /** @type {'theta'|'psi'} */ (l.axis),
       t: l.t,
       values: l.values,
@@ -207,7 +208,7 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions 
  * @param {Mark} mark
  * @param {number} x
  * @param {number} y
- * @param {any} text
+ * @param {Write} text
  */
 function drawMark(ctx, { kind, axis, brief }, x, y, text) {
   const color = LIGHT[AXIS[axis]];
@@ -230,7 +231,7 @@ function drawMark(ctx, { kind, axis, brief }, x, y, text) {
 /**
  * @param {CanvasRenderingContext2D} ctx
  * @param {{left: number, top: number, right: number, bottom: number}} box
- * @param {any} to
+ * @param {{x: Axis, y: Axis, px: (v: number) => number, py: (v: number) => number, text: Write}} to
  */
 function drawAxes(ctx, box, { x, y, px, py, text }) {
   const words = (/** @type {number} */ v) => inField(v);
@@ -253,7 +254,7 @@ function drawAxes(ctx, box, { x, y, px, py, text }) {
 /**
  * Gaps where there is no value.
  * @param {CanvasRenderingContext2D} ctx
- * @param {any} line
+ * @param {Styled} line
  * @param {(t: number) => number} px
  * @param {(v: number) => number} py
  */

@@ -40,12 +40,12 @@ export class Plots {
   /** @type {Record<string, [number, number]|undefined>} */ #ranges = {};
   /** @type {[number, number]} */ #time = [0, 5];
   /** @type {[number, number]|null} */ #zoom = null;
-  /** @type {any[]} */ #seen = [];
+  /** @type {unknown[]} */ #seen = [];
   /** @type {number|null} */ #hover = null;
   #playhead = 0;
   /** @type {import('../types.js').Cloud|null} */ #cloud = null;
   /** @type {import('../types.js').Requirements|null} */ #asked = null;
-  /** @type {{t: import('../types.js').Series, plots: Record<Signal, any[]>}|null} */ #data = null;
+  /** @type {ReturnType<typeof tracesOf>|null} */ #data = null;
 
   /**
    * @param {HTMLElement} root
@@ -213,7 +213,7 @@ export class Plots {
         limit: limitOf(state.reply, signal),
         previous: fresh ? undefined : this.#ranges[signal],
       });
-      const columns = /** @type {any} */ ([data.t, ...data.plots[signal].map((v) => v ?? empty)]);
+      const columns = /** @type {uPlot.AlignedData} */ ([data.t, ...data.plots[signal].map((v) => v ?? empty)]);
       chart.batch(() => chart.setData(columns));
       marks.show(this.#marks(signal));
     }
@@ -232,7 +232,7 @@ export class Plots {
     return showMarks ? marksOf(reply, signal) : [];
   }
 
-  /** @param {any} u */
+  /** @param {uPlot} u */
   #hovered(u) {
     const { left } = u.cursor;
     this.#hover = left === undefined || left < 0 ? null : u.posToVal(left, 'x');
@@ -240,7 +240,7 @@ export class Plots {
     this.#showValues();
   }
 
-  /** @param {any} u */
+  /** @param {uPlot} u */
   #selected(u) {
     if (u.select.width < 8) return;
     this.#zoomTo([u.posToVal(u.select.left, 'x'), u.posToVal(u.select.left + u.select.width, 'x')]);

@@ -11,7 +11,11 @@ import { DEGREE, fixed, say, typographic } from '../text/index.js';
 import { isVoltage } from '../model/index.js';
 import { pictureScale } from '../ui/index.js';
 
-/** @typedef {import('../model/traces.js').Signal} Signal @typedef {import('../types.js').Reply} Reply */
+/**
+ * @typedef {import('../model/traces.js').Signal} Signal
+ * @typedef {import('../types.js').Reply} Reply
+ * @typedef {import('../ui/picture_scale.js').Chart} Chart
+ */
 
 /**
  * The step that is asked of this axis, degrees.
@@ -90,7 +94,7 @@ export function regionsOf(reply, signal, { settling, overshoot }) {
 
 /**
  * Hatched as in the s-plane, over the grid and under the lines.
- * @param {any} u
+ * @param {Chart} u
  * @param {Region[]} regions
  * @param {Color} color
  */
@@ -144,15 +148,18 @@ export function hatch(ctx, { left, right, inner, outer }, color, size) {
   ctx.restore();
 }
 
-/** Those within the plot's range. @param {any} u @param {Rule[]} rules */
-export const rulesSeen = (u, rules) => rules.filter(({ value }) => value <= u.scales.y.max && value >= u.scales.y.min);
+/** Those within the plot's range. @param {Chart} u @param {Rule[]} rules */
+export function rulesSeen(u, rules) {
+  const { y } = /** @type {import('../ui/picture_scale.js').Ranges} */ (u.scales);
+  return rules.filter(({ value }) => value <= y.max && value >= y.min);
+}
 
-/** @param {any} u @param {Rule} rule */
+/** @param {Chart} u @param {Rule} rule */
 const heightOf = (u, { value }) => Math.round(u.valToPos(value, 'y', true));
 
 /**
  * Limits and what lies beyond them, over the grid and under the lines.
- * @param {any} u
+ * @param {Chart} u
  * @param {Rule[]} rules
  * @param {Color} color
  */
@@ -169,7 +176,7 @@ export function drawShades(u, rules, color) {
   ctx.restore();
 }
 
-/** The reference, after the lines are drawn. @param {any} u @param {Rule[]} rules @param {Color} color */
+/** The reference, after the lines are drawn. @param {Chart} u @param {Rule[]} rules @param {Color} color */
 export function drawReference(u, rules, color) {
   u.ctx.save();
   for (const rule of rulesSeen(u, rules)) if (!rule.danger) drawRule(u, heightOf(u, rule), color('ink'), [1, 5]);
@@ -206,7 +213,7 @@ function drawRule({ ctx, bbox }, y, stroke, dash) {
 
 /**
  * What a line is called, at its right end, on paper.
- * @param {any} u
+ * @param {Chart} u
  * @param {number} y
  * @param {string} label
  * @param {1|-1} side 1: below it
@@ -232,7 +239,7 @@ function drawLabel({ ctx, bbox }, y, label, side, ink, paper) {
 
 /**
  * Between the 5th and the 95th percentile of the cloud's responses.
- * @param {any} u
+ * @param {Chart} u
  * @param {Signal} signal
  * @param {import('../types.js').Cloud|null} cloud
  * @param {Color} color

@@ -9,6 +9,7 @@ const FOOT = 4;
 
 /**
  * @typedef {import('./rules.js').Rule} Rule
+ * @typedef {import('../ui/picture_scale.js').Chart} Chart
  * @typedef {{key: string, text: string, x: number, y: number}} Text CSS pixels in the chart
  */
 
@@ -16,7 +17,7 @@ export class PlotTexts {
   #drawn = '';
 
   /**
-   * @param {any} chart
+   * @param {Chart} chart
    * @param {{axis: (value: number) => string, time: (value: number, last: boolean) => string}} words of the numbers at
    *   the axes
    */
@@ -24,7 +25,7 @@ export class PlotTexts {
     this.chart = chart;
     this.words = words;
     this.node = h('div', { class: 'plot-texts', 'aria-hidden': 'true' });
-    chart.root.querySelector('.u-wrap').append(this.node);
+    chart.root.querySelector('.u-wrap')?.append(this.node);
   }
 
   /** Where they have changed. @param {Rule[]} rules in sight @param {number} size of type, to the usual one */
@@ -43,23 +44,21 @@ export class PlotTexts {
   /** @param {number} size @returns {Text[]} */
   #axes(size) {
     const { chart } = this;
-    const [across, up] = chart.axes;
+    const [across, up] = /** @type {{_splits?: number[]}[]} */ (chart.axes); // where its numbers stand
     const { left, right, bottom } = box(chart);
-    const times = (across._splits ?? []).map(
-      (/** @type {number} */ v, /** @type {number} */ i, /** @type {number[]} */ all) => ({
-        key: 'x',
-        text: this.words.time(v, i === all.length - 1),
-        x: Math.min(right, chart.valToPos(v, 'x') + left),
-        y: bottom + GAP.x * size,
-      }),
-    );
-    const values = (up._splits ?? []).map((/** @type {number} */ v) => ({
+    const times = (across._splits ?? []).map((v, i, all) => ({
+      key: 'x',
+      text: this.words.time(v, i === all.length - 1),
+      x: Math.min(right, chart.valToPos(v, 'x') + left),
+      y: bottom + GAP.x * size,
+    }));
+    const values = (up._splits ?? []).map((v) => ({
       key: 'y',
       text: this.words.axis(v),
       x: left - GAP.y * size,
       y: heightOf(chart, v),
     }));
-    return [...times.filter((/** @type {Text} */ { text }) => text), ...values];
+    return [...times.filter(({ text }) => text), ...values];
   }
 
   /**
@@ -79,11 +78,11 @@ export class PlotTexts {
   }
 }
 
-/** The plotting area within the chart, CSS pixels. @param {any} chart */
+/** The plotting area within the chart, CSS pixels. @param {Chart} chart */
 function box({ bbox }) {
   const [left, top, width, height] = [bbox.left, bbox.top, bbox.width, bbox.height].map((v) => v / devicePixelRatio);
   return { left, top, right: left + width, bottom: top + height };
 }
 
-/** @param {any} chart @param {number} value */
+/** @param {Chart} chart @param {number} value */
 const heightOf = (chart, value) => chart.valToPos(value, 'y') + box(chart).top;

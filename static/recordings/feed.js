@@ -72,7 +72,7 @@ export class RecordingFeed {
   /**
    * How the text of what was sent may be read otherwise: as it was, or, where nothing was read, as was said.
    * @param {Recorded} recorded
-   * @returns {{separator: string, decimal: string}|null}
+   * @returns {import('../contract.js').Dialect|null}
    */
   dialect({ preview, problem }) {
     if (preview) return preview.dialect;
@@ -112,7 +112,7 @@ export class RecordingFeed {
     if (isMapped(this.store.state.recorded.columns)) this.overlay();
   }
 
-  /** @param {string} driver */
+  /** @param {import('../types.js').Driver} driver */
   drive(driver) {
     this.#set({ driver });
     return this.overlay();
@@ -124,7 +124,10 @@ export class RecordingFeed {
     const mine = ++this.#overlay;
     this.#set({ busy: 'Simulating…', problem: null });
     try {
-      const overlay = await overlayRecording(recorded.preview.id, overlayBody(design, recorded));
+      const overlay = await overlayRecording(
+        recorded.preview.id,
+        overlayBody(design, { driver: recorded.driver, columns: recorded.columns }),
+      );
       if (mine === this.#overlay) this.#set({ overlay, overlaid: design, busy: '' });
     } catch (error) {
       if (mine !== this.#overlay) return;
@@ -136,12 +139,13 @@ export class RecordingFeed {
   /** @param {string[]} free */
   identify(free) {
     const { design, recorded } = this.store.state;
-    if (!design || !isMapped(recorded.columns)) return;
+    const { preview, columns } = recorded;
+    if (!design || !preview || !isMapped(columns)) return;
     this.cancel();
     const socket = this.open();
     this.#socket = socket;
     this.#set({ busy: 'Identifying…', progress: null, found: null, problem: null });
-    socket.onopen = () => socket.send(JSON.stringify(identifyBody(design, recorded, free)));
+    socket.onopen = () => socket.send(JSON.stringify(identifyBody(design, { preview, columns }, free)));
     socket.onmessage = ({ data }) => {
       if (socket !== this.#socket) return;
       const message = JSON.parse(data);

@@ -4,11 +4,19 @@ import { allowed } from '../model/index.js';
 import { h, head, NumberField, setText, symbol, wide } from '../ui/index.js';
 import { DECIMALS, ROLES, SEPARATORS, TIME_UNITS } from './recordings.js';
 
-/** @typedef {import('../types.js').RecordingColumns} RecordingColumns */
+/**
+ * @typedef {import('../types.js').RecordingColumns} RecordingColumns
+ * @typedef {import('../contract.js').Preview} Preview
+ */
 
 const ANGLE_UNITS = { rad: 'radians', deg: 'degrees' };
 
-/** @param {Record<string, string>} choices @param {Record<string, any>} attributes @param {string} value */
+/**
+ * @template {string} K
+ * @param {Record<K, string>} choices
+ * @param {Record<string, unknown>} attributes
+ * @param {string} value
+ */
 function select(choices, attributes, value) {
   const node = h(
     'select',
@@ -16,7 +24,7 @@ function select(choices, attributes, value) {
     Object.entries(choices).map(([key, text]) => h('option', { value: key }, text)),
   );
   node.value = value;
-  return node;
+  return /** @type {HTMLSelectElement & {value: K}} */ (node);
 }
 
 export class RecordingMapping {
@@ -42,7 +50,7 @@ export class RecordingMapping {
     return /** @type {RecordingColumns} */ (this.store.state.recorded.columns);
   }
 
-  /** @param {any} preview @param {RecordingColumns} columns */
+  /** @param {Preview} preview @param {RecordingColumns} columns */
   show(preview, columns) {
     this.controls.replaceChildren(
       ...ROLES.map((role) => this.#role(role, preview, columns)),
@@ -68,7 +76,7 @@ export class RecordingMapping {
         (v) => this.feed.change({ decimate: v }),
       ),
     );
-    this.findings.replaceChildren(...preview.findings.map((/** @type {any} */ f) => h('li', {}, f.message)));
+    this.findings.replaceChildren(...preview.findings.map((f) => h('li', {}, f.message)));
     this.#rows(preview);
     this.render(columns);
   }
@@ -81,7 +89,7 @@ export class RecordingMapping {
 
   /**
    * Lets the user say how text is split.
-   * @param {{separator: string, decimal: string}|null} dialect as it was; null: it is no text
+   * @param {import('../contract.js').Dialect|null} dialect as it was; null: it is no text
    */
   dialect(dialect) {
     this.text.hidden = !dialect;
@@ -108,11 +116,9 @@ export class RecordingMapping {
     );
   }
 
-  /** @param {(typeof ROLES)[number]} role @param {any} preview @param {RecordingColumns} columns */
+  /** @param {(typeof ROLES)[number]} role @param {Preview} preview @param {RecordingColumns} columns */
   #role({ role, base, sub, title }, preview, columns) {
-    const names = preview.columns.map((/** @type {string} */ name) =>
-      h('option', { value: name, translate: 'no' }, name),
-    );
+    const names = preview.columns.map((name) => h('option', { value: name, translate: 'no' }, name));
     const node = h(
       'select',
       {
@@ -223,7 +229,7 @@ export class RecordingMapping {
     return h('span', { class: 'recording-role' }, field.node);
   }
 
-  /** @param {any} preview */
+  /** @param {Preview} preview */
   #rows(preview) {
     const columns = preview.columns.map((/** @type {string} */ name) =>
       h('th', { scope: 'col', translate: 'no' }, preview.units[name] ? `${name} (${preview.units[name]})` : name),

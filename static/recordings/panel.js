@@ -29,8 +29,8 @@ const sym = (/** @type {string} */ name) => {
 const AXES = /** @type {const} */ (['theta', 'psi']);
 
 export class RecordingsPanel {
-  /** @type {any[]} */ #seen = [];
-  /** @type {any} */ #preview = null;
+  /** @type {unknown[]} */ #seen = [];
+  /** @type {import('../contract.js').Preview|null} */ #preview = null;
   /** @type {string} */ #preset = '';
 
   /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
@@ -65,7 +65,10 @@ export class RecordingsPanel {
     this.plots = AXES.map((axis, i) => new RecordingPlot(axis, i ? 'yaw' : 'pitch'));
     this.driver = h(
       'select',
-      { 'data-testid': 'recording-driver', onchange: () => this.feed.drive(this.driver.value) },
+      {
+        'data-testid': 'recording-driver',
+        onchange: () => this.feed.drive(/** @type {import('../types.js').Driver} */ (this.driver.value)),
+      },
       Object.entries(DRIVERS).map(([value, text]) => h('option', { value }, text)),
     );
     this.again = tool('overlay', 'Simulate again', () => this.feed.overlay(), 'The design has changed since');
@@ -83,7 +86,7 @@ export class RecordingsPanel {
     );
     this.adopt = tool('adopt', 'Adopt', () => this.#adopt(), "Make these the rig's parameters; Undo takes them back");
     this.remarks = h('ul', { class: 'recording-remarks' });
-    const card = (/** @type {string} */ title, /** @type {string} */ kind, /** @type {any[]} */ ...content) =>
+    const card = (/** @type {string} */ title, /** @type {string} */ kind, /** @type {Node[]} */ ...content) =>
       h('div', { class: `card ${kind}` }, h('h3', {}, title), content);
     this.overlayCard = card(
       'Over the simulation',
@@ -196,7 +199,7 @@ export class RecordingsPanel {
     this.again.hidden = overlaid === design;
     if (overlay) {
       setText(this.about, overlayWords(overlay));
-      this.noted.replaceChildren(...overlay.findings.map((/** @type {any} */ f) => h('li', {}, f.message)));
+      this.noted.replaceChildren(...overlay.findings.map((f) => h('li', {}, f.message)));
       AXES.forEach((axis, i) => this.plots[i].show(curves(overlay, axis), fitText(overlay.fit[axis])));
     }
     const searching = busy === 'Identifying…';
@@ -231,7 +234,7 @@ export class RecordingsPanel {
     );
   }
 
-  /** @param {any} found */
+  /** @param {import('../contract.js').IdentificationReply} found */
   #show(found) {
     this.rows.replaceChildren(
       ...estimateRows(found).map((e) =>
@@ -247,6 +250,6 @@ export class RecordingsPanel {
         ),
       ),
     );
-    this.remarks.replaceChildren(...found.findings.map((/** @type {any} */ f) => h('li', {}, f.message)));
+    this.remarks.replaceChildren(...found.findings.map((f) => h('li', {}, f.message)));
   }
 }

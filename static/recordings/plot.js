@@ -9,7 +9,7 @@ const NAMES = ['measured', 'simulated', 'reference'];
 export class RecordingPlot {
   /** @type {any} */ #chart;
   /** @type {[number, number]} */ #range = [-1, 1];
-  /** @type {any[][]} */ #data = [[], [], [], []];
+  /** @type {import('./recordings.js').Curves} */ #data = [[], [], [], []];
 
   /** @param {string} axis @param {'pitch'|'yaw'} name */
   constructor(axis, name) {
@@ -41,7 +41,7 @@ export class RecordingPlot {
     });
   }
 
-  /** @param {(number|null)[][]} data t and degrees @param {string} fit */
+  /** @param {import('./recordings.js').Curves} data t and degrees @param {string} fit */
   show(data, fit) {
     if (!this.#chart) this.#build();
     this.#data = data;

@@ -2,10 +2,16 @@
  * Recordings of a rig: what is asked of the server about them, and its answers in words and curves. Pure.
  * @typedef {import('../types.js').Recorded} Recorded
  * @typedef {import('../types.js').RecordingColumns} RecordingColumns
+ * @typedef {import('../contract.js').Preview} Preview
+ * @typedef {import('../contract.js').Mapping} Mapping
+ * @typedef {import('../contract.js').OverlayReply} OverlayReply
+ * @typedef {[number[], ...(number|null)[][]]} Curves
+ * @typedef {import('../contract.js').IdentificationReply} IdentificationReply
  */
 import { count, DEGREE, fixed, inField, say, significant } from '../text/index.js';
 import { bodyOf, initialState } from '../model/index.js';
 
+/** @type {{role: keyof Mapping, base: string, sub?: string, title: string, optional?: boolean}[]} */
 export const ROLES = [
   { role: 'time', base: 't', title: 'time' },
   { role: 'theta', base: 'θ', title: 'pitch angle' },
@@ -31,20 +37,20 @@ export const DECIMALS = { point: 'point', comma: 'comma' };
 
 /**
  * What the server guessed, as the controls hold it; without a column of time the sample time is for the user to say.
- * @param {any} preview
- * @returns {RecordingColumns}
+ * @param {Preview} preview
  */
-export const guessed = ({ guess }) => ({
-  names: { ...guess.columns },
-  time_unit: guess.time_unit ?? 's',
-  unit: guess.unit,
-  units: { ...guess.units },
-  voltage_unit: guess.voltage_unit ?? 'V',
-  signs: { theta: 1, psi: 1 },
-  offsets: { theta: 0, psi: 0 },
-  sample_time: null,
-  decimate: 1,
-});
+export const guessed = ({ guess }) =>
+  /** @type {RecordingColumns} */ ({
+    names: { ...guess.columns },
+    time_unit: guess.time_unit ?? 's',
+    unit: guess.unit,
+    units: { ...guess.units },
+    voltage_unit: guess.voltage_unit ?? 'V',
+    signs: { theta: 1, psi: 1 },
+    offsets: { theta: 0, psi: 0 },
+    sample_time: null,
+    decimate: 1,
+  });
 
 /**
  * The columns as the server takes them; the sample time only where no column is the time.
@@ -52,7 +58,7 @@ export const guessed = ({ guess }) => ({
  */
 export function columnsBody({ names, time_unit, unit, units, voltage_unit, signs, offsets, sample_time, decimate }) {
   const chosen = Object.fromEntries(Object.entries(names).filter(([, name]) => name));
-  return {
+  return /** @satisfies {Mapping} */ ({
     ...chosen,
     unit,
     units,
@@ -61,52 +67,62 @@ export function columnsBody({ names, time_unit, unit, units, voltage_unit, signs
     offsets,
     decimate,
     ...(chosen.time ? { time_unit } : { sample_time }),
-  };
+  });
 }
 
 /**
  * Whether all is chosen that is needed: the time too, as a column or as the time between two rows.
  * @param {RecordingColumns|null} columns
+ * @returns {columns is RecordingColumns}
  */
 export const isMapped = (columns) =>
   Boolean(columns) &&
   ROLES.every(({ role, optional }) => optional || columns?.names[role] || (role === 'time' && columns?.sample_time));
 
-/** @param {import('../types.js').Design} design @param {Recorded} recorded */
+/**
+ * @param {import('../types.js').Design} design
+ * @param {Pick<Recorded, 'driver'> & {columns: RecordingColumns}} recorded
+ */
 export const overlayBody = (design, { columns, driver }) => ({
   ...bodyOf(design),
-  columns: columns && columnsBody(columns),
+  columns: columnsBody(columns),
   driver,
 });
 
 /** Free from the start: stiffness only where the rig has one. @param {Record<string, number>} parameters of the rig */
 export const freeAtFirst = (parameters) => IDENTIFIABLE.filter((name) => name !== 'K_s' || parameters.K_s);
 
-/** @param {import('../types.js').Design} design @param {Recorded} recorded @param {string[]} free */
-export const identifyBody = (design, { preview, columns }, free) => ({
-  ...bodyOf(design),
-  recording: preview?.id,
-  columns: columns && columnsBody(columns),
-  free,
-});
+/**
+ * @param {import('../types.js').Design} design
+ * @param {{preview: Preview, columns: RecordingColumns}} recorded
+ * @param {string[]} free
+ */
+export const identifyBody = (design, { preview, columns }, free) =>
+  /** @satisfies {import('../types.js').Asked<import('../contract.js').IdentifyRequest>} */ ({
+    ...bodyOf(design),
+    recording: preview.id,
+    columns: columnsBody(columns),
+    free: /** @type {NonNullable<import('../contract.js').IdentifyRequest['free']>} */ (free),
+  });
 
 /**
  * Measured and simulated, in degrees.
- * @param {any} overlay
+ * @param {OverlayReply} overlay
  * @param {'theta'|'psi'} axis
- * @returns {(number|null)[][]} t, measured, simulated, reference
+ * @returns {Curves} t, measured, simulated, reference
  */
 export function curves(overlay, axis) {
   const shown = (/** @type {(number|null)[]|undefined} */ values) =>
-    overlay.t.map((/** @type {number} */ _t, /** @type {number} */ i) =>
-      typeof values?.[i] === 'number' ? /** @type {number} */ (values[i]) * DEGREE : null,
-    );
+    overlay.t.map((_t, i) => {
+      const v = values?.[i];
+      return typeof v === 'number' ? v * DEGREE : null;
+    });
   return [overlay.t, shown(overlay.measured[axis]), shown(overlay.simulated[axis]), shown(overlay.references?.[axis])];
 }
 
 /**
  * Room for what was measured; what runs away is cut off.
- * @param {(number|null)[][]} data
+ * @param {Curves} data
  * @returns {[number, number]}
  */
 export function rangeOfCurves([, measured, , reference]) {
@@ -124,11 +140,12 @@ export const fitText = (fit) =>
 const duration = (seconds) =>
   seconds < 1 ? say`${significant(1e3 * seconds, 3)} ms` : say`${significant(seconds, 3)} s`;
 
-/** @param {any} preview */
+/** @param {Preview} preview */
 export function previewWords(preview) {
   const columns = count(preview.columns.length, '{0} column', '{0} columns');
   const about = say`${preview.name || 'Recording'}: ${preview.rows} rows, ${columns}`;
-  return preview.guess.sample_time > 0 ? say`${about}, ${duration(preview.guess.sample_time)} apart` : about;
+  const apart = preview.guess.sample_time ?? 0;
+  return apart > 0 ? say`${about}, ${duration(apart)} apart` : about;
 }
 
 /** What still has to be chosen, in words; empty where nothing is. @param {RecordingColumns|null} columns */
@@ -139,7 +156,7 @@ export function missingWords(columns) {
   return missing.length ? say`Choose the column of ${missing.join(', ')}.` : '';
 }
 
-/** @param {any} overlay */
+/** @param {OverlayReply} overlay */
 export function overlayWords(overlay) {
   const { samples, sample_time } = overlay;
   const about = say`${samples} samples in ${fixed(overlay.duration, 1)} s, ${duration(sample_time)} apart`;
@@ -148,17 +165,17 @@ export function overlayWords(overlay) {
     : about;
 }
 
-/** @param {any} progress */
+/** @param {import('../types.js').Progress|null} progress */
 export function progressWords(progress) {
   if (!progress) return 'Identifying…';
-  const [pitch, yaw] = [progress.rms.theta, progress.rms.psi].map((v) => significant(v * DEGREE, 3));
+  const [pitch, yaw] = [progress.rms.theta, progress.rms.psi].map((v) => significant((v ?? 0) * DEGREE, 3));
   return say`Simulation ${progress.evaluations}: residuals ${pitch}° in pitch, ${yaw}° in yaw`;
 }
 
 /**
  * As many decimals as two digits of the interval's half width need.
  * @param {number} v
- * @param {{low: number, high: number}} e
+ * @param {import('../contract.js').EstimateReply} e
  */
 function as(v, { low, high }) {
   const half = (high - low) / 2;
@@ -167,11 +184,11 @@ function as(v, { low, high }) {
 
 /**
  * One row per parameter.
- * @param {any} found
+ * @param {IdentificationReply} found
  * @returns {{name: string, unit: string, before: string, value: string, width: string, interval: string}[]}
  */
 export function estimateRows(found) {
-  return found.estimates.map((/** @type {any} */ e) => ({
+  return found.estimates.map((e) => ({
     name: e.name,
     unit: e.unit,
     before: inField(e.before),
@@ -184,13 +201,13 @@ export function estimateRows(found) {
 /**
  * The design on the rig that was found.
  * @param {import('../types.js').Design} design
- * @param {any} found
+ * @param {IdentificationReply} found
  * @returns {import('../types.js').Design}
  */
 export const adopted = (design, found) => ({
   ...design,
   parameters: {
     ...design.parameters,
-    ...Object.fromEntries(found.estimates.map((/** @type {any} */ e) => [e.name, Number(e.adopted.toPrecision(7))])),
+    ...Object.fromEntries(found.estimates.map((e) => [e.name, Number(e.adopted.toPrecision(7))])),
   },
 });

@@ -3,6 +3,7 @@
  * while nobody else listens; of what is shown, the newest waits until the server has taken the last. Each window plays
  * by itself: the server's clock says how long ago a snapshot was taken.
  * @typedef {import('./clock.js').Snapshot} Snapshot
+ * @typedef {import('./panel.js').Edits} Edits
  * @typedef {{others: number, leads: boolean, count: number}} Windows  count: of the panel's messages so far
  */
 import { decodeFrame, encodeFrame, LatestSocket } from '../net/index.js';
@@ -27,10 +28,9 @@ export class Hub {
    * @param {object} how
    * @param {() => WebSocket} how.open
    * @param {boolean} [how.always]  send even if there is no other window: where the panel listens
-   * @param {(shown: any) => void} how.onShown  what another window shows
+   * @param {(shown: unknown) => void} how.onShown  what another window shows
    * @param {(snapshot: Snapshot, elapsed: number) => void} how.onTransport  how time ran so many seconds ago
-   * @param {(edits: Record<string, any>, count: number) => void} how.onEdits what was set at the panel, for the window
-   *   that leads
+   * @param {(edits: Edits, count: number) => void} how.onEdits what was set at the panel, for the window that leads
    * @param {(windows: Windows) => void} how.onWindows  also after every new connection
    * @param {(error: number) => void} [how.onClock]  how well the server's clock is known by now, ± seconds
    * @param {() => number} [how.now]  seconds
@@ -71,7 +71,7 @@ export class Hub {
     return this.#others > 0 || (this.always && this.#socket.alive);
   }
 
-  /** Shows the others a design and its motion: float32 arrays in plain objects. @param {any} shown */
+  /** Shows the others a design and its motion: float32 arrays in plain objects. @param {unknown} shown */
   show(shown) {
     if (this.#heard) this.#socket.asks.put(shown);
   }

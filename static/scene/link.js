@@ -2,12 +2,13 @@
 import { slotOf } from './pose.js';
 
 /** @typedef {import("./pose.js").SceneMessage} SceneMessage */
+/** @typedef {Pick<HTMLIFrameElement, 'contentWindow'|'clientWidth'|'clientHeight'>} Frame */
 
 const CHANNEL = 'heli2dof-scene';
 
 export class SceneLink {
   /**
-   * @param {HTMLIFrameElement} iframe shows /scene/{session}/ of the same origin
+   * @param {Frame} iframe shows /scene/{session}/ of the same origin
    * @param {{onRebuilt: () => void, onState: () => void}} hooks onRebuilt is called when the scene
    *   was built anew and has forgotten what it was told; onState when `ready` or `reason` may differ
    */
@@ -19,7 +20,7 @@ export class SceneLink {
     this.post({ kind: 'hello' }); // The scene may have been ready before the page.
   }
 
-  /** @type {HTMLIFrameElement} */
+  /** @type {Frame} */
   #iframe;
   /** @type {() => void} */
   #onRebuilt;

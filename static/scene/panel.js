@@ -4,10 +4,13 @@
  * @typedef {import('../types.js').Poles} Poles
  * @typedef {import('../types.js').Loops} Loops
  * @typedef {Record<string, number|boolean|string>} Edits
+ * @typedef {ReturnType<typeof import('../model/store.js').evaluationOf>} Asked
+ * @typedef {ReturnType<typeof shownOf>} Shown
  */
 import { isComplex, LIMIT, setComplex, setMode, setReal } from '../model/index.js';
 
 const PAIRS = /** @type {const} */ (['pitch', 'yaw']);
+const COURSES = /** @type {const} */ (['t', 'theta', 'psi', 'V_p', 'V_y']);
 const LEAST_IM = 1e-3;
 
 /** @param {unknown} v @param {number} low @param {number} high @returns {number|null} */
@@ -67,15 +70,15 @@ export function steer(player, edits) {
 
 /**
  * What the windows of a session show one another.
- * @param {any} request the evaluation that was asked for
+ * @param {Asked} request the evaluation that was asked for
  * @param {import('../types.js').Reply} reply
  * @param {import('../types.js').Step} motion
- * @param {{motion: string, rig: string, after: number}} more after: number of the panel's last message that the request
- *   contains
+ * @param {{motion: import('../types.js').Motion, rig: string, after: number}} more after: number of the panel's last
+ *   message that the request contains
  */
 export function shownOf(request, reply, motion, more) {
-  const series = Object.fromEntries(
-    /** @type {const} */ (['t', 'theta', 'psi', 'V_p', 'V_y']).map((name) => [name, Float32Array.from(motion[name])]),
+  const series = /** @type {Record<(typeof COURSES)[number], Float32Array>} */ (
+    Object.fromEntries(COURSES.map((name) => [name, Float32Array.from(motion[name])]))
   );
   return {
     design: request,
@@ -86,12 +89,18 @@ export function shownOf(request, reply, motion, more) {
   };
 }
 
-/** A trajectory from another window, if it is one. @param {any} shown @returns {import('./pose.js').Trajectory|null} */
+/**
+ * A trajectory from another window, if it is one.
+ * @param {unknown} shown
+ * @returns {import('./pose.js').Trajectory|null}
+ */
 export function trajectoryIn(shown) {
-  const { trajectory } = shown ?? {};
-  const series = ['t', 'theta', 'psi', 'V_p', 'V_y'].map((name) => trajectory?.[name]);
-  const length = series[0]?.length;
-  return length > 1 && series.every((s) => s instanceof Float32Array && s.length === length && s.every(Number.isFinite))
+  const trajectory = /** @type {Partial<Shown>|null|undefined} */ (shown)?.trajectory;
+  const series = COURSES.map((name) => trajectory?.[name]);
+  const length = series[0]?.length ?? 0;
+  return trajectory &&
+    length > 1 &&
+    series.every((s) => s instanceof Float32Array && s.length === length && s.every(Number.isFinite))
     ? trajectory
     : null;
 }

@@ -31,7 +31,7 @@ const LONGEST_STEP = 1;
 /** Plays a trajectory in the scene of a frame, in real time or at another speed. */
 export class ScenePlayer {
   /**
-   * @param {HTMLIFrameElement} iframe shows /scene/{session}/ of the same origin
+   * @param {import('./link.js').Frame} iframe shows /scene/{session}/ of the same origin
    * @param {object} [hooks]
    * @param {(sample: Sample) => void} [hooks.onFrame] called in each animation frame and at each jump
    * @param {(state: PlayerState) => void} [hooks.onState] called when anything else changes

@@ -22,7 +22,7 @@
 
 /**
  * What the motors give at most, in volts, and where pitch stops, in radians; absent: no limit.
- * @typedef {{V_p?: number, V_y?: number, theta?: number}} Limits
+ * @typedef {Partial<import('../contract.js').Limits>} Limits
  *
  * What the scene shows: a sample, the propellers' angles in radians, the reference, the limits.
  * @typedef {Sample & {pitchRotor?: number, yawRotor?: number, limits?: Limits, dark?: boolean,

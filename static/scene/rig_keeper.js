@@ -12,11 +12,11 @@ export class RigKeeper {
   /** @type {string|null} */ #wanted = null;
   /** @type {Promise<void>|undefined} */ #telling;
   #attempt = 0;
-  /** @type {any} */ #timer;
+  /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
 
   /**
    * @param {(rig: string) => Promise<unknown>} put tells the server
-   * @param {(act: () => void, delay: number) => unknown} [later]
+   * @param {(act: () => void, delay: number) => ReturnType<typeof setTimeout>} [later]
    */
   constructor(put, later = (act, delay) => setTimeout(act, delay)) {
     this.put = put;

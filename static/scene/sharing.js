@@ -60,7 +60,7 @@ export class SceneSharing {
     if (this.hub.others) this.step.correct();
   }
 
-  /** @param {Record<string, any>} edits @param {number} count */
+  /** @param {import('./panel.js').Edits} edits @param {number} count */
   #edit(edits, count) {
     this.#count = count;
     const before = this.store.state.design;

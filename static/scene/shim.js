@@ -27,8 +27,8 @@
   let state = { state: 'loading', reason: '' };
   /** How often the socket was opened or closed. */
   let connections = 0;
-  /** @type {any} Viser's own message about its colours. */
-  let theme = null;
+  /** @type {import('./pose.js').SceneMessage|undefined} Viser's own message about its colours. */
+  let theme;
 
   /** @param {string} name @param {string} [reason] */
   function report(name, reason = '') {
@@ -37,7 +37,7 @@
     if (name === 'ready') paint();
   }
 
-  /** Hands messages to the client. @param {any[]} messages */
+  /** Hands messages to the client. @param {object[]} messages */
   function deliver(messages) {
     const batch = { type: 'message_batch', messages };
     socketWorker?.onmessage?.(new MessageEvent('message', { data: batch }));
@@ -57,7 +57,8 @@
    */
   function whenDrained(connection, frames = PATIENCE) {
     if (connection !== connections) return;
-    const { messageQueue } = /** @type {any} */ (window).__viserMutable ?? {};
+    const viser = /** @type {Window & {__viserMutable?: {messageQueue?: unknown[]}}} */ (window).__viserMutable;
+    const messageQueue = viser?.messageQueue;
     if (messageQueue?.length === 0 || frames === 0) report('ready');
     else requestAnimationFrame(() => whenDrained(connection, frames - 1));
   }
@@ -71,7 +72,7 @@
     } else if (type === 'closed') {
       report('closed', closeReason);
     } else if (type === 'message_batch') {
-      theme = messages.findLast((/** @type {any} */ m) => m.type === 'ThemeConfigurationMessage') ?? theme;
+      theme = messages.findLast((/** @type {{type: string}} */ m) => m.type === 'ThemeConfigurationMessage') ?? theme;
       // After a replay, and after a change of the rig, the nodes stand in their first pose.
       const rebuilt = messages.some(
         (/** @type {{type: string, name?: string}} */ m) =>
@@ -85,7 +86,7 @@
 
   const NativeWorker = window.Worker;
   window.Worker = class extends NativeWorker {
-    /** @param {any} message @param {any} [options] */
+    /** @param {{type?: string}|undefined} message @param {Transferable[] & StructuredSerializeOptions} [options] */
     postMessage(message, options) {
       // Of viser's several workers only the socket's is told a server.
       if (message?.type === 'set_server' && socketWorker !== this) {
@@ -106,7 +107,7 @@
       document.documentElement.dataset.theme = data.dark ? 'dark' : 'light';
       paint();
     } else if (data.kind === 'pose' && state.state !== 'loading') {
-      deliver(data.messages.filter((/** @type {any} */ m) => MOVES.has(m.type)));
+      deliver(data.messages.filter((/** @type {{type: string}} */ m) => MOVES.has(m.type)));
     }
   });
 

@@ -22,8 +22,8 @@ const MOTORS = ['V_p', 'V_y'];
 
 export class SceneView {
   /** @type {string|null} */ #rig = null;
-  /** @type {any} */ #loaded = null;
-  /** @type {any} */ #design = null;
+  /** @type {import('../types.js').Step|null} */ #loaded = null;
+  /** @type {string|null} */ #design = null;
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
   #pending = false;
   #dragging = false;
@@ -83,7 +83,7 @@ export class SceneView {
     this.motion = new Choice({
       label: 'Motion that the scene plays',
       testid: 'motion',
-      onChange: (v) => store.set({ motion: /** @type {any} */ (v) }),
+      onChange: (v) => store.set({ motion: v }),
       options: [
         ['theta', 'pitch step', 'the scene plays the pitch step alone'],
         ['psi', 'yaw step', 'the scene plays the yaw step alone'],
@@ -118,9 +118,7 @@ export class SceneView {
       ),
       this.transport.node,
     );
-    const target = this.webgl
-      ? this.frame
-      : /** @type {HTMLIFrameElement} */ (/** @type {unknown} */ ({ contentWindow: null }));
+    const target = this.webgl ? this.frame : { contentWindow: null, clientWidth: 0, clientHeight: 0 };
     this.player = new ScenePlayer(target, {
       onFrame: (s) => this.#show(s),
       onState: (s) => this.#state(s),

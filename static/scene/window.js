@@ -15,8 +15,8 @@ import { InStep } from './step.js';
 const APP = new URL('../../', location.href); // the page is served at …/scene/{session}/
 const SESSION = location.pathname.split('/').at(-2) ?? '';
 class SceneWindow {
-  /** @type {any} */ #shown = null;
-  /** @type {{design: any, after: number}|null} What is asked of the server. */ #asked = null;
+  /** @type {import('./panel.js').Shown|null} */ #shown = null;
+  /** @type {{design: import('./panel.js').Asked, after: number}|null} What is asked of the server. */ #asked = null;
   /** @type {Live|null} */ #live = null;
   #seq = 0;
   #count = 0;
@@ -40,7 +40,7 @@ class SceneWindow {
         return innerHeight;
       },
     };
-    this.player = new ScenePlayer(/** @type {any} */ (frame), {
+    this.player = new ScenePlayer(frame, {
       onFrame: ({ t, theta, psi }) => {
         setText(this.time, `${fixed(t, 2)} s   θ ${degrees(theta)}   ψ ${degrees(psi)}`);
         this.step.correct();
@@ -71,21 +71,20 @@ class SceneWindow {
     this.hub.run(snapshot);
   }
 
-  /** @param {any} shown */
+  /** @param {unknown} shown */
   #show(shown) {
-    const trajectory = trajectoryIn(shown);
-    if (!trajectory) return;
-    this.#shown = shown;
+    if (!trajectoryIn(shown)) return;
     this.#asked = null;
-    this.#load(trajectory);
+    this.#load(/** @type {import('./panel.js').Shown} */ (shown));
   }
 
-  /** @param {import('./pose.js').Trajectory} trajectory */
-  #load(trajectory) {
-    this.player.setLimits(this.#shown.limits ?? {});
-    this.player.load(trajectory, { keepTime: true });
+  /** @param {import('./panel.js').Shown} shown */
+  #load(shown) {
+    this.#shown = shown;
+    this.player.setLimits(shown.limits ?? {});
+    this.player.load(shown.trajectory, { keepTime: true });
     this.words.hidden = true;
-    if (this.#shown.rig !== this.#aimed) this.#aim(this.#shown.rig);
+    if (shown.rig !== this.#aimed) this.#aim(shown.rig);
   }
 
   /** Looks at the rig as the page does at first, in a window of any shape. @param {string} rig */
@@ -117,7 +116,7 @@ class SceneWindow {
     });
   }
 
-  /** @param {Record<string, any>} edits @param {number} count */
+  /** @param {import('./panel.js').Edits} edits @param {number} count */
   #edit(edits, count) {
     this.#count = count;
     const design = this.#asked?.design ?? this.#shown?.design;
@@ -128,7 +127,7 @@ class SceneWindow {
     steer(this.player, edits);
   }
 
-  /** @param {any} design */
+  /** @param {import('./panel.js').Asked} design */
   #ask(design) {
     this.#live ??= new Live({
       onReply: (reply) => this.#answered(reply),
@@ -148,9 +147,9 @@ class SceneWindow {
     const { motion = 'both', rig = 'helicopter' } = this.#shown ?? {};
     const step = (motionOf(reply, motion) ?? reply.step).nonlinear;
     const first = this.#shown === null;
-    this.#shown = shownOf(design, reply, step, { motion, rig, after });
-    this.hub.show(this.#shown);
-    this.#load(this.#shown.trajectory);
+    const shown = shownOf(design, reply, step, { motion, rig, after });
+    this.hub.show(shown);
+    this.#load(shown);
     if (!matchMedia('(prefers-reduced-motion: reduce)').matches || first) this.player.replay();
   }
 }

@@ -23,12 +23,12 @@ const REST_MS = 500;
 export function cloudRequest(design, spread, motion, names, samples) {
   const scenario = cloudScenario(design.scenario);
   const played = motion === 'both' ? scenario.reference : { [motion]: scenario.reference[motion] };
-  return {
+  return /** @satisfies {import('../types.js').Asked<import('../contract.js').RobustnessRequest>} */ ({
     ...bodyOf(design),
     scenario: { ...scenario, reference: played },
     uncertainty: Object.fromEntries(names.filter((n) => n !== 'g').map((n) => [n, spread])),
     samples,
-  };
+  });
 }
 
 /**
@@ -100,7 +100,7 @@ export class CloudFeed {
     this.#socket.asks.put(request);
   }
 
-  /** @param {any} message */
+  /** A cloud, or a problem, which has a status. @param {import('../types.js').Cloud & {status?: number}} message */
   #receive(message) {
     const refused = message.status !== undefined;
     // A few rigs of a larger cloud say less than the last whole one; they only tell that it is coming.

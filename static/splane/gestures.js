@@ -222,7 +222,7 @@ export class Gestures {
 
   #focused() {
     const handles = this.plane.marks.handles;
-    const i = handles.indexOf(/** @type {any} */ (document.activeElement));
+    const i = handles.findIndex((handle) => handle === document.activeElement);
     return i >= 0 && handles[i].matches(':focus-visible') ? i : null;
   }
 }

@@ -6,11 +6,19 @@ import { SPOKEN, t } from '../text/index.js';
 
 const SVG = 'http://www.w3.org/2000/svg';
 
-/** @param {Element} node @param {Record<string, any>} attributes @param {any[]} children */
+/** @typedef {Node|string|null|undefined} Child */
+
+/**
+ * @template {Element} E
+ * @param {E} node
+ * @param {Record<string, unknown>} attributes
+ * @param {(Child|readonly Child[])[]} children
+ * @returns {E}
+ */
 function dress(node, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (value === undefined || value === null || value === false) continue;
-    if (name.startsWith('on')) node.addEventListener(name.slice(2), value);
+    if (name.startsWith('on')) node.addEventListener(name.slice(2), /** @type {EventListener} */ (value));
     else node.setAttribute(name, value === true ? '' : SPOKEN.has(name) ? t(String(value)) : String(value));
   }
   const own = attributes.translate === 'no'; // symbols and units are the same in every language
@@ -26,12 +34,12 @@ function dress(node, attributes, children) {
 /**
  * @template {keyof HTMLElementTagNameMap} T
  * @param {T} tag
- * @param {Record<string, any>} [attributes] `onclick` and the like add listeners
- * @param {...any} children
+ * @param {Record<string, unknown>} [attributes] `onclick` and the like add listeners
+ * @param {...(Child|readonly Child[])} children
  * @returns {HTMLElementTagNameMap[T]}
  */
 export function h(tag, attributes = {}, ...children) {
-  return /** @type {any} */ (dress(document.createElement(tag), attributes, children));
+  return dress(document.createElement(tag), attributes, children);
 }
 
 /** One that submits nothing. @param {Record<string, any>} attributes @param {...any} children */
@@ -49,11 +57,13 @@ export function check({ title, hidden, ...of }, ...label) {
 
 /**
  * @template {keyof SVGElementTagNameMap} T
- * @param {T} tag @param {Record<string, any>} [attributes] @param {...any} children
+ * @param {T} tag
+ * @param {Record<string, unknown>} [attributes]
+ * @param {...(Child|readonly Child[])} children
  * @returns {SVGElementTagNameMap[T]}
  */
 export function svg(tag, attributes = {}, ...children) {
-  return /** @type {any} */ (dress(document.createElementNS(SVG, tag), attributes, children));
+  return dress(document.createElementNS(SVG, tag), attributes, children);
 }
 
 /**

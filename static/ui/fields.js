@@ -52,6 +52,7 @@ export class NumberField {
           step: 'any',
         })
       : null;
+    /** @type {{min: number, max: number, log?: boolean}} */
     this.range = slider ?? { min: 0, max: 1 };
     this.node = h(
       'div',
@@ -177,24 +178,27 @@ export class NumberField {
 
   #fromSlider() {
     const s = Number(this.slider?.value);
-    const { min, max, log } = /** @type {any} */ (this.range);
+    const { min, max, log } = this.range;
     const v = log ? min * (max / min) ** s : min + (max - min) * s;
     return Number(v.toPrecision(log ? 2 : 3)) || 0;
   }
 
   /** @param {number} v */
   #toSlider(v) {
-    const { min, max, log } = /** @type {any} */ (this.range);
+    const { min, max, log } = this.range;
     const s = log ? Math.log(Math.max(v, 1e-12) / min) / Math.log(max / min) : (v - min) / (max - min);
     const text = String(Math.max(0, Math.min(1, s)));
     if (this.slider && this.slider.value !== text) this.slider.value = text;
   }
 }
 
-/** A choice of few, seen all at once: radio buttons in the shape of a switch. */
+/**
+ * A choice of few, seen all at once: radio buttons in the shape of a switch.
+ * @template {string} V
+ */
 export class Choice {
   /**
-   * @param {{label: string, testid: string, options: [string, string, string?][], onChange: (value: string) => void}} o
+   * @param {{label: string, testid: string, options: [V, string, string?][], onChange: (value: V) => void}} o
    *   options: value, text, explanation
    */
   constructor({ label, testid, options, onChange }) {

@@ -1,7 +1,7 @@
 /** One view that fails must not stop the others: it is told of once, and tried again with the next state. Pure. */
 
 /**
- * @template {any[]} A
+ * @template {unknown[]} A
  * @param {(...args: A) => unknown} act @param {(error: unknown) => void} report called for the first failure alone
  * @returns {(...args: A) => unknown} undefined where it failed
  */

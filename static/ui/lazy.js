@@ -12,6 +12,7 @@ const DELAY_MS = 300;
 export const whileSeen = (node, tell) =>
   new IntersectionObserver((entries) => tell(entries[entries.length - 1].isIntersecting)).observe(node);
 
+/** @template B, A */
 export class Lazy {
   #key = '';
   #visible = false;
@@ -22,8 +23,8 @@ export class Lazy {
    * @param {HTMLElement} root
    * @param {HTMLElement} content what an answer fills; hidden until there is one
    * @param {import('../model/store.js').Store} store
-   * @param {{wait: string, body: (d: import('../types.js').Design) => unknown, ask: (body: any) => Promise<any>, show:
-   *   (answer: any) => void}} how
+   * @param {{wait: string, body: (d: import('../types.js').Design) => B, ask: (body: B) => Promise<A>,
+   *   show: (answer: A) => void}} how
    */
   constructor(root, content, store, how) {
     this.root = root;
@@ -51,13 +52,13 @@ export class Lazy {
     this.#timer = setTimeout(() => this.#run(body, key), this.content.hidden ? 0 : DELAY_MS);
   }
 
-  /** @param {unknown} body @param {string} key */
+  /** @param {B} body @param {string} key */
   async #run(body, key) {
     if (this.store.state.dragging) {
       this.#key = ''; // asked again when the hand lets go
       return;
     }
-    /** @type {any} */ let answer;
+    /** @type {A|undefined} */ let answer;
     let refused = '';
     try {
       answer = await this.how.ask(body);
@@ -69,7 +70,7 @@ export class Lazy {
       refused = [`This could not be computed: ${messageOf(error)}`, hint].filter(Boolean).join(' ');
     }
     if (!refused && key !== this.#key) return;
-    if (!refused) this.how.show(answer);
+    if (!refused) this.how.show(/** @type {A} */ (answer));
     this.content.hidden = Boolean(refused);
     this.status.hidden = !refused;
     this.status.classList.toggle('failure', Boolean(refused));

@@ -7,7 +7,10 @@ const TYPE = 11; // px, as charts are made
 const REM = 10; // px, at the browser's usual setting
 
 /** @typedef {{type: number, line: number}} Scale  factors of what the charts are made with */
-/** @typedef {{chart: any, widths: number[], fonts: number[]}} Kept  a chart and its sizes at first */
+/** @typedef {import('../vendor/uplot/uPlot.esm.js').default} Chart */
+/** @typedef {Record<string, {min: number, max: number}>} Ranges  the scales of a chart that is drawn */
+/** @typedef {[string, number, number]} Font  as uPlot keeps it: the canvas' font, its size there, in CSS pixels */
+/** @typedef {{chart: Chart, widths: number[], fonts: number[]}} Kept  a chart and its sizes at first */
 
 /** @type {Scale|null} */ let present = null;
 /** @type {Kept[]} */ const all = [];
@@ -49,24 +52,23 @@ export function rescale() {
 
 /** @param {Kept} kept @param {Scale} scale */
 function apply({ chart, widths, fonts }, { type, line }) {
-  chart.series
-    .slice(1)
-    .forEach((/** @type {any} */ series, /** @type {number} */ i) => (series.width = widths[i] * line));
-  chart.axes.forEach((/** @type {any} */ { font }, /** @type {number} */ i) => {
-    // as uPlot keeps it: the canvas' font, its size there, its size in CSS pixels
+  chart.series.slice(1).forEach((series, i) => (series.width = widths[i] * line));
+  fontsOf(chart).forEach((font, i) => {
     font[2] = fonts[i] * type;
     font[1] = Math.round(font[2] * devicePixelRatio);
     font[0] = font[0].replace(/[\d.]+px/, `${font[1]}px`);
   });
 }
 
-/** Has a chart of uPlot's follow the page. @template T @param {T} chart @returns {T} */
+/** @param {Chart} chart */
+const fontsOf = (chart) => chart.axes.map(({ font }) => /** @type {Font} */ (/** @type {unknown} */ (font)));
+
+/** Has a chart of uPlot's follow the page. @param {Chart} chart */
 export function followsPage(chart) {
-  const made = /** @type {any} */ (chart);
   const kept = {
-    chart: made,
-    widths: made.series.slice(1).map((/** @type {any} */ s) => s.width),
-    fonts: made.axes.map((/** @type {any} */ a) => a.font[2]),
+    chart,
+    widths: chart.series.slice(1).map((s) => s.width ?? 1),
+    fonts: fontsOf(chart).map((font) => font[2]),
   };
   all.push(kept);
   apply(kept, pictureScale()); // in time for its first drawing, which uPlot puts off to the end of this task

@@ -13,7 +13,7 @@ const GAP = 4; // px to the button
 function make() {
   const node = h('div', { class: 'popup', popover: 'auto', 'data-testid': 'popup' });
   node.addEventListener('toggle', (e) => {
-    if (/** @type {any} */ (e).newState !== 'closed') return;
+    if (/** @type {ToggleEvent} */ (e).newState !== 'closed') return;
     owner?.setAttribute('aria-expanded', 'false');
     owner = null;
   });

@@ -8,8 +8,12 @@ import { createRequire } from 'node:module';
 import { join, relative, resolve } from 'node:path';
 
 const root = resolve(process.argv[2]);
-const ts = createRequire(join(root, 'package.json'))('typescript');
+const require = createRequire(join(root, 'package.json'));
+const { API } = require('typescript/unstable/sync');
+const ts = require('typescript/unstable/ast');
 const K = ts.SyntaxKind;
+const COMMENT = /\/\*.*?\*\//gs; // types are imported there
+const IMPORTED = /\b(?:from|import)\s*\(?\s*['"](\.[^'"]+)['"]/g;
 
 const OPERATORS = new Map([
   [K.PlusToken, ['-']],
@@ -53,9 +57,9 @@ function modules() {
     .map((name) => join(tests, name));
   const seen = new Set(waiting);
   for (const file of waiting) {
-    for (const { fileName } of ts.preProcessFile(readFileSync(file, 'utf8'), true, true).importedFiles) {
-      const target = resolve(file, '..', fileName);
-      if (!fileName.startsWith('.') || seen.has(target) || !existsSync(target) || !/\.m?js$/.test(target)) continue;
+    for (const [, name] of readFileSync(file, 'utf8').replaceAll(COMMENT, '').matchAll(IMPORTED)) {
+      const target = resolve(file, '..', name);
+      if (seen.has(target) || !existsSync(target) || !/\.m?js$/.test(target)) continue;
       seen.add(target);
       waiting.push(target);
     }
@@ -66,19 +70,18 @@ function modules() {
     .sort();
 }
 
-/** The changes of one module. */
-function sitesOf(name) {
-  const source = readFileSync(join(root, name), 'utf8');
-  const file = ts.createSourceFile(name, source, ts.ScriptTarget.Latest, true, ts.ScriptKind.JS);
+/** The changes of one module of TypeScript's program. */
+function sitesOf(name, program) {
+  const file = program.getSourceFile(join(root, name));
   const found = [];
   const add = (start, end, news, kind, scope) => {
     for (const change of news) found.push({ start, end, new: change, kind, scope });
   };
   const whole = (node, news, kind, scope) => add(node.getStart(file), node.end, news, kind, scope);
-  const isText = (node) => ts.isStringLiteralLike(node) || ts.isTemplateExpression(node);
+  const isText = (node) => ts.isStringLiteralLikeNode(node) || ts.isTemplateExpression(node);
 
   function visit(node, scope) {
-    if (ts.isThrowStatement(node) || ts.isImportDeclaration(node)) return;
+    if (ts.isThrowStatement(node) || ts.isImportDeclaration(node) || ts.isTypeNode(node)) return;
     if (ts.isBinaryExpression(node) && !isText(node.left) && !isText(node.right)) {
       const token = node.operatorToken;
       for (const change of OPERATORS.get(token.kind) ?? []) {
@@ -131,13 +134,17 @@ function sitesOf(name) {
     const own =
       node.name &&
       ts.isIdentifier(node.name) &&
-      (ts.isFunctionLike(node) ||
+      (ts.isFunctionLikeDeclaration(node) ||
         ts.isClassDeclaration(node) ||
         (ts.isVariableDeclaration(node) && node.parent.parent.parent === file));
-    ts.forEachChild(node, (child) => visit(child, own ? `${scope}.${node.name.text}`.replace(/^\./, '') : scope));
+    node.forEachChild((child) => visit(child, own ? `${scope}.${node.name.text}`.replace(/^\./, '') : scope));
   }
   visit(file, '');
   return found;
 }
 
-process.stdout.write(JSON.stringify(Object.fromEntries(modules().map((name) => [name, sitesOf(name)]))));
+const api = new API({ cwd: root });
+const [{ program }] = api.updateSnapshot({ openProjects: [join(root, 'tsconfig.json')] }).getProjects();
+const found = Object.fromEntries(modules().map((name) => [name, sitesOf(name, program)]));
+api.close();
+process.stdout.write(JSON.stringify(found));

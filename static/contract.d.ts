@@ -1,0 +1,1284 @@
+/**
+ * What the server is asked and what it replies. Made of the contract (app/contract) by `python -m tests.page_types`;
+ * not to be changed by hand.
+ */
+
+/** Units of single angles, where they are not the file's usual one; a reference takes its axis' unit. */
+export interface AngleUnits {
+  /** of pitch */
+  theta?: 'rad' | 'deg' | null;
+  /** of yaw */
+  psi?: 'rad' | 'deg' | null;
+  /** of pitch's reference */
+  theta_ref?: 'rad' | 'deg' | null;
+  /** of yaw's reference */
+  psi_ref?: 'rad' | 'deg' | null;
+}
+
+/** Angles, rad; left out where there is none. */
+export interface Angles {
+  /** pitch, rad */
+  theta?: number;
+  /** yaw, rad */
+  psi?: number;
+}
+
+/** Step metrics of one axis; s, %, rad, rad·s, rad·s². They belong to the response, not to its samples. */
+export interface AxisMetrics {
+  /** time from 10 % to 90 % of the step, s; left out where 90 % are not reached */
+  rise_time?: number;
+  /** time after which the angle stays within 2 % of the step around its reference, s; left out where not `settled` */
+  settling_time?: number;
+  /** largest excess beyond the reference, in percent of the step */
+  overshoot: number;
+  /** largest excursion from the start away from the reference, in percent of the step */
+  undershoot: number;
+  /** angle of the largest deviation from the start, rad */
+  peak: number;
+  /** when the peak is reached, s; left out where nothing overshoots, or the window ends on the peak */
+  peak_time?: number;
+  /** reference minus the last angle shown, rad */
+  steady_state_error: number;
+  /** ∫ |e| dt, integral of the absolute error over the time shown, rad·s */
+  iae: number;
+  /** ∫ t |e| dt, the absolute error weighted with time, over the time shown, rad·s² */
+  itae: number;
+  /** whether it is within 2 % of the step when the window ends, for good */
+  settled: boolean;
+}
+
+/** Metrics of each axis stepped alone. */
+export interface AxisMetricsAlone {
+  theta?: Metrics;
+  psi?: Metrics;
+}
+
+/** Each axis of the reference stepped alone. */
+export interface AxisSteps {
+  theta?: BothModels;
+  psi?: BothModels;
+}
+
+/** The same experiment by both models. */
+export interface BothModels {
+  linear: Step;
+  nonlinear: Step;
+}
+
+/** A design, an experiment, and the methods to compare. */
+export interface CompareRequest extends StepRequest {
+  /** all by default */
+  methods?:
+    | ('full-rank' | 'tits-yang' | 'knv0' | 'varga' | 'ackermann' | 'bass-gura' | 'lqr' | 'lqr-integral')[]
+    | null;
+}
+
+/** All methods side by side, and what becomes of the paper's claim of lower gains. */
+export interface Comparison {
+  rows: ComparisonRow[];
+  claim: string;
+}
+
+/** One method's result, or why there is none; structures are full-rank's alone. */
+export interface ComparisonRow {
+  /** Frobenius norm of K: the size of all its gains */
+  norm?: number;
+  /** spectral norm of K: the most it can amplify a state */
+  spectral_norm?: number;
+  /** farthest distance of a computed pole from the placed one, rad/s; left out where the method chose its own poles */
+  pole_error?: number;
+  /**
+   * how far rounding may have moved the poles told, and so their error, rad/s; left out where the method chose its own
+   * poles
+   */
+  pole_error_bound?: number;
+  /**
+   * condition number of the eigenvectors of A − BK: how sensitive the poles are, at best 1; left out where there are
+   * too few eigenvectors
+   */
+  eigenvector_condition?: number;
+  method: string;
+  /** V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y */
+  K?: number[][];
+  /** the method's own integral action, V/(rad·s) */
+  integral?: number[][];
+  poles?: Complex[];
+  closed_loop_poles?: Complex[];
+  findings?: Finding[];
+  /** RGA at s = 0; rows θ, ψ, columns V_p, V_y */
+  rga?: number[][];
+  pairing?: string[][];
+  reason?: string;
+  /** index of the diagonal pairing */
+  niederlinski?: number;
+  /** index of the cross pairing */
+  niederlinski_cross?: number;
+  title: string;
+  coupling?: string;
+  lead?: string;
+  unavailable?: Unavailable;
+  metrics?: Metrics;
+  axis_metrics?: AxisMetricsAlone;
+  margins?: LoopMargins;
+  sensitivity?: Sensitivity;
+  loop_poles?: Complex[];
+  stable?: boolean;
+}
+
+/** A complex number. */
+export interface Complex {
+  /** real part */
+  re: number;
+  /** imaginary part */
+  im: number;
+}
+
+/** What a component's value means, and the paper's symbol for it. */
+export interface ComponentInfo {
+  meaning: string;
+  unit: string;
+  printed: string;
+}
+
+/** Angles, rad; null where nothing was simulated. */
+export interface Courses {
+  /** rad */
+  theta: (number | null)[];
+  /** rad */
+  psi: (number | null)[];
+}
+
+/** One response, rad. */
+export interface Curve {
+  name: string;
+  title: string;
+  /** rad */
+  angle: number[];
+}
+
+/** A design: what differs from the preset. */
+export interface DesignRequest {
+  /** structure of the closed loop */
+  coupling?: 'triangular' | 'input-diagonal' | 'axis-decoupled' | null;
+  /** axis that leads where the coupling is triangular */
+  lead?: 'pitch' | 'yaw' | null;
+  /** shift c of Luenberger's basis, q₁ → q₁ + c q₂ (yaw leading: q₂ → q₂ + c q₁); the structure's own where left out */
+  shift?: number | null;
+  /** pi: two PI loops (Fig. 3); none: inner loop alone (Fig. 2) */
+  outer?: 'pi' | 'none' | null;
+  /** which error drives which motor */
+  pairing?: 'diagonal' | 'cross' | null;
+  /** static decoupler Ĝ(0)⁻¹ diag(|ĝ|) between the PI controllers and the motors */
+  decoupler?: boolean | null;
+  /** name of a preset, see GET /api/v1/presets */
+  preset?:
+    | 'quanser-2dof-manual'
+    | 'quanser-2dof-design-file'
+    | 'paper-table-1'
+    | 'paper-as-computed'
+    | 'quanser-aero-2'
+    | 'quanser-aero';
+  parameters?: ParameterChanges;
+  limits?: LimitChanges;
+  operating_point?: OperatingPoint | null;
+  /** p₁, p₂ (pitch's pair), p₃, p₄ (yaw's), rad/s */
+  poles?: (number | { re: number; im: number })[] | null;
+  /** see GET /api/v1/methods */
+  method?: 'full-rank' | 'tits-yang' | 'knv0' | 'varga' | 'ackermann' | 'bass-gura' | 'lqr' | 'lqr-integral';
+  /** which poles, by position from 0, form pitch's pair and which yaw's */
+  split?: [number[], number[]] | null;
+  weights?: WeightChanges;
+  loops?: LoopsChanges;
+}
+
+/** How text was split into cells. */
+export interface Dialect {
+  separator: string;
+  decimal: string;
+}
+
+/** The rig's own controller: sampled, quantized, filtered, late, noisy. */
+export interface DigitalController {
+  /** time between two samples; voltages are held between them, s */
+  sample_time?: number;
+  /** voltages reach the motors one sample after the one that they were computed from */
+  delay?: boolean;
+  /** filtered: from the angles, second order, 2π·20 rad/s, damping 0.85; true: exact */
+  rates?: 'filtered' | 'true';
+  /** standard deviation of white noise on the measured angles, rad */
+  noise?: number;
+  /** of the noise */
+  seed?: number;
+  /** the preset's where left out */
+  encoders?: EncoderCounts | null;
+}
+
+/** Off-diagonal over diagonal size of Ĝ(jω), by rows and by columns; below 1: dominant. */
+export interface Dominance {
+  /** per frequency, row θ and row ψ */
+  rows: number[][];
+  /** per frequency, column V_p and column V_y */
+  columns: number[][];
+}
+
+/** V; null where nothing was simulated. */
+export interface Driving {
+  /** V */
+  V_p: (number | null)[];
+  /** V */
+  V_y: (number | null)[];
+}
+
+/** Counts per revolution; 0 measures exactly. */
+export interface EncoderCounts {
+  /** of pitch's encoder; 0 measures exactly, counts per revolution */
+  theta?: number;
+  /** of yaw's encoder; 0 measures exactly, counts per revolution */
+  psi?: number;
+}
+
+/** One output's percentiles over t, rad: a row per percentile. */
+export interface Envelope {
+  /** pitch, rad; a row per percentile */
+  theta: number[][];
+  /** yaw, rad; a row per percentile */
+  psi: number[][];
+}
+
+/**
+ * A step of the derivation: one plain sentence, as printed, as derived, and what became of it.
+ *
+ * `formulas` names what of GET symbolic stands here for another structure than the paper's.
+ */
+export interface Equation {
+  number: string;
+  title: string;
+  chapter: string;
+  plain: string;
+  status: string;
+  note: string;
+  errata: string[];
+  formulas: string[];
+  printed?: Typeset;
+  derived?: Typeset;
+}
+
+/** One mistake with its proof: an erratum where the paper's own numbers confirm it, else unclear in our copy. */
+export interface Erratum {
+  name: string;
+  where: string;
+  printed: Typeset;
+  correct: Typeset;
+  why: string;
+  effect: string;
+  /** confirmed by the paper's own printed numbers, or unclear in our copy of it */
+  standing: 'confirmed' | 'unclear';
+  /** the printed numbers that confirm it */
+  evidence?: string;
+  proof: Proof;
+}
+
+/** A parameter in SI units with its 95 % interval; `plain` is the half width if residuals were white. */
+export interface EstimateReply {
+  name: string;
+  unit: string;
+  before: number;
+  value: number;
+  low: number;
+  high: number;
+  plain: number;
+  adopted: number;
+}
+
+/** As a step request; both models are computed. */
+export interface EvaluateRequest extends StepRequest {
+  /** also step each axis of the reference alone */
+  each_axis?: boolean;
+}
+
+/** Gains, RGA, responses and margins at once. */
+export interface Evaluation {
+  /** the live request's number */
+  seq?: number;
+  gains: Gains;
+  open_loop_poles: Complex[];
+  rga: Rga;
+  step: BothModels;
+  axis_steps: AxisSteps;
+  margins: LoopMargins;
+  sensitivity?: Sensitivity;
+  loop_poles: Complex[];
+  stable: boolean;
+  trim: Voltages;
+  limits: Limits;
+  findings: Finding[];
+}
+
+/** A residual or a figure; as a formula where it is one. */
+export interface Evidence {
+  text: string;
+  latex?: string;
+  mathml?: string;
+}
+
+/** A redrawn figure; t in s. */
+export interface Figure {
+  /** of the paper */
+  number: number;
+  output: string;
+  /** s */
+  t: number[];
+  curves: Curve[];
+}
+
+/** A remark on a design or response that is legal but deserves a word. */
+export interface Finding {
+  code: string;
+  severity: string;
+  message: string;
+}
+
+/** One expression in three notations. */
+export interface Formula {
+  sympy: string;
+  latex: string;
+  mathml: string;
+}
+
+/** L(jω) of the loop opened at one motor's input, the rest closed; the phase without jumps, rad. */
+export interface FrequencyResponse {
+  /** |L(jω)| */
+  gain: number[];
+  /** without jumps, rad */
+  phase: number[];
+}
+
+/**
+ * K in V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y.
+ *
+ * `integral` is a method's own integral action, V/(rad·s); `pole_error` is left out where the method chose its own
+ * poles, `eigenvector_condition` where there are too few eigenvectors.
+ */
+export interface Gains {
+  /** Frobenius norm of K: the size of all its gains */
+  norm: number;
+  /** spectral norm of K: the most it can amplify a state */
+  spectral_norm: number;
+  /** farthest distance of a computed pole from the placed one, rad/s; left out where the method chose its own poles */
+  pole_error?: number;
+  /**
+   * how far rounding may have moved the poles told, and so their error, rad/s; left out where the method chose its own
+   * poles
+   */
+  pole_error_bound?: number;
+  /**
+   * condition number of the eigenvectors of A − BK: how sensitive the poles are, at best 1; left out where there are
+   * too few eigenvectors
+   */
+  eigenvector_condition?: number;
+  method: string;
+  /** V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y */
+  K: number[][];
+  /** the method's own integral action, V/(rad·s) */
+  integral?: number[][];
+  /** 4×4, x = [θ, ψ, θ̇, ψ̇], SI */
+  A: number[][];
+  /** 4×2, inputs V_p, V_y, SI */
+  B: number[][];
+  poles: Complex[];
+  closed_loop_poles: Complex[];
+  /** one per input */
+  controllability_indices: number[];
+  findings: Finding[];
+}
+
+/** A block of the closed loop: its inputs and its poles, by position from 0. */
+export interface Group {
+  /** positions from 0 */
+  inputs: number[];
+  /** positions from 0 */
+  poles: number[];
+}
+
+/** What the columns probably are. */
+export interface Guess {
+  columns: Record<string, string>;
+  /** of the angles: rad or deg */
+  unit: string;
+  /** of angles whose unit is another one */
+  units: Record<string, string>;
+  /** of the column of time */
+  time_unit: string | null;
+  /** of both voltages */
+  voltage_unit: string;
+  /** usual time between two rows in that unit, s */
+  sample_time: number | null;
+}
+
+/** The result over the socket; before it come `{"evaluations", "rms"}`. */
+export interface IdentificationReply {
+  done: boolean;
+  estimates: EstimateReply[];
+  rms_before: PerAxis | null;
+  rms: PerAxis;
+  segments: number;
+  lags: number;
+  evaluations: number;
+  seconds: number;
+  findings: Finding[];
+}
+
+/** A rig as it is thought to be, and which of its parameters are free. */
+export interface IdentifyRequest extends DesignRequest {
+  recording: string;
+  columns: Mapping;
+  /** all by default, K_s only where it is not 0 */
+  free?: ('K_pp' | 'K_py' | 'K_yp' | 'K_yy' | 'B_p' | 'B_y' | 'K_s')[] | null;
+  /** s; by default by the rig's stability */
+  segment?: number | null;
+}
+
+/** State at t = 0; angles are absolute. */
+export interface Initial {
+  /** pitch at t = 0, rad; at rest at the operating point (θ₀, 0) where left out */
+  theta?: number | null;
+  /** yaw at t = 0, rad; at rest at the operating point (θ₀, 0) where left out */
+  psi?: number | null;
+  /** rate of pitch at t = 0, rad/s */
+  theta_dot?: number;
+  /** rate of yaw at t = 0, rad/s */
+  psi_dot?: number;
+}
+
+/** Volts that act on the motors besides the controller's, from `time` on. */
+export interface InputDisturbance {
+  /** added to the pitch motor's voltage, V */
+  V_p?: number;
+  /** added to the yaw motor's voltage, V */
+  V_y?: number;
+  /** when they begin to act, s */
+  time?: number;
+}
+
+export interface InputWeights {
+  /** on R's diagonal */
+  V_p?: number | null;
+  /** on R's diagonal */
+  V_y?: number | null;
+}
+
+export interface IntegralWeights {
+  /** on the integral of this error */
+  theta?: number | null;
+  /** on the integral of this error */
+  psi?: number | null;
+}
+
+/** Files of one run, sent before, to be joined into one recording. */
+export interface JoinRequest {
+  /** their ids */
+  recordings: string[];
+}
+
+/** Limits that differ from the preset's. */
+export interface LimitChanges {
+  /** largest voltage of the pitch motor, either way, V */
+  V_p?: number | null;
+  /** largest voltage of the yaw motor, either way, V */
+  V_y?: number | null;
+  /** pitch travel to either side of level, rad; none where it is free */
+  theta?: number | null;
+}
+
+/** Voltage limits, V, and pitch travel, rad, where it is not free. */
+export interface Limits {
+  /** largest voltage of the pitch motor, either way, V */
+  V_p: number;
+  /** largest voltage of the yaw motor, either way, V */
+  V_y: number;
+  /** pitch travel to either side of level, rad; none where it is free */
+  theta?: number;
+}
+
+/** An evaluate request with the number that its answer will carry. */
+export interface LiveRequest extends EvaluateRequest {
+  seq: number;
+}
+
+/** PI(s) = kp (1 + 1/(ti s)) of one axis. */
+export interface LoopChanges {
+  /** proportional gain, V/rad */
+  kp?: number | null;
+  /** integral time, s */
+  ti?: number | null;
+}
+
+/** Margins at each motor; left out where the loop is unstable. */
+export interface LoopMargins {
+  pitch?: Margins;
+  yaw?: Margins;
+}
+
+/** PI values of both axes. */
+export interface Loops {
+  pitch: PI;
+  yaw: PI;
+}
+
+/** The PI controllers of the pitch and the yaw error. */
+export interface LoopsChanges {
+  pitch?: LoopChanges;
+  yaw?: LoopChanges;
+}
+
+/** A design with its outer loop, and frequencies at which L(jω) is wanted. */
+export interface LoopsRequest extends DesignRequest {
+  /** rad/s */
+  frequencies: number[];
+}
+
+/** Which column is what, and how its angles become ours. */
+export interface Mapping {
+  /** of the file's angles, references and offsets included */
+  unit?: 'rad' | 'deg';
+  /** time between two rows, s; where no column is the time */
+  sample_time?: number | null;
+  /** of the column of time; what the file states, or s, where left out */
+  time_unit?: 's' | 'ms' | 'us' | 'ns' | 'min' | 'h' | 'd' | null;
+  /** of both voltages */
+  voltage_unit?: 'V' | 'mV';
+  /** of so many rows one is kept, and the voltages between are averaged */
+  decimate?: number;
+  time?: string | null;
+  theta?: string | null;
+  psi?: string | null;
+  V_p?: string | null;
+  V_y?: string | null;
+  theta_ref?: string | null;
+  psi_ref?: string | null;
+  units?: AngleUnits;
+  signs?: Signs;
+  offsets?: Offsets;
+}
+
+/** Margins at one motor's input: factors, rad, s; left out where unlimited. */
+export interface Margins {
+  /** smallest factor above 1 on the motor’s gain that makes the loop unstable; left out where unlimited */
+  gain_margin?: number;
+  /** largest factor below 1 on the motor’s gain that makes the loop unstable; left out where unlimited */
+  gain_reduction_margin?: number;
+  /** smallest phase lag or lead at a gain crossover that makes the loop unstable, rad; left out where unlimited */
+  phase_margin?: number;
+  /**
+   * smallest dead time at this axis’ own motor that makes the loop unstable: phase margin over crossover frequency, s;
+   * left out where unlimited
+   */
+  delay_margin?: number;
+}
+
+/** A placement method; `needs` names the package that it takes, `couplings` are full-rank's alone. */
+export interface Method {
+  name: string;
+  title: string;
+  source: string;
+  /** whether it takes the poles given, rather than choose its own */
+  places_poles: boolean;
+  /** whether it brings integral action, in place of the PI loops */
+  integrates: boolean;
+  available: boolean;
+  couplings: string[];
+  leads: string[];
+  needs?: string;
+}
+
+/** Metrics of each stepped axis, of the axis that is not, and of the motors. */
+export interface Metrics {
+  theta?: AxisMetrics;
+  psi?: AxisMetrics;
+  /** largest deviation of the axis that is not stepped, rad; left out where both are stepped */
+  coupling_peak?: number;
+  V_p: MotorMetrics;
+  V_y: MotorMetrics;
+}
+
+/** Largest |voltage|, V, share of time at the limit, and effort ∫ (V − V_trim)² dt, V²·s. */
+export interface MotorMetrics {
+  /** largest voltage of the motor, trim included, V */
+  peak: number;
+  /** share of time at its limit, 0 to 1 */
+  saturated: number;
+  /**
+   * ∫ (V − V_trim)² dt over the time shown: what control costs beyond holding still; the inputs’ part of the quadratic
+   * cost, V²·s
+   */
+  effort: number;
+}
+
+/** Added to the file's angles after their signs, in its unit. */
+export interface Offsets {
+  /** to pitch, in the file's unit */
+  theta?: number;
+  /** to yaw, in the file's unit */
+  psi?: number;
+}
+
+/** The loops opened at each motor, over frequency, rad/s; −1 is critical. */
+export interface OpenLoops {
+  /** rad/s */
+  frequencies: number[];
+  pitch: FrequencyResponse;
+  yaw: FrequencyResponse;
+  margins: LoopMargins;
+  stable: boolean;
+}
+
+/** Where the rig rests and the model is linearized. */
+export interface OperatingPoint {
+  /** pitch angle θ₀ at which the rig rests and is linearized, rad */
+  theta?: number | null;
+}
+
+/** Where the printed K puts the poles of one plant, rad/s. */
+export interface Outcome {
+  plant: string;
+  poles: Complex[];
+  unrounded: Complex[];
+}
+
+/** Measured and simulated, at no more than 1500 of the recording's times. */
+export interface OverlayReply {
+  driver: string;
+  /** of the recording */
+  samples: number;
+  /** s */
+  sample_time: number;
+  /** s */
+  duration: number;
+  fit: PerAxis;
+  rms: PerAxis;
+  /** how often the simulation was begun anew */
+  segments: number;
+  /** s */
+  t: number[];
+  measured: Courses;
+  simulated: Courses;
+  residuals: Courses;
+  references?: Courses;
+  voltages: Volts;
+  driving: Driving;
+  findings: Finding[];
+}
+
+/** A design to lay over a recording. */
+export interface OverlayRequest extends StepRequest {
+  columns: Mapping;
+  /**
+   * voltages: one run under the recorded voltages; segments: begun anew every few seconds; references: the design's
+   * loop under the recorded references
+   */
+  driver?: 'voltages' | 'segments' | 'references';
+  /** s; by default by the rig's stability */
+  segment?: number | null;
+}
+
+/** PI(s) = kp (1 + 1/(ti s)) of one axis. */
+export interface PI {
+  /** proportional gain, V/rad */
+  kp: number;
+  /** integral time, s */
+  ti: number;
+}
+
+/** The paper, reproduced. */
+export interface Paper {
+  title: string;
+  authors: string;
+  equations: Equation[];
+  symbols: Term[];
+  numbers: PrintedNumber[];
+  errata: Erratum[];
+  consequence: Outcome[];
+  figures: Figure[];
+}
+
+/** Parameters that differ from the preset's. */
+export interface ParameterChanges {
+  /** thrust torque about pitch per volt of the pitch motor, N·m/V */
+  K_pp?: number | null;
+  /** thrust torque about pitch per volt of the yaw motor, N·m/V */
+  K_py?: number | null;
+  /** thrust torque about yaw per volt of the pitch motor, N·m/V */
+  K_yp?: number | null;
+  /** thrust torque about yaw per volt of the yaw motor, N·m/V */
+  K_yy?: number | null;
+  /** moment of inertia about the pitch axis, kg·m² */
+  J_p?: number | null;
+  /** moment of inertia about the yaw axis, kg·m² */
+  J_y?: number | null;
+  /** moving mass, kg */
+  m?: number | null;
+  /** distance of the centre of mass from the pivot, m */
+  l?: number | null;
+  /** viscous damping about pitch, N·m·s/rad */
+  B_p?: number | null;
+  /** viscous damping about yaw, N·m·s/rad */
+  B_y?: number | null;
+  /** pitch stiffness, N·m/rad */
+  K_s?: number | null;
+  /** gravitational acceleration, m/s² */
+  g?: number | null;
+}
+
+/** What a parameter or a limit means, and its range. */
+export interface ParameterInfo {
+  meaning: string;
+  unit: string;
+  /** lowest value allowed, in `unit` */
+  minimum: number;
+  /** highest value allowed, in `unit` */
+  maximum: number;
+}
+
+/** A number per axis; null where it is not defined. */
+export interface PerAxis {
+  /** of pitch; % or rad, as the field says */
+  theta: number | null;
+  /** of yaw */
+  psi: number | null;
+}
+
+/** Any system ẋ = Ax + Bu and its desired poles, row by row, in any units. */
+export interface PlaceRequest {
+  /** n×n, row by row */
+  A: number[][];
+  /** n×p, row by row */
+  B: number[][];
+  /** n, in the unit of A; complex ones with their conjugates */
+  poles: (number | { re: number; im: number })[];
+  method?: 'full-rank' | 'tits-yang' | 'knv0' | 'varga' | 'ackermann' | 'bass-gura' | 'lqr' | 'lqr-integral';
+  /** full-rank: by default in the order of the poles */
+  groups?: PoleGroup[] | null;
+  /** full-rank: order in which the inputs are scanned */
+  input_order?: number[] | null;
+  /** full-rank: off-diagonal blocks that stay as the plant has them */
+  triangle?: 'none' | 'lower' | 'upper';
+  /** full-rank: p×p, leading rows q → shift · q */
+  shift?: number[][] | null;
+  /** lqr-integral: the outputs that it regulates */
+  C?: number[][] | null;
+  weights?: SystemWeights;
+}
+
+/** K of u = −Kx + v for any system; T, Q, indices and groups with full-rank placement. */
+export interface Placement {
+  /** Frobenius norm of K: the size of all its gains */
+  norm: number;
+  /** spectral norm of K: the most it can amplify a state */
+  spectral_norm: number;
+  /** farthest distance of a computed pole from the placed one, rad/s; left out where the method chose its own poles */
+  pole_error?: number;
+  /**
+   * how far rounding may have moved the poles told, and so their error, rad/s; left out where the method chose its own
+   * poles
+   */
+  pole_error_bound?: number;
+  /**
+   * condition number of the eigenvectors of A − BK: how sensitive the poles are, at best 1; left out where there are
+   * too few eigenvectors
+   */
+  eigenvector_condition?: number;
+  /** p×n, rows are inputs */
+  K: number[][];
+  /** p×q, the method's own integral action */
+  integral?: number[][];
+  /** n×n, x̄ = Tx */
+  T?: number[][];
+  /** p×p */
+  Q?: number[][];
+  /** one per input */
+  controllability_indices?: number[];
+  groups?: Group[];
+  closed_loop_poles: Complex[];
+  findings: Finding[];
+}
+
+/** A block of the closed loop: whose chains form it, and which poles it gets; positions from 0. */
+export interface PoleGroup {
+  /** positions from 0 */
+  inputs: number[];
+  /** positions from 0 */
+  poles: number[];
+}
+
+/** A rig with its source and everything that a design may change. */
+export interface Preset {
+  /** structure of the closed loop */
+  coupling: 'triangular' | 'input-diagonal' | 'axis-decoupled';
+  /** axis that leads where the coupling is triangular */
+  lead: 'pitch' | 'yaw';
+  /** shift c of Luenberger's basis, q₁ → q₁ + c q₂ (yaw leading: q₂ → q₂ + c q₁); the structure's own where left out */
+  shift?: number;
+  /** pi: two PI loops (Fig. 3); none: inner loop alone (Fig. 2) */
+  outer: 'pi' | 'none';
+  /** which error drives which motor */
+  pairing: 'diagonal' | 'cross';
+  /** static decoupler Ĝ(0)⁻¹ diag(|ĝ|) between the PI controllers and the motors */
+  decoupler: boolean;
+  name: string;
+  title: string;
+  source: string;
+  rig: string;
+  /** SI units, see `parameter_info` */
+  parameters: Record<string, number>;
+  parameter_info: Record<string, ParameterInfo>;
+  /** in the units of `component_info` */
+  components: Record<string, number>;
+  component_info: Record<string, ComponentInfo>;
+  limits: Limits;
+  limit_info: Record<string, ParameterInfo>;
+  /** counts per revolution */
+  encoders: Record<string, number>;
+  /** theta, rad */
+  operating_point: Record<string, number>;
+  poles: Complex[];
+  loops: Loops;
+  scenario: Scenario;
+}
+
+/** A recording as it was read; `id` is kept for half an hour after its last use. */
+export interface Preview {
+  id: string;
+  name: string;
+  columns: string[];
+  /** of numbers */
+  rows: number;
+  /** line of the file where they begin */
+  first_row: number;
+  /** the first rows, in the file's own units */
+  preview: (number | null)[][];
+  guess: Guess;
+  /** of columns, where rows or cells of the file state them */
+  units: Record<string, string>;
+  /** of text; null of other files */
+  dialect: Dialect | null;
+  /** what was left out or read in a special way */
+  findings: Finding[];
+}
+
+/** A printed number: from the printed formula, corrected, on the default rig; digits that agree. */
+export interface PrintedNumber {
+  where: string;
+  name: string;
+  printed: string;
+  unit: string;
+  printed_unit?: string;
+  formula: string;
+  /** by the printed formula, in `unit` */
+  recomputed?: number;
+  /** by the right formula, in `unit` */
+  corrected?: number;
+  /** on the default rig, in `unit` */
+  on_rig?: number;
+  /** significant digits that agree */
+  digits?: number;
+  /** significant digits printed */
+  digits_printed: number;
+  verdict: string;
+  note: string;
+}
+
+/** What every error reply holds (RFC 9457), with code, field, value and hint added. */
+export interface Problem {
+  /** identifies the kind of problem */
+  type: string;
+  title: string;
+  /** HTTP status */
+  status: number;
+  /** what is wrong, in words */
+  detail: string;
+  /** stable name for programs */
+  code: string;
+  /** JSON path of the offending input */
+  field?: string;
+  /** the offending value */
+  value?: unknown;
+  /** what to do */
+  hint?: string;
+  /** of the request, where the server failed: its log tells more */
+  request_id?: string;
+}
+
+/** What is computed, what the right and the printed form give, what the two are called, whether it holds. */
+export interface Proof {
+  statement: string;
+  correct: Evidence;
+  printed: Evidence;
+  holds: boolean;
+  labels: string[];
+}
+
+/** Reference angles after t = 0, absolute. */
+export interface Reference {
+  /** pitch reference, rad; at rest at the operating point (θ₀, 0) where left out */
+  theta?: number | null;
+  /** yaw reference, rad; at rest at the operating point (θ₀, 0) where left out */
+  psi?: number | null;
+}
+
+/** As a step request, and what the reply shall hold besides. */
+export interface ResponseRequest extends StepRequest {
+  /** also reply the rates, and the integrals of the errors */
+  states?: boolean;
+}
+
+/** RGA at s = 0, rows θ, ψ, columns V_p, V_y; left out without steady state. */
+export interface Rga {
+  /** RGA at s = 0; rows θ, ψ, columns V_p, V_y */
+  rga?: number[][];
+  pairing?: string[][];
+  reason?: string;
+  /** index of the diagonal pairing */
+  niederlinski?: number;
+  /** index of the cross pairing */
+  niederlinski_cross?: number;
+  dominance?: Dominance;
+  /** rad/s */
+  frequencies?: number[];
+  /** |RGA(jω)|, 2×2 per frequency */
+  rga_magnitude?: number[][][];
+  findings: Finding[];
+}
+
+/** A design, and frequencies at which |RGA(jω)| is wanted. */
+export interface RgaRequest extends DesignRequest {
+  /** rad/s */
+  frequencies?: number[];
+}
+
+/** After `done` of `samples` rigs; poles of the whole loop of the first of them, rad/s. */
+export interface RobustnessReply {
+  /** rigs so far */
+  done: number;
+  /** rigs in all */
+  samples: number;
+  loop_poles: Complex[][];
+  /** s */
+  t: number[];
+  /** %, of `envelopes` */
+  percentiles: number[];
+  envelopes: Envelope;
+  /** 0 to 1 */
+  share_stable: number;
+  /** 0 to 1 */
+  share_within_limits: number;
+}
+
+/** A design, an experiment, and how far the rigs may differ from the nominal one. */
+export interface RobustnessRequest extends StepRequest {
+  /** of the parameters */
+  distribution?: 'uniform' | 'normal';
+  /** how many rigs */
+  samples?: number;
+  /** of the random rigs */
+  seed?: number;
+  /** relative, per parameter; by default 0.1 for all but g */
+  uncertainty?: Record<string, number> | null;
+}
+
+/** A design whose digital rig is to be recorded while its references step. */
+export interface SampleRequest extends StepRequest {
+  /** of the recording, s */
+  length?: number;
+  /** largest deviation of the recorded rig's parameters, relative */
+  deviation?: number;
+  /** standard deviation on the angles, rad */
+  noise?: number;
+  /** of steps, deviations and noise */
+  seed?: number;
+}
+
+/** A preset's own experiment. */
+export interface Scenario {
+  /** length of the experiment, s */
+  duration: number;
+  /** number of times, both ends among them */
+  samples: number;
+  reference: Angles;
+}
+
+/** An experiment: references step at t = 0; without a reference the preset's own is used. */
+export interface ScenarioChanges {
+  /** length of the experiment, s */
+  duration?: number | null;
+  /** number of times, both ends among them */
+  samples?: number | null;
+  /** the voltages are limited */
+  saturation?: boolean;
+  /** what the PI integrators do at a limit */
+  anti_windup?: 'none' | 'clamping' | 'back-calculation';
+  /**
+   * of back-calculation: how fast the integrals follow what the limits leave, s; each loop's integral time where left
+   * out
+   */
+  tracking_time?: number | null;
+  /** pitch is stopped at its limit, without rebound */
+  travel_stops?: boolean;
+  /** the trim voltages are added, so that the rig starts at rest */
+  trim_feedforward?: boolean;
+  /** tolerance of the nonlinear integration, relative and (rad, rad/s) absolute */
+  rtol?: number;
+  /** ignored by evaluate, which computes both */
+  model?: 'linear' | 'nonlinear';
+  reference?: Reference | null;
+  initial?: Initial;
+  /** nonlinear model; null is continuous */
+  digital?: DigitalController | null;
+  /** nonlinear model */
+  disturbance?: InputDisturbance | null;
+}
+
+/** Sensitivity peak and disk margin at both motors at once, rad/s; what the disk margin guarantees. */
+export interface Sensitivity {
+  /**
+   * largest singular value of S(jω) over all frequencies, at the motors: its inverse is the distance to instability
+   * under an additive change of the loop
+   */
+  peak: number;
+  /** where the sensitivity peaks, rad/s; left out where it is approached at infinity alone */
+  peak_frequency?: number;
+  /**
+   * size α of the disks of gain and phase changes, at both motors at once and independent of each other, that the loop
+   * tolerates
+   */
+  disk_margin: number;
+  /** where the disk margin is reached, rad/s; left out where it is approached at infinity alone */
+  disk_frequency?: number;
+  /** lowest factor on both gains that is borne */
+  gain_low: number;
+  /** highest factor on both gains that is borne; left out where unlimited */
+  gain_high?: number;
+  /** change of phase at both motors that is borne, ±, rad */
+  phase: number;
+}
+
+/** Of the encoders, 1 or −1. */
+export interface Signs {
+  /** of pitch's */
+  theta?: -1 | 1;
+  /** of yaw's */
+  psi?: -1 | 1;
+}
+
+/** One way to deal the poles: positions of pitch's pair and of yaw's, and what it gives. */
+export interface Split {
+  /** positions from 0 of pitch's pair and of yaw's */
+  split: number[][];
+  poles: Complex[];
+  /** V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y */
+  K: number[][];
+  /** Frobenius norm of K: the size of all its gains */
+  norm: number;
+  /** farthest distance of a computed pole from the placed one, rad/s */
+  pole_error: number;
+  /** RGA at s = 0; rows θ, ψ, columns V_p, V_y */
+  rga?: number[][];
+}
+
+export interface StateWeights {
+  /** on Q's diagonal */
+  theta?: number | null;
+  /** on Q's diagonal */
+  psi?: number | null;
+  /** on Q's diagonal */
+  theta_dot?: number | null;
+  /** on Q's diagonal */
+  psi_dot?: number | null;
+}
+
+/** What the outputs do not show, rad/s and rad·s; the integrals are left out where nothing integrates. */
+export interface States {
+  /** rad/s */
+  theta_dot: number[];
+  /** rad/s */
+  psi_dot: number[];
+  /** integral of the pitch error, rad·s */
+  z_p?: number[];
+  /** integral of the yaw error, rad·s */
+  z_y?: number[];
+}
+
+/**
+ * A step response; s, rad, V. Linear voltages are deviations from the trim.
+ *
+ * `states` are there where they are asked for.
+ */
+export interface Step {
+  /** s */
+  t: number[];
+  /** pitch, absolute, rad */
+  theta: number[];
+  /** yaw, absolute, rad */
+  psi: number[];
+  /** pitch motor, V */
+  V_p: number[];
+  /** yaw motor, V */
+  V_y: number[];
+  states?: States;
+  reference: Angles;
+  trim: Voltages;
+  metrics: Metrics;
+  loop_poles: Complex[];
+  stable: boolean;
+  findings: Finding[];
+}
+
+/** A design and an experiment. */
+export interface StepRequest extends DesignRequest {
+  scenario?: ScenarioChanges;
+}
+
+/** PI values and the whole loop's poles with them. */
+export interface Suggestion {
+  loops: Loops;
+  loop_poles: Complex[];
+  stable: boolean;
+  rule: string;
+}
+
+/** A symbol of the formulas. */
+export interface Symbol {
+  name: string;
+  latex: string;
+  mathml: string;
+  meaning: string;
+  unit: string;
+}
+
+/** All formulas of one structure; definitions say what the short names stand for. */
+export interface Symbolic {
+  A: Formula;
+  B: Formula;
+  controllability_matrix: Formula;
+  T: Formula;
+  Q: Formula;
+  A_bar: Formula;
+  B_bar: Formula;
+  K_bar: Formula;
+  /** V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y */
+  K: Formula;
+  closed_loop: Formula;
+  canonical_closed_loop: Formula;
+  G: Formula;
+  G_0: Formula;
+  RGA: Formula;
+  RGA_s: Formula;
+  entries: Record<string, Record<string, Formula>>;
+  definitions: Record<string, Formula>;
+  /** one per input */
+  controllability_indices: number[];
+  symbols: Symbol[];
+}
+
+/** Diagonals of Q, R and of the integrals' weight; ones where left out. */
+export interface SystemWeights {
+  /** of Q, n */
+  states?: number[] | null;
+  /** of R, p */
+  inputs?: number[] | null;
+  /** of the integrated errors, one per row of C */
+  integrals?: number[] | null;
+}
+
+/** A symbol of the formulas; `chapters` are those where it means this, none: all. */
+export interface Term {
+  name: string;
+  latex: string;
+  mathml: string;
+  meaning: string;
+  unit: string;
+  chapters: string[];
+}
+
+/** A formula in two notations. */
+export interface Typeset {
+  latex: string;
+  mathml: string;
+}
+
+/** Why a method has no result here. */
+export interface Unavailable {
+  code: string;
+  detail: string;
+  hint?: string;
+}
+
+/** Motor voltages, V. */
+export interface Voltages {
+  /** pitch motor, V */
+  V_p: number;
+  /** yaw motor, V */
+  V_y: number;
+}
+
+/** V. */
+export interface Volts {
+  /** V */
+  V_p: number[];
+  /** V */
+  V_y: number[];
+}
+
+/**
+ * The derivation in numbers for one design.
+ *
+ * Another method than full-rank's has no coefficients, T, Q, A_bar, B_bar, K_bar and closed_loop_bar. G_0 and rga are
+ * left out where a pole is 0.
+ */
+export interface Walkthrough {
+  /** α, β₀, γ, a; SI */
+  constants: Record<string, number>;
+  /** 4×4, SI */
+  A: number[][];
+  /** 4×2, SI */
+  B: number[][];
+  /** V */
+  trim: Record<string, number>;
+  /** [B, AB, …], 4×8 */
+  controllability_matrix: number[][];
+  /** one per input */
+  controllability_indices: number[];
+  /** d₁₀, d₂₀ in 1/s², d₁₁, d₂₁ in 1/s */
+  coefficients?: Record<string, number>;
+  /** 4×4, x̄ = Tx */
+  T?: number[][];
+  /** 2×2 */
+  Q?: number[][];
+  /** T A T⁻¹ */
+  A_bar?: number[][];
+  /** T B */
+  B_bar?: number[][];
+  /** Q K T⁻¹ */
+  K_bar?: number[][];
+  /** V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y */
+  K: number[][];
+  /** the method's own integral action, V/(rad·s) */
+  integral?: number[][];
+  /** A − BK */
+  closed_loop: number[][];
+  /** T (A − BK) T⁻¹ */
+  closed_loop_bar?: number[][];
+  closed_loop_poles: Complex[];
+  /** largest distance of a pole from the one asked for, rad/s */
+  pole_error?: number;
+  /** Ĝ(0), rad/V */
+  G_0?: number[][];
+  /** RGA at s = 0; rows θ, ψ, columns V_p, V_y */
+  rga?: number[][];
+}
+
+/** Weights of the quadratic methods that differ from Bryson's rule for the preset's limits. */
+export interface WeightChanges {
+  states?: StateWeights;
+  inputs?: InputWeights;
+  integrals?: IntegralWeights;
+}

@@ -1,0 +1,178 @@
+/**
+ * The shapes that travel through the page: the server's, as the contract has them, and the page's own, built from them.
+ */
+import type * as contract from './contract.js';
+import type { Angles, BothModels, Complex, Evaluation, ScenarioChanges } from './contract.js';
+
+export type {
+  AxisMetrics,
+  Complex,
+  Gains,
+  Margins,
+  Method,
+  Metrics,
+  OverlayReply,
+  ParameterInfo as Range,
+  Preview,
+  RobustnessReply as Cloud,
+  Sensitivity,
+} from './contract.js';
+
+/** 1 and 2 are pitch's pair, 3 and 4 yaw's; rad/s. */
+export type Poles = [Complex, Complex, Complex, Complex];
+export type Axis = keyof Angles;
+export type Motor = keyof contract.Voltages;
+export type Motion = Axis | 'both';
+export type Connection = 'connecting' | 'open' | 'lost';
+/** Numbers over time: of the live socket, a view on its frame. */
+export type Series = ArrayLike<number>;
+export type Encoders = Required<contract.EncoderCounts>;
+
+/** Without keys that it has. */
+type Except<T, K extends keyof T> = Omit<T, K>;
+/** Of a request, what is said at all: what the page leaves to the server it leaves out, and never says null. */
+type Said<T> = { [K in keyof T]: Said<Exclude<T[K], null>> };
+/** A request, with presets and methods by names that the page has from the server. */
+export type Asked<T> = Omit<T, 'preset' | 'method'> & { preset?: string; method?: string };
+
+/** The keys of a shape whose values are such. */
+export type KeysOf<T, V> = { [K in keyof T]-?: NonNullable<T[K]> extends V ? K : never }[keyof T];
+
+/** Step sizes, rad. */
+export type Reference = Required<Said<contract.Reference>>;
+export type Loops = Record<keyof contract.LoopsChanges, Required<Said<contract.LoopChanges>>>;
+/** What a design may choose of the loop's structure. */
+type Choices = Required<Said<Pick<contract.DesignRequest, 'coupling' | 'lead' | 'outer' | 'pairing' | 'decoupler'>>>;
+export type Coupling = Choices['coupling'];
+export type Disturbance = Required<contract.InputDisturbance>;
+export type Digital = Said<Except<contract.DigitalController, 'encoders'>> & { encoders?: Encoders };
+/** Overrides of the preset's; null: free travel. */
+export type Limits = Said<Pick<contract.LimitChanges, Motor>> & Pick<contract.LimitChanges, 'theta'>;
+
+/** An experiment; what is absent is standard (see experiment.js). */
+export interface Scenario extends Said<
+  Except<ScenarioChanges, 'model' | 'samples' | 'reference' | 'duration' | 'initial' | 'digital' | 'disturbance'>
+> {
+  reference: Reference;
+  /** s */
+  duration: number;
+  /** rad, absolute; absent: at rest */
+  initial?: Pick<Said<contract.Initial>, Axis>;
+  /** absent: continuous */
+  digital?: Digital;
+  disturbance?: Disturbance;
+}
+
+/** What the user chose, and all of it: everything else on the page follows from this. */
+export interface Design extends Choices {
+  preset: string;
+  /** overrides of the preset's values */
+  parameters: Record<string, number>;
+  limits: Limits;
+  /** the pitch angle at which the rig rests and is linearized, rad */
+  theta0: number;
+  poles: Poles;
+  /** a name of GET methods */
+  method: string;
+  loops: Loops;
+  scenario: Scenario;
+}
+
+/** Its choices are a design's, which the contract has as plain text. */
+export type Preset = Except<contract.Preset, keyof Choices | 'encoders'> & Choices & { encoders: Encoders };
+
+export type Finding = contract.Finding & { severity: 'info' | 'warning' | 'error' };
+
+type Courses = 't' | Axis | Motor;
+/** A response has both references, whatever was asked for. */
+export type Step = Except<contract.Step, Courses | 'reference'> & Record<Courses, Series> & { reference: Reference };
+export type StepPair = Record<keyof BothModels, Step>;
+/** All that is shown of a design. */
+export type Reply = Except<Evaluation, 'step' | 'axis_steps' | 'findings'> & {
+  step: StepPair;
+  axis_steps: Partial<Record<keyof contract.AxisSteps, StepPair>>;
+  findings: Finding[];
+};
+
+/** An answer of the live socket, with the number of what was asked. */
+export type LiveReply = Reply & Required<Pick<Evaluation, 'seq'>>;
+
+/** Why something was refused, by the server or on the way there. */
+export type Problem = Partial<contract.Problem>;
+
+/** What the placed poles are held to; null: not asked. It is the yardstick, not the design, so undo leaves it alone. */
+export interface Requirements {
+  /** s */
+  settling: number | null;
+  /** % */
+  overshoot: number | null;
+}
+
+/** A design that is kept for comparison; its reply is missing until the server has given one. */
+export interface Pin {
+  id: number;
+  /** its letter, colour and mark */
+  index: number;
+  name: string;
+  design: Design;
+  reply: Reply | null;
+  refused?: string;
+}
+
+type Units = 'time_unit' | 'unit' | 'units' | 'voltage_unit';
+/** What the controls hold of a recording's columns. */
+export interface RecordingColumns
+  extends Required<Said<Pick<contract.Mapping, Units | 'decimate'>>>, Required<Pick<contract.Mapping, 'sample_time'>> {
+  /** column by role */
+  names: Record<string, string>;
+  signs: Required<contract.Signs>;
+  offsets: Required<contract.Offsets>;
+}
+export type Driver = Required<contract.OverlayRequest>['driver'];
+
+/** How far an identification is. */
+export type Progress = Pick<contract.IdentificationReply, 'evaluations' | 'rms'> & { done: false };
+
+/** A recording of a real rig, and what is known of it. */
+export interface Recorded {
+  preview: contract.Preview | null;
+  columns: RecordingColumns | null;
+  driver: Driver;
+  busy: string;
+  problem: Problem | null;
+  overlay: contract.OverlayReply | null;
+  overlaid: Design | null;
+  progress: Progress | null;
+  found: contract.IdentificationReply | null;
+  foundFor: Design | null;
+}
+
+export interface State {
+  requirements: Requirements;
+  /** relative uncertainty of the rigs in the cloud; 0: no cloud */
+  spread: number;
+  cloud: contract.RobustnessReply | null;
+  presets: Preset[];
+  methods: contract.Method[];
+  design: Design | null;
+  reply: Reply | null;
+  /** the design that `reply` belongs to */
+  answered: Design | null;
+  problem: Problem | null;
+  connection: Connection;
+  motion: Motion;
+  showLinear: boolean;
+  /** rise, peak and settling on the curves */
+  showMarks: boolean;
+  dragging: boolean;
+  canUndo: boolean;
+  canRedo: boolean;
+  pins: Pin[];
+  /** names in locks.js */
+  locks: string[];
+  recorded: Recorded;
+  /** what is to be said of the link that was opened */
+  notice: string | null;
+  /** that a part of the page could not be drawn */
+  fault: string | null;
+}
