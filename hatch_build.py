@@ -38,6 +38,8 @@ class VendorHook(BuildHookInterface):
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Hatchling's entry: runs before the files of the wheel are collected."""
         root = Path(self.root)
+        if version == "editable":
+            build_data["force_include_editable"] = {str(_door(root)): "heli2dof_app/__init__.py"}
         vendor = root / "static" / "vendor"
         stamp = vendor / "made-from"
         made_from = (root / "package-lock.json").read_text("utf-8") + repr((VENDOR, EXPORTS))
@@ -54,6 +56,14 @@ class VendorHook(BuildHookInterface):
                     content = (Path(scratch) / "node_modules" / package / source).read_bytes()
                     target.write_bytes(content + EXPORTS.get(name, "").encode())
         stamp.write_text(made_from, "utf-8")
+
+
+def _door(root: Path) -> Path:
+    """Of an editable installation: `app` is heli2dof_app in the wheel, a name that hatchling gives to copies alone."""
+    door = root / "build" / "editable" / "heli2dof_app.py"
+    door.parent.mkdir(parents=True, exist_ok=True)
+    door.write_text(f"__path__ = [{str(root / 'app')!r}]\n", "utf-8")
+    return door
 
 
 def wanted(vendor: Path) -> list[Path]:

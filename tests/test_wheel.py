@@ -92,3 +92,27 @@ def test_wheel_serves_outside_the_checkout(installed: Path, tmp_path: Path):
         viser = {"subprotocols": [Subprotocol(VISER)], "compression": None, "max_size": None}
         with connect(f"{server.ws}{session}", **viser) as scene:
             assert len(scene.recv(timeout=PATIENCE)) > 1000
+
+
+def test_an_editable_installation_runs_the_checkout(tmp_path: Path):
+    command = [
+        sys.executable,
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--no-deps",
+        "--prefix",
+        str(tmp_path),
+        "-e",
+    ]
+    subprocess.run([*command, str(ROOT)], check=True, capture_output=True, env=environment())
+    (packages,) = tmp_path.glob("lib/python*/site-packages")
+    code = (
+        f"import site, sys; known = [*sys.path]; site.addsitedir({str(packages)!r})\n"
+        "sys.path[:] = [path for path in sys.path if path not in known] + known\n"
+        "import heli2dof_app.cli, heli2dof_core\n"
+        "print(heli2dof_app.cli.__file__, heli2dof_core.__file__); heli2dof_app.cli.main(['gains'])"
+    )
+    said = python("-I", "-c", code, cwd=tmp_path)
+    assert f"{ROOT / 'app/cli/__init__.py'} {ROOT / 'heli2dof_core/__init__.py'}" in said and "51.17" in said
