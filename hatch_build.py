@@ -59,7 +59,7 @@ class VendorHook(BuildHookInterface):
 
 
 def _door(root: Path) -> Path:
-    """Of an editable installation: `app` is heli2dof_app in the wheel, a name that hatchling gives to copies alone."""
+    """Of an editable installation: `app` is heli2dof_app in the wheel, which hatchling can do with copies alone."""
     door = root / "build" / "editable" / "heli2dof_app.py"
     door.parent.mkdir(parents=True, exist_ok=True)
     door.write_text(f"__path__ = [{str(root / 'app')!r}]\n", "utf-8")
