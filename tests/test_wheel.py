@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 import zipfile
@@ -44,7 +45,8 @@ def test_wheel_holds_what_is_needed_and_nothing_else(wheel: Path):
     wanted = ("index.html", "main.js", "scene/shim.js", "vendor/uplot/uPlot.esm.js", "vendor/uplot/LICENSE")
     assert {f"heli2dof_app/static/{name}" for name in wanted} <= set(names)
     assert "heli2dof_core/py.typed" in names
-    assert not [name for name in names if "__pycache__" in name or "test" in name or "node_modules" in name]
+    foreign = re.compile(r"(^|/)(__pycache__|node_modules|tests?)/|(^|/)test_|\.test\.")
+    assert not [name for name in names if foreign.search(name)]
     tracked = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True)
     for name in tracked.stdout.split():
         top, _, inside = name.partition("/")

@@ -80,19 +80,26 @@ def present(values: Reply) -> Reply:
 
 def reply_of(model: type[BaseModel], source: object, **own: Any) -> Reply:
     """The model's fields: what `source` has by their names, or what is given; what is None is left out."""
-    found = {name: own[name] if name in own else getattr(source, name, None) for name in model.model_fields}
-    return {name: plain(value) for name, value in found.items() if value is not None}
+    reply: Reply = {}
+    for name in model.__pydantic_fields__:
+        value = own[name] if name in own else getattr(source, name, None)
+        if value is not None:
+            reply[name] = value if isinstance(value, _PLAIN) else plain(value)
+    return reply
+
+
+_PLAIN = (float, str, int, dict)
 
 
 def plain(value: Any) -> Any:
     """A value of the core in JSON's own kinds; complex numbers as ``{"re", "im"}``."""
     if isinstance(value, np.ndarray):
         numbers = value.tolist()
-        return [plain(p) for p in numbers] if value.dtype.kind == "c" else numbers
+        return poles_reply(numbers) if value.dtype.kind == "c" else numbers
     if isinstance(value, complex):
         return {"re": value.real, "im": value.imag}
     if isinstance(value, tuple):
-        return [plain(item) for item in value]
+        return [item if isinstance(item, _PLAIN) else plain(item) for item in value]
     return {name: plain(item) for name, item in vars(value).items()} if is_dataclass(value) else value
 
 
