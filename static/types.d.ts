@@ -41,8 +41,10 @@ export type KeysOf<T, V> = { [K in keyof T]-?: NonNullable<T[K]> extends V ? K :
 /** Step sizes, rad. */
 export type Reference = Required<Said<contract.Reference>>;
 export type Loops = Record<keyof contract.LoopsChanges, Required<Said<contract.LoopChanges>>>;
-/** What a design may choose of the loop's structure. */
-type Choices = Required<Said<Pick<contract.DesignRequest, 'coupling' | 'lead' | 'outer' | 'pairing' | 'decoupler'>>>;
+/** What a design may say and a preset says: the fields of both. */
+type Shared = Pick<contract.Preset, keyof contract.Preset & keyof contract.DesignRequest>;
+/** Of these, those that are one value: the loop's structure. */
+export type Choices = Pick<contract.Preset, KeysOf<Shared, string | number | boolean>>;
 export type Coupling = Choices['coupling'];
 export type Disturbance = Required<contract.InputDisturbance>;
 export type Digital = Said<Except<contract.DigitalController, 'encoders'>> & { encoders?: Encoders };
@@ -78,8 +80,7 @@ export interface Design extends Choices {
   scenario: Scenario;
 }
 
-/** Its choices are a design's, which the contract has as plain text. */
-export type Preset = Except<contract.Preset, keyof Choices | 'encoders'> & Choices & { encoders: Encoders };
+export type Preset = Except<contract.Preset, 'encoders'> & { encoders: Encoders };
 
 export type Finding = contract.Finding & { severity: 'info' | 'warning' | 'error' };
 

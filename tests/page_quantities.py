@@ -13,7 +13,7 @@ from dataclasses import MISSING
 from app.contract.places import COLUMNS
 from heli2dof_core.poles import LARGEST
 from heli2dof_core.quantities import Field
-from heli2dof_core.request import LIMITS, PARAMETERS, Place, quantities
+from heli2dof_core.request import LIMITS, OUTER, PARAMETERS, STRUCTURE, Place, quantities
 from tests.children import ROOT
 
 PAGE = ROOT / "static" / "model" / "quantities.js"
@@ -33,13 +33,26 @@ HEAD = """/**
 /** @type {Partial<Record<string, Quantity>>} */
 export const QUANTITIES = {
 """
+GROUPS = {
+    "STRUCTURE": ("The structure of the closed loop", STRUCTURE),
+    "OUTER": ("The outer loops' own", OUTER),
+}
+"""What stands right in a request, by what it makes up there: name in the module → in words, place."""
 
 
 def module() -> str:
     """The whole module."""
     own = (item for item in (*quantities(), *quantities([COLUMNS])) if item[1] not in (PARAMETERS, LIMITS))
     poles = f"  poles: {{ unit: 'rad/s', min: {_js(-LARGEST)}, max: {_js(LARGEST)} }},\n"
-    return "".join((HEAD, poles, *(_entry(*item) for item in own), "};\n"))
+    return "".join((HEAD, poles, *(_entry(*item) for item in own), "};\n", *map(_names, GROUPS)))
+
+
+def _names(name: str) -> str:
+    about, place = GROUPS[name]
+    return (
+        f"\n/** {about}: the names right in a request. */\n"
+        f"export const {name} = /** @type {{const}} */ ([{', '.join(map(_js, place.fields))}]);\n"
+    )
 
 
 def _entry(path: str, place: Place, known: Field) -> str:

@@ -1,17 +1,18 @@
 /**
  * What all charts over time or frequency share: frame, axes, the page's colours and size of type, the room that they
  * have, and reading values by the arrow keys. uPlot draws them; each says its lines, ranges and what lies beside them.
- * @typedef {{color: string, width: number, dash?: number[]}} Line color: its name in style.css; what else uPlot takes
- * @typedef {Record<string, any> & {size: number | (() => number), space?: number}} Axis px at the usual size of type
+ * @typedef {uPlot.Series & {color: string, width: number}} Line color: its name in style.css
+ * @typedef {Omit<uPlot.Axis, 'size'|'space'> & {size: number|(() => number), space?: number}} Axis px at the usual size
+ *   of type
+ * @typedef {import('../ui/dom.js').Child} Child
  */
 import uPlot from '../vendor/uplot/uPlot.esm.js';
 import { followsPage, h, pictureScale } from '../ui/index.js';
 
-const Chart = /** @type {any} */ (uPlot); // its types stay in its package
 const THEMES = ['(prefers-color-scheme: dark)', '(prefers-contrast: more)'];
 
 /** @type {Map<string, string>} */ const inks = new Map();
-/** @type {any[]} */ const charts = [];
+/** @type {uPlot[]} */ const charts = [];
 
 /** A colour of the page as it is now. @param {string} name without its dashes @returns {string} */
 export function ink(name) {
@@ -32,22 +33,21 @@ export const scaled = (px) => () => px * pictureScale().type;
  * @param {HTMLElement} body whose room it takes
  * @param {object} how
  * @param {Line[]} how.lines
- * @param {any[]} how.data
- * @param {{x?: object, y: object}} how.scales
+ * @param {uPlot.AlignedData} how.data
+ * @param {{x?: uPlot.Scale, y: uPlot.Scale}} how.scales
  * @param {[Axis, Axis]} how.axes
  * @param {number} [how.height] until the room is known
- * @param {any[]} [how.padding]
- * @param {object} [how.cursor]
- * @param {object} [how.hooks]
+ * @param {uPlot.Padding} [how.padding]
+ * @param {uPlot.Cursor} [how.cursor]
+ * @param {uPlot.Hooks.Arrays} [how.hooks]
  * @param {string} [how.font] of the axes' numbers
  * @param {() => void} [how.onSize]
- * @returns {any} uPlot's
  */
 export function makeChart(body, { lines, data, scales, axes, cursor, font = '11px', onSize, height = 160, ...more }) {
   if (!charts.length) for (const query of THEMES) matchMedia(query).addEventListener('change', followTheme);
   const stroke = (/** @type {string} */ name) => () => ink(name);
   const chart = followsPage(
-    new Chart(
+    new uPlot(
       {
         width: 300,
         height,
@@ -91,8 +91,8 @@ export const chartBody = (label, onkeydown) =>
 /**
  * A chart's figure, with a key of its lines and, beside each, the value that is read.
  * @param {Record<string, string>} attributes
- * @param {any[]} head
- * @param {{kind: string, title?: string, name: any, value: HTMLElement}[]} keys
+ * @param {Child[]} head
+ * @param {{kind: string, title?: string, name: Child|readonly Child[], value: HTMLElement}[]} keys
  * @param {HTMLElement} body
  */
 export const readingFigure = (attributes, head, keys, body) =>
@@ -119,13 +119,13 @@ export const readingFigure = (attributes, head, keys, body) =>
 /**
  * Left and right move the cursor, from the middle where there is none.
  * @param {KeyboardEvent} e
- * @param {any} chart
+ * @param {uPlot|null} chart
  * @param {number} step in samples; ten of them with Shift
  */
 export function readByKeys(e, chart, step) {
   const way = { ArrowLeft: -1, ArrowRight: 1 }[e.key];
   if (!way || !chart || e.ctrlKey || e.metaKey || e.altKey) return;
-  const { idx, left } = chart.cursor;
+  const { idx, left = -1 } = chart.cursor;
   const [over] = chart.data;
   const last = over.length - 1;
   const i =
@@ -136,5 +136,5 @@ export function readByKeys(e, chart, step) {
   e.preventDefault();
 }
 
-/** The index under the pointer, null where there is none. @param {any} chart @returns {number|null} */
-export const readIndex = ({ cursor }) => (cursor.left < 0 ? null : (cursor.idx ?? null));
+/** The index under the pointer, null where there is none. @param {uPlot} chart @returns {number|null} */
+export const readIndex = ({ cursor: { idx, left = -1 } }) => (left < 0 ? null : (idx ?? null));

@@ -34,7 +34,7 @@ const plain = (/** @type {uPlot} */ _u, /** @type {number[]} */ splits) => split
 
 /** @template R */
 export class FrequencyPlot {
-  /** @type {any} */ #chart;
+  /** @type {uPlot|null} */ #chart = null;
   /** @type {[number, number]} */ #range = [0.001, 10];
   /** @type {number[][]} */ #data = [];
   /** @type {Span[]} */ #spans = [];
@@ -65,7 +65,7 @@ export class FrequencyPlot {
     const { frequencies, about } = this;
     const log = { grid: { filter: decades }, values: power };
     const even = { values: plain, incrs: about.steps };
-    this.#chart = makeChart(this.body, {
+    return makeChart(this.body, {
       lines: about.series.map(({ kind }) => ({
         color: kind,
         width: kind === 'yaw' ? 1.5 : 2,
@@ -83,9 +83,9 @@ export class FrequencyPlot {
       ],
       cursor: { drag: { x: false, y: false }, sync: { key: `frequency-${frequencies.length}` } },
       hooks: {
-        drawAxes: [(/** @type {any} */ u) => this.#shade(u)],
-        draw: [(/** @type {any} */ u) => drawNamedRules(u, this.#borders(), ink, -1), () => this.#drawSpans()],
-        setCursor: [(/** @type {any} */ u) => this.onHover(readIndex(u))],
+        drawAxes: [(u) => this.#shade(u)],
+        draw: [(u) => drawNamedRules(u, this.#borders(), ink, -1), (u) => this.#drawSpans(u)],
+        setCursor: [(u) => this.onHover(readIndex(u))],
       },
     });
   }
@@ -143,9 +143,11 @@ export class FrequencyPlot {
     ).filter(({ value }) => value >= low && value <= high);
   }
 
-  /** Each from the curve to the border it is measured to, with its figure: pitch's to the left, yaw's to the right. */
-  #drawSpans() {
-    const { ctx, valToPos, bbox } = this.#chart;
+  /**
+   * Each from the curve to the border it is measured to, with its figure: pitch's to the left, yaw's to the right.
+   * @param {uPlot} chart
+   */
+  #drawSpans({ ctx, valToPos, bbox }) {
     const size = devicePixelRatio * pictureScale().type;
     ctx.save();
     for (const { kind, at, from, to, label } of this.#spans) {
@@ -181,15 +183,12 @@ export class FrequencyPlot {
 
   /** @param {R} reply */
   show(reply) {
-    if (!this.#chart) this.#build();
+    const chart = (this.#chart ??= this.#build());
     this.#data = this.about.series.map((s) => s.of(reply));
     this.#spans = this.about.spans?.(reply) ?? [];
     this.#range = this.about.range(this.#data);
     const known = (/** @type {number} */ v) => (Number.isFinite(v) && (this.about.steps || v > 0) ? v : null);
-    this.#chart.setData([
-      this.frequencies,
-      ...this.#data.map((values) => this.frequencies.map((_w, i) => known(values[i]))),
-    ]);
+    chart.setData([this.frequencies, ...this.#data.map((values) => this.frequencies.map((_w, i) => known(values[i])))]);
     this.valuesAt(0);
   }
 

@@ -47,8 +47,8 @@ function marginText(row) {
 /**
  * `cost` is least for the best row; `cross` says whether the loops are paired crosswise.
  * @typedef {import('../model/figures.js').Figure} Known
- * @typedef {{id: string, axis?: Axis, name: () => (Node|string)[], title: string, text: (row: any) => string, cost?:
- *   (row: any, cross: boolean) => number|undefined, warn?: (row: any) => boolean}} Column
+ * @typedef {{id: string, axis?: Axis, name: () => (Node|string)[], title: string, text: (row: Row) => string, cost?:
+ *   (row: Row, cross: boolean) => number|undefined, warn?: (row: Row) => boolean}} Column
  */
 
 /**
@@ -176,7 +176,7 @@ export class CompareTable {
     });
   }
 
-  /** @param {{rows: any[], claim: string}} answer */
+  /** @param {import('../contract.js').Comparison} answer */
   #show({ rows, claim }) {
     const cross = this.store.state.design?.pairing === 'cross';
     const able = rows.filter((r) => !r.unavailable);

@@ -13,16 +13,17 @@ import { DEGREE, fixed, significant } from '../text/index.js';
 import { standardOf } from './rig.js';
 
 /**
- * @type {{saturation: boolean, anti_windup: NonNullable<Scenario['anti_windup']>, travel_stops: boolean,
- *   trim_feedforward: boolean, rtol: number}}
+ * What the server does unless it is told otherwise.
+ * @type {Required<Pick<Scenario, 'saturation'|'anti_windup'|'travel_stops'|'trim_feedforward'|'rtol'>>}
  */
-export const STANDARD = /** @type {any} */ ({ ...standardOf('scenario'), rtol: 1e-5 }); // as exact as a screen
+const SERVERS = standardOf('scenario');
+export const STANDARD = { ...SERVERS, rtol: 1e-5 }; // as exact as a screen
 
-/**
- * The rig's own controller.
- * @type {{sample_time: number, delay: boolean, rates: 'filtered'|'true', noise: number, seed: number}}
- */
-export const DIGITAL = /** @type {any} */ (standardOf('scenario.digital'));
+/** The rig's own controller. @type {Required<Omit<Digital, 'encoders'>>} */
+export const DIGITAL = standardOf('scenario.digital');
+
+/** Of a rig that says nothing of its own. @type {Encoders} */
+export const ENCODERS = standardOf('scenario.digital.encoders');
 
 /** What the server's cloud of uncertain rigs does not know. */
 const NOT_IN_CLOUD = ['digital', 'disturbance'];

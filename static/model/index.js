@@ -14,6 +14,7 @@ export {
   cloudCaveat,
   cloudScenario,
   DIGITAL,
+  ENCODERS,
   experimentWords,
   isStandard,
   standard,

@@ -4,6 +4,7 @@
  * @typedef {{name: string, keys: (keyof Design)[], controls: string}} Lock controls: where the page changes them, as a
  *   selector
  */
+import { OUTER, STRUCTURE } from './quantities.js';
 
 /** @type {Record<string, Lock>} */
 export const LOCKS = {
@@ -16,12 +17,12 @@ export const LOCKS = {
   poles: { name: 'poles', keys: ['poles'], controls: '.pole, #poles input, [data-testid^="use-split"]' },
   method: {
     name: 'method',
-    keys: ['method', 'coupling', 'lead'],
+    keys: ['method', ...STRUCTURE],
     controls: '[data-field=method], [data-testid^="use-"]',
   },
   loops: {
     name: 'outer loops',
-    keys: ['outer', 'pairing', 'decoupler', 'loops'],
+    keys: [...OUTER, 'loops'],
     controls:
       '#loops [data-testid^=outer-], #loops .pis input, [data-field=pairing], [data-field=decoupler], ' +
       '[data-testid=suggest-pi], [data-testid=pair-advised]',
@@ -40,7 +41,9 @@ export function guarded(before, after, locks) {
   if (!locks.length || after === before) return after;
   const kept = { ...after };
   /** @template {keyof Design} K @param {K} key */
-  const keep = (key) => (kept[key] = before[key]);
+  const keep = (key) => {
+    if (key in before || key in after) kept[key] = before[key];
+  };
   for (const lock of locks) LOCKS[lock]?.keys.forEach(keep);
   const keys = /** @type {(keyof Design)[]} */ (Object.keys({ ...before, ...kept }));
   const same = keys.every((key) => kept[key] === before[key]);

@@ -55,3 +55,9 @@ export const QUANTITIES = {
   'columns.voltage_unit': { words: ['V', 'mV'], standard: 'V' },
   'columns.decimate': { min: 1, max: 1000, standard: 1 },
 };
+
+/** The structure of the closed loop: the names right in a request. */
+export const STRUCTURE = /** @type {const} */ (['coupling', 'lead', 'shift']);
+
+/** The outer loops' own: the names right in a request. */
+export const OUTER = /** @type {const} */ (['outer', 'pairing', 'decoupler']);

@@ -22,12 +22,19 @@ export function allowed(path, scale = 1) {
   return { min: cut(min), max: cut(max) };
 }
 
-/** What the quantities right below a path are unless someone says otherwise. @param {string} path */
+/**
+ * What the quantities right below a path are unless someone says otherwise.
+ * @template T as the contract has them
+ * @param {string} path
+ * @returns {T}
+ */
 export const standardOf = (path) =>
-  Object.fromEntries(
-    Object.entries(QUANTITIES)
-      .filter(([own, quantity]) => own.replace(/\.\w+$/, '') === path && quantity?.standard !== undefined)
-      .map(([own, quantity]) => [own.slice(path.length + 1), quantity?.standard]),
+  /** @type {T} */ (
+    Object.fromEntries(
+      Object.entries(QUANTITIES)
+        .filter(([own, quantity]) => own.replace(/\.\w+$/, '') === path && quantity?.standard !== undefined)
+        .map(([own, quantity]) => [own.slice(path.length + 1), quantity?.standard]),
+    )
   );
 
 /** @param {Kind} kind @param {Record<string, import('../types.js').Range>} [infos] @returns {Quantity[]} */

@@ -7,6 +7,7 @@
  * @typedef {import('../types.js').Design} Design
  * @typedef {import('../types.js').Preset} Preset
  * @typedef {import('../types.js').Pin} Pin
+ * @typedef {import('../types.js').Choices} Choices
  */
 /**
  * @template T
@@ -17,7 +18,7 @@ import { guarded } from './locks.js';
 import { FULL_RANK } from './methods.js';
 import { letterOf } from './pins.js';
 import { fromWire } from './poles.js';
-import { QUANTITIES } from './quantities.js';
+import { OUTER, STRUCTURE } from './quantities.js';
 import { NONE } from './requirements.js';
 
 const DEPTH = 200;
@@ -58,16 +59,12 @@ export const initialState = () => ({
   },
 });
 
-/** The contract's fields of a design that are one value. */
-const PLAIN = Object.keys(QUANTITIES).filter((path) => path !== 'poles' && !path.includes('.'));
+/** The contract's fields of a design that are one value. @type {Set<string>} */
+const PLAIN = new Set([...STRUCTURE, ...OUTER]);
 
-/**
- * Those that a preset or a design has.
- * @param {Preset|Design} of
- * @returns {Pick<Design, 'coupling'|'lead'|'outer'|'pairing'|'decoupler'>}
- */
+/** Those that a preset or a design has. @param {Preset|Design} of @returns {Choices} */
 const plainOf = (of) =>
-  /** @type {any} */ (Object.fromEntries(Object.entries(of).filter(([name]) => PLAIN.includes(name))));
+  /** @type {Choices} */ (Object.fromEntries(Object.entries(of).filter(([name]) => PLAIN.has(name))));
 
 /** What a preset proposes. @param {Preset} preset @param {Partial<Design>} [keep] @returns {Design} */
 export function designOf(preset, keep = {}) {

@@ -61,36 +61,78 @@ async function answerOf(path, { method = 'GET', body, type = 'application/json' 
   return response;
 }
 
-/** @param {string|URL} path @param {unknown} [body] makes it a POST @param {string} [method] @returns {Promise<any>} */
+/**
+ * @template T
+ * @param {string|URL} path
+ * @param {unknown} [body] makes it a POST
+ * @param {string} [method]
+ * @returns {Promise<T>} as the contract has it
+ */
 async function call(path, body, method = body === undefined ? 'GET' : 'POST') {
   const response = await answerOf(path, { method, body: body === undefined ? body : JSON.stringify(body) });
   const text = await response.text();
-  return text && (response.headers.get('content-type') ?? '').includes('json') ? JSON.parse(text) : {};
+  const json = text && (response.headers.get('content-type') ?? '').includes('json') ? JSON.parse(text) : {};
+  return json;
 }
 
-/** A file that the server makes of a design. @param {string} path @param {unknown} design with scenario */
+/**
+ * A file that the server makes of a design.
+ * @param {string} path
+ * @param {Asked<import('../contract.js').StepRequest>} design
+ */
 const fileOf = async (path, design) => (await answerOf(path, { method: 'POST', body: JSON.stringify(design) })).blob();
 
+/** @returns {Promise<import('../types.js').Preset[]>} */
 export const getPresets = () => call('api/v1/presets');
 /** @returns {Promise<import('../types.js').Method[]>} */
 export const getMethods = () => call('api/v1/methods');
 /** @param {string} coupling @param {string} lead @returns {Promise<import('../contract.js').Symbolic>} */
 export const getSymbolic = (coupling, lead) => call(`api/v1/symbolic?${new URLSearchParams({ coupling, lead })}`);
-/** @param {unknown} design */
+/**
+ * @param {Asked<import('../contract.js').DesignRequest>} design
+ * @returns {Promise<import('../contract.js').Suggestion>}
+ */
 export const suggestLoops = (design) => call('api/v1/suggest', design);
-/** All that the page shows of a design. @param {unknown} request */
+/**
+ * All that the page shows of a design.
+ * @param {Asked<import('../contract.js').EvaluateRequest>} request
+ * @returns {Promise<Reply>}
+ */
 export const evaluateDesign = (request) => call('api/v1/evaluate', request);
-/** The design's poles through every method. @param {unknown} design with scenario */
+/**
+ * The design's poles through every method.
+ * @param {Asked<import('../contract.js').CompareRequest>} design
+ * @returns {Promise<import('../contract.js').Comparison>}
+ */
 export const compareMethods = (design) => call('api/v1/compare', design);
-/** All ways to deal the poles to the two pairs. @param {unknown} design */
+/**
+ * All ways to deal the poles to the two pairs.
+ * @param {Asked<import('../contract.js').DesignRequest>} design
+ * @returns {Promise<import('../contract.js').Split[]>}
+ */
 export const compareSplits = (design) => call('api/v1/splits', design);
-/** The relative gains, at the frequencies that it names too. @param {unknown} design */
+/**
+ * The relative gains, at the frequencies that it names too.
+ * @param {Asked<import('../contract.js').RgaRequest>} design
+ * @returns {Promise<import('../contract.js').Rga>}
+ */
 export const relativeGain = (design) => call('api/v1/rga', design);
-/** The loops opened at each motor, at the frequencies that it names. @param {unknown} design */
+/**
+ * The loops opened at each motor, at the frequencies that it names.
+ * @param {Asked<import('../contract.js').LoopsRequest>} design
+ * @returns {Promise<import('../contract.js').OpenLoops>}
+ */
 export const openLoops = (design) => call('api/v1/loops', design);
-/** The paper as data: its equations, numbers, errata and figures, recomputed. */
+/**
+ * The paper as data: its equations, numbers, errata and figures, recomputed.
+ * @returns {Promise<import('../contract.js').Paper>}
+ */
 export const getPaper = () => call('api/v1/paper');
-/** The derivation in numbers. @param {unknown} design */
+/**
+ * The derivation in numbers.
+ * @param {Asked<import('../contract.js').DesignRequest>} design
+ * @returns {Promise<import('../contract.js').Walkthrough>}
+ */
 export const walkThrough = (design) => call('api/v1/walkthrough', design);
 /** @param {string} id of a session @param {string} rig */
 export const putRig = (id, rig) => call(sceneAt(id, 'rig'), { rig }, 'PUT');
@@ -110,11 +152,16 @@ export const sendRecording = (file, name, dialect = {}) =>
     body: file,
     type: 'application/octet-stream',
   }).then((response) => response.json());
-/** Files of one run as one recording. @param {string[]} recordings their ids */
-export const joinRecordings = (recordings) => call('api/v1/recordings/join', { recordings });
-/** A recording of a design's digital rig. @param {unknown} design */
+/** Files of one run as one recording. @param {string[]} recordings their ids @returns {Promise<Preview>} */
+export const joinRecordings = (recordings) =>
+  call('api/v1/recordings/join', /** @satisfies {import('../contract.js').JoinRequest} */ ({ recordings }));
+/** A recording of a design's digital rig. @param {Asked<import('../contract.js').SampleRequest>} design */
 export const sampleRecording = (design) => fileOf('api/v1/recordings/sample', design);
-/** @param {string} id @param {unknown} body */
+/**
+ * @param {string} id
+ * @param {Asked<import('../contract.js').OverlayRequest>} body
+ * @returns {Promise<import('../contract.js').OverlayReply>}
+ */
 export const overlayRecording = (id, body) => call(`api/v1/recordings/${encodeURIComponent(id)}/overlay`, body);
 
 /**
@@ -152,7 +199,7 @@ export const cloudAddress = () => socketAddress(at('api/v1/robustness'));
  * again, ever more slowly, and what was last asked is asked again.
  */
 export class Live {
-  /** @type {LatestSocket} */ #socket;
+  /** @type {LatestSocket<{seq: number}, ArrayBuffer|string>} */ #socket;
 
   /**
    * @param {{onReply: (reply: LiveReply) => void, onProblem: (problem: import('../types.js').Problem) => void,

@@ -54,6 +54,10 @@ export class Latest {
   }
 }
 
+/**
+ * @template T what is asked
+ * @template {string|ArrayBuffer} D what comes
+ */
 export class LatestSocket {
   /** @type {WebSocket|null} */ #socket = null;
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #retry;
@@ -64,10 +68,10 @@ export class LatestSocket {
   /**
    * @param {object} how
    * @param {() => WebSocket} how.open
-   * @param {(data: any) => void} how.onMessage
+   * @param {(data: D) => void} how.onMessage
    * @param {() => void} [how.onOpen]
    * @param {() => void} [how.onLost]
-   * @param {(item: any) => string|ArrayBuffer} [how.encode]
+   * @param {(item: T) => string|ArrayBuffer} [how.encode]
    * @param {{first: number, longest: number}} [how.retry] ms; without, a lost connection stays lost
    * @param {number} [how.patience] ms; who does not answer for as long is taken for lost
    */

@@ -3,6 +3,7 @@ import { DEGREE, inField } from '../text/index.js';
 import {
   allowed,
   DIGITAL,
+  ENCODERS,
   STANDARD,
   withDigital,
   withDisturbance,
@@ -21,7 +22,6 @@ import { check, Choice, h, designField, setText, symbol } from '../ui/index.js';
 const AXES = /** @type {Axis[]} */ (['theta', 'psi']);
 const GREEK = { theta: 'θ', psi: 'ψ' };
 const AXIS_NAMES = { theta: 'pitch', psi: 'yaw' };
-const COUNTS = { theta: 4096, psi: 8192 };
 const TOLERANCES = /** @type {[number, string][]} */ ([
   [1e-3, '10⁻³'],
   [1e-5, '10⁻⁵'],
@@ -216,7 +216,7 @@ export class LimitsPart {
 export class DigitalPart {
   /** @param {ScenarioFields} fields */
   constructor(fields) {
-    this.counts = () => fields.store.preset?.encoders ?? COUNTS;
+    this.counts = () => fields.store.preset?.encoders ?? ENCODERS;
     this.on = fields.check(
       'digital',
       'Digital controller',

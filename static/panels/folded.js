@@ -3,7 +3,7 @@ import { button, h } from '../ui/index.js';
 
 /**
  * @param {{testid: string, kind: string, summary: HTMLElement, what: string}} how  what: is closed, in a few words
- * @param {(close: HTMLElement) => any[]} content
+ * @param {(close: HTMLElement) => import('../ui/dom.js').Child[]} content
  */
 export function folded({ testid, kind, summary, what }, content) {
   const close = () => {

@@ -106,16 +106,15 @@ export class PaperCurves {
       axes: [
         {
           size: 26,
-          values: (/** @type {any} */ _u, /** @type {number[]} */ v) =>
-            v.map((s, i) => `${Number(s.toFixed(3))}${i === v.length - 1 ? ' s' : ''}`),
+          values: (_u, v) => v.map((s, i) => `${Number(s.toFixed(3))}${i === v.length - 1 ? ' s' : ''}`),
         },
-        { size: 40, values: (/** @type {any} */ _u, /** @type {number[]} */ v) => v.map((d) => `${d}°`) },
+        { size: 40, values: (_u, v) => v.map((d) => `${d}°`) },
       ],
       font: '12px',
       cursor: { show: false },
       hooks: {
-        drawAxes: [(/** @type {any} */ u) => drawShades(u, rules, ink)],
-        draw: [(/** @type {any} */ u) => drawNamedRules(u, rules, ink, 1)],
+        drawAxes: [(u) => drawShades(u, rules, ink)],
+        draw: [(u) => drawNamedRules(u, rules, ink, 1)],
       },
     });
     return figure;

@@ -202,7 +202,7 @@ const inner = (/** @type {number|undefined} */ lambda) =>
  * @param {string} title
  * @param {string} description
  * @param {boolean} closed
- * @param {...any} between
+ * @param {(Node|string)[]} between
  */
 function loops(walk, title, description, closed, ...between) {
   const lambda = walk.rga?.[0][0];

@@ -12,7 +12,11 @@ const LONG = 7500; // and above which it is set smaller still on paper, where no
 const sizeOf = (/** @type {Form} */ { mathml = '' }) =>
   mathml.length > LONG ? 'dense long' : mathml.length > DENSE ? 'dense' : '';
 
-/** @param {string} name @param {any} title @param {...any} content */
+/**
+ * @param {string} name
+ * @param {import('../ui/dom.js').Child|readonly import('../ui/dom.js').Child[]} title
+ * @param {import('../ui/dom.js').Children} content
+ */
 export const chapter = (name, title, ...content) =>
   h(
     'section',

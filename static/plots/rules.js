@@ -185,7 +185,7 @@ export function drawReference(u, rules, color) {
 
 /**
  * All with what they are called, after the lines are drawn.
- * @param {any} u
+ * @param {Chart} u
  * @param {Rule[]} rules
  * @param {Color} color
  * @param {1|-1} side of the line that its name stands on, 1: below it
@@ -200,7 +200,7 @@ export function drawNamedRules(u, rules, color, side) {
   u.ctx.restore();
 }
 
-/** A horizontal line. @param {any} u @param {number} y @param {string} stroke @param {number[]} dash */
+/** A horizontal line. @param {Chart} u @param {number} y @param {string} stroke @param {number[]} dash */
 function drawRule({ ctx, bbox }, y, stroke, dash) {
   const size = devicePixelRatio * pictureScale().line;
   Object.assign(ctx, { strokeStyle: stroke, lineWidth: 1.25 * size, lineCap: 'round' });

@@ -7,7 +7,7 @@ import { rangeOfCurves } from './recordings.js';
 const NAMES = ['measured', 'simulated', 'reference'];
 
 export class RecordingPlot {
-  /** @type {any} */ #chart;
+  /** @type {uPlot|null} */ #chart = null;
   /** @type {[number, number]} */ #range = [-1, 1];
   /** @type {import('./recordings.js').Curves} */ #data = [[], [], [], []];
 
@@ -27,7 +27,7 @@ export class RecordingPlot {
   }
 
   #build() {
-    this.#chart = makeChart(this.body, {
+    return makeChart(this.body, {
       lines: [
         { color: 'series-0', width: 1.5 },
         { color: 'series-1', width: 2, dash: [7, 4] },
@@ -37,13 +37,13 @@ export class RecordingPlot {
       scales: { y: { range: () => this.#range } },
       axes: [{ gap: 6, size: 24 }, { size: 46 }],
       cursor: { sync: { key: 'recording' } },
-      hooks: { setCursor: [(/** @type {any} */ u) => this.#values(readIndex(u))] },
+      hooks: { setCursor: [(u) => this.#values(readIndex(u))] },
     });
   }
 
   /** @param {import('./recordings.js').Curves} data t and degrees @param {string} fit */
   show(data, fit) {
-    if (!this.#chart) this.#build();
+    this.#chart ??= this.#build();
     this.#data = data;
     this.#range = rangeOfCurves(data);
     this.#chart.setData(data);

@@ -16,7 +16,7 @@ const PING_MS = 20_000;
 const RETRY_MS = { first: 500, longest: 10_000 };
 
 export class Hub {
-  /** @type {LatestSocket} */ #socket;
+  /** @type {LatestSocket<unknown, ArrayBuffer|string>} */ #socket;
   #others = 0;
   /** The server's clock less ours, and how well it is known; seconds. @type {{offset: number, trip: number}|null} */
   #clock = null;

@@ -3,6 +3,7 @@
  * moves, many once the hand rests.
  * @typedef {import('../types.js').State} State
  * @typedef {import('../types.js').Design} Design
+ * @typedef {ReturnType<typeof cloudRequest>} CloudRequest
  */
 import { bodyOf, cloudCaveat, cloudScenario } from '../model/index.js';
 import { cloudAddress, LatestSocket } from '../net/index.js';
@@ -48,7 +49,7 @@ export function cloudWords(cloud, scenario) {
 
 export class CloudFeed {
   #key = '';
-  /** @type {LatestSocket|null} */ #socket = null;
+  /** @type {LatestSocket<CloudRequest, string>|null} */ #socket = null;
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
 
   /** @param {import('../model/store.js').Store} store @param {() => WebSocket} [open] */
@@ -90,7 +91,7 @@ export class CloudFeed {
     this.store.set({ cloud: null });
   }
 
-  /** One request is computed at a time; meanwhile only the newest one waits. @param {unknown} request */
+  /** One request is computed at a time; meanwhile only the newest one waits. @param {CloudRequest} request */
   #ask(request) {
     this.#socket ??= new LatestSocket({
       open: this.open,

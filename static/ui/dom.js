@@ -7,12 +7,13 @@ import { SPOKEN, t } from '../text/index.js';
 const SVG = 'http://www.w3.org/2000/svg';
 
 /** @typedef {Node|string|null|undefined} Child */
+/** @typedef {(Child|readonly Child[])[]} Children */
 
 /**
  * @template {Element} E
  * @param {E} node
  * @param {Record<string, unknown>} attributes
- * @param {(Child|readonly Child[])[]} children
+ * @param {Children} children
  * @returns {E}
  */
 function dress(node, attributes, children) {
@@ -35,20 +36,20 @@ function dress(node, attributes, children) {
  * @template {keyof HTMLElementTagNameMap} T
  * @param {T} tag
  * @param {Record<string, unknown>} [attributes] `onclick` and the like add listeners
- * @param {...(Child|readonly Child[])} children
+ * @param {Children} children
  * @returns {HTMLElementTagNameMap[T]}
  */
 export function h(tag, attributes = {}, ...children) {
   return dress(document.createElement(tag), attributes, children);
 }
 
-/** One that submits nothing. @param {Record<string, any>} attributes @param {...any} children */
+/** One that submits nothing. @param {Record<string, unknown>} attributes @param {Children} children */
 export const button = (attributes, ...children) => h('button', { type: 'button', ...attributes }, ...children);
 
 /**
  * A box to be ticked, in its label.
- * @param {Record<string, any>} attributes the box'; but `title` and `hidden` are the label's
- * @param {...any} label
+ * @param {Record<string, unknown>} attributes the box'; but `title` and `hidden` are the label's
+ * @param {Children} label
  */
 export function check({ title, hidden, ...of }, ...label) {
   const box = h('input', { type: 'checkbox', ...of });
@@ -59,7 +60,7 @@ export function check({ title, hidden, ...of }, ...label) {
  * @template {keyof SVGElementTagNameMap} T
  * @param {T} tag
  * @param {Record<string, unknown>} [attributes]
- * @param {...(Child|readonly Child[])} children
+ * @param {Children} children
  * @returns {SVGElementTagNameMap[T]}
  */
 export function svg(tag, attributes = {}, ...children) {

@@ -43,7 +43,7 @@ export const head = (cells) =>
  * @template {{axis?: string, title: string}} C
  * @param {string} first
  * @param {C[]} columns
- * @param {(column: C) => any} nameOf
+ * @param {(column: C) => import('./dom.js').Child|import('./dom.js').Child[]} nameOf
  * @param {Node[]} [last]
  */
 export function groupedHead(first, columns, nameOf, last = []) {
