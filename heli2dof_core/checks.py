@@ -3,12 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import TypeVar, get_args
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
+from typing import Protocol, TypeVar, get_args
 
 from .errors import InvalidInputError
 
 T = TypeVar("T")
+
+
+class Named(Protocol):
+    """What registries hold."""
+
+    @property
+    def name(self) -> str:
+        """By which it is found."""
+        ...
+
+
+N = TypeVar("N", bound=Named)
 
 
 def checked_number(value: object, path: str) -> float:
@@ -32,6 +45,16 @@ def require_within(value: object, path: str, unit: str, low: float, high: float)
             hint=f"Give a value between {span}.",
         )
     return number
+
+
+def by_name(items: Iterable[N]) -> Mapping[str, N]:
+    """A registry of what has names, in order; two of one name are a mistake of who wrote them."""
+    known: dict[str, N] = {}
+    for item in items:
+        if item.name in known:
+            raise ValueError(f"{item.name!r} is the name of two: {known[item.name]!r} and {item!r}")
+        known[item.name] = item
+    return MappingProxyType(known)
 
 
 def require_known(name: str, known: Mapping[str, T], what: str) -> T:

@@ -15,7 +15,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-RigName = Literal["helicopter", "aero"]
+from .presets import RigName
+
 """The rigs that can be drawn."""
 
 Axis = Literal["y", "z"]

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import radians
-from types import MappingProxyType
+from typing import Literal
 
-from .checks import require_known
+from .checks import by_name, require_known, require_one_of
 from .components import Components
 from .couplings import Structure
 from .parameters import PARAMETER_INFO, Parameters
 from .poles import PoleSet
 from .scenario import Limits, OuterLoop, PIGains, Scenario
 from .tables import Shown, Table, number
+
+RigName = Literal["helicopter", "aero"]
 
 
 @dataclass(frozen=True, repr=False)
@@ -22,7 +24,7 @@ class Preset(Shown):
     Attributes:
         name, title: for programs and for people.
         source: where the numbers come from.
-        rig: which machine the scene shows, ``helicopter`` or ``aero``.
+        rig: which machine the scene shows.
         encoders: counts per revolution of pitch and yaw.
         components: the parts that the parameters are computed from, where the source gives them.
     """
@@ -30,7 +32,7 @@ class Preset(Shown):
     name: str
     title: str
     source: str
-    rig: str
+    rig: RigName
     parameters: Parameters
     limits: Limits
     poles: PoleSet
@@ -40,6 +42,9 @@ class Preset(Shown):
     theta_0: float = 0.0
     components: Components | None = None
     encoders: tuple[int, int] = (4096, 8192)
+
+    def __post_init__(self) -> None:
+        require_one_of(self.rig, RigName, "rig")
 
     def summary(self) -> str:
         """Name and title."""
@@ -184,7 +189,7 @@ _ALL = (
     ),
 )
 
-PRESETS = MappingProxyType({preset.name: preset for preset in _ALL})
+PRESETS = by_name(_ALL)
 """All presets by name; the first is the default."""
 DEFAULT = _ALL[0].name
 

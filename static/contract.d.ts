@@ -334,7 +334,7 @@ export interface Figure {
 /** A remark on a design or response that is legal but deserves a word. */
 export interface Finding {
   code: string;
-  severity: string;
+  severity: 'info' | 'warning' | 'error';
   message: string;
 }
 
@@ -827,7 +827,7 @@ export interface Preset {
   name: string;
   title: string;
   source: string;
-  rig: string;
+  rig: 'helicopter' | 'aero';
   /** SI units, see `parameter_info` */
   parameters: Record<string, number>;
   parameter_info: Record<string, ParameterInfo>;

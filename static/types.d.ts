@@ -82,7 +82,7 @@ export interface Design extends Choices {
 
 export type Preset = Except<contract.Preset, 'encoders'> & { encoders: Encoders };
 
-export type Finding = contract.Finding & { severity: 'info' | 'warning' | 'error' };
+export type Finding = contract.Finding;
 
 type Courses = 't' | Axis | Motor;
 /** A response has both references, whatever was asked for. */

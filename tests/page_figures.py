@@ -10,9 +10,9 @@ from textwrap import wrap
 
 from heli2dof_core.figures import KINDS, RESPONSE, STEP, Figure
 from tests.children import ROOT
+from tests.page_source import WIDTH, quoted
 
 PAGE = ROOT / "static" / "model" / "figures.js"
-WIDTH = 120
 HEAD = """/**
  * The figures of merit: names, meanings, units, how they are written and which way is better. Made of
  * heli2dof_core/figures by `python -m tests.page_figures`; not to be changed by hand.
@@ -106,15 +106,13 @@ def _properties(name: str, figure: Figure) -> Iterator[str]:
 
 def _text(key: str, text: str) -> Iterator[str]:
     """A property whose words may need several lines."""
-    assert "'" not in text and "\\" not in text, text
     parts = wrap(text, WIDTH - 12) if len(text) > WIDTH - 9 else [text]
-    quoted = [f"'{part}{' ' if i < len(parts) - 1 else ''}'" for i, part in enumerate(parts)]
-    quoted = [part.replace("\u00ad", "\\u00ad") for part in quoted]
-    if len(quoted) == 1 and len(line := f"    {key}: {quoted[0]},") <= WIDTH:
+    shown = [quoted(f"{part}{' ' if i < len(parts) - 1 else ''}") for i, part in enumerate(parts)]
+    if len(shown) == 1 and len(line := f"    {key}: {shown[0]},") <= WIDTH:
         yield line
         return
     yield f"    {key}:"
-    yield " +\n".join(f"      {part}" for part in quoted) + ","
+    yield " +\n".join(f"      {part}" for part in shown) + ","
 
 
 if __name__ == "__main__":

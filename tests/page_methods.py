@@ -10,9 +10,9 @@ from typing import get_args
 from heli2dof_core.couplings import STRUCTURES, Coupling, Lead, Structure
 from heli2dof_core.placement.registry import METHODS
 from tests.children import ROOT
+from tests.page_source import WIDTH, key, quoted
 
 PAGE = ROOT / "static" / "model" / "method_names.js"
-WIDTH = 120
 HEAD = """/**
  * Names of structures and methods, made of heli2dof_core/couplings.py and heli2dof_core/placement by
  * `python -m tests.page_methods`; not to be changed by hand.
@@ -23,12 +23,12 @@ HEAD = """/**
 
 def module() -> str:
     """The whole module."""
-    names = [f"  {_key(method.name)}: '{method.short}',\n" for method in METHODS.values()]
+    names = [f"  {key(method.name)}: {quoted(method.short)},\n" for method in METHODS.values()]
     return "".join(
         (
             HEAD,
             *(
-                f"export const {name} = [{', '.join(map(repr, get_args(known)))}];\n"
+                f"export const {name} = [{', '.join(map(quoted, get_args(known)))}];\n"
                 for name, known in (("COUPLINGS", Coupling), ("LEADS", Lead))
             ),
             "\n/** @type {[string, string, string][]} key, name, explanation */\n",
@@ -41,14 +41,10 @@ def module() -> str:
     )
 
 
-def _key(name: str) -> str:
-    return name if name.isidentifier() else f"'{name}'"
-
-
 def _row(structure: Structure) -> str:
     parts = ["full-rank", structure.coupling]
-    key = "/".join([*parts, structure.lead] if structure.coupling == "triangular" else parts)
-    cells = [f"'{text}'" for text in (key, structure.title, structure.meaning)]
+    own = "/".join([*parts, structure.lead] if structure.coupling == "triangular" else parts)
+    cells = [*map(quoted, (own, structure.title, structure.meaning))]
     line = f"  [{', '.join(cells)}],\n"
     return line if len(line) <= WIDTH + 1 else "".join(("  [\n", *(f"    {c},\n" for c in cells), "  ],\n"))
 

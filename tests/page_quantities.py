@@ -6,7 +6,6 @@ are not in it: each preset is served with theirs.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import MISSING
 
@@ -15,6 +14,7 @@ from heli2dof_core.poles import LARGEST
 from heli2dof_core.quantities import Field
 from heli2dof_core.request import LIMITS, OUTER, PARAMETERS, STRUCTURE, Place, quantities
 from tests.children import ROOT
+from tests.page_source import key, literal
 
 PAGE = ROOT / "static" / "model" / "quantities.js"
 HEAD = """/**
@@ -43,7 +43,7 @@ GROUPS = {
 def module() -> str:
     """The whole module."""
     own = (item for item in (*quantities(), *quantities([COLUMNS])) if item[1] not in (PARAMETERS, LIMITS))
-    poles = f"  poles: {{ unit: 'rad/s', min: {_js(-LARGEST)}, max: {_js(LARGEST)} }},\n"
+    poles = f"  poles: {{ unit: 'rad/s', min: {literal(-LARGEST)}, max: {literal(LARGEST)} }},\n"
     return "".join((HEAD, poles, *(_entry(*item) for item in own), "};\n", *map(_names, GROUPS)))
 
 
@@ -51,35 +51,26 @@ def _names(name: str) -> str:
     about, place = GROUPS[name]
     return (
         f"\n/** {about}: the names right in a request. */\n"
-        f"export const {name} = /** @type {{const}} */ ([{', '.join(map(_js, place.fields))}]);\n"
+        f"export const {name} = /** @type {{const}} */ ([{', '.join(map(literal, place.fields))}]);\n"
     )
 
 
 def _entry(path: str, place: Place, known: Field) -> str:
-    key = path if re.fullmatch(r"\w+", path) else f"'{path}'"
     said = ", ".join(f"{name}: {value}" for name, value in _said(path, place, known))
-    return f"  {key}: {{ {said} }},\n" if said else f"  {key}: {{}},\n"
+    return f"  {key(path)}: {{ {said} }},\n" if said else f"  {key(path)}: {{}},\n"
 
 
 def _said(path: str, place: Place, known: Field) -> Iterator[tuple[str, str]]:
     about = known.quantity
     if about.unit:
-        yield "unit", f"'{about.unit}'"
+        yield "unit", literal(about.unit)
     if about.low is not None and about.high is not None:
-        yield "min", _js(about.low)
-        yield "max", _js(about.high)
+        yield "min", literal(about.low)
+        yield "max", literal(about.high)
     if known.choices:
-        yield "words", f"[{', '.join(map(_js, known.choices))}]"
+        yield "words", f"[{', '.join(map(literal, known.choices))}]"
     if not place.proposed(path.rpartition(".")[2]) and known.default not in (MISSING, None):
-        yield "standard", _js(known.default)
-
-
-def _js(value: str | float | bool) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, str):
-        return f"'{value}'"
-    return re.sub(r"\.0$|(?<=e)\+?(-?)0*", r"\1", repr(value))
+        yield "standard", literal(known.default)
 
 
 if __name__ == "__main__":

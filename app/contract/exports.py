@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from types import MappingProxyType
-
 from heli2dof_core import Spec, evaluate
+from heli2dof_core.checks import by_name
 from heli2dof_core.export import FORMATS as CORE_FORMATS
 from heli2dof_core.export import Format
 from heli2dof_core.presets import PRESETS
@@ -37,5 +36,5 @@ def _json(spec: Spec, link: str = "") -> bytes:
 
 JSON = Format("json", "Everything as JSON", ".json", "application/json", _json)
 
-FORMATS = MappingProxyType({**CORE_FORMATS, JSON.name: JSON})
+FORMATS = by_name((*CORE_FORMATS.values(), JSON))
 """Formats by name."""

@@ -15,6 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from heli2dof_core import Finding as CoreFinding
 from heli2dof_core.figures import DESIGN, Figure
+from heli2dof_core.findings import Severity
 from heli2dof_core.request import Place
 from heli2dof_core.signals import INPUTS, Floats
 
@@ -120,7 +121,7 @@ class Finding(Model):
     """A remark on a design or response that is legal but deserves a word."""
 
     code: str
-    severity: str
+    severity: Severity
     message: str
 
 

@@ -9,6 +9,7 @@ from pydantic import Field
 from heli2dof_core import Preset as CorePreset
 from heli2dof_core.components import COMPONENT_INFO
 from heli2dof_core.parameters import PARAMETER_INFO
+from heli2dof_core.presets import RigName
 from heli2dof_core.quantities import Quantity
 from heli2dof_core.request import LIMITS, OUTER, POINT, REFERENCE, SCENARIO, STRUCTURE
 
@@ -49,7 +50,7 @@ class Preset(proposed(STRUCTURE, OUTER)):
     name: str
     title: str
     source: str
-    rig: str
+    rig: RigName
     parameters: dict[str, float] = Field(description="SI units, see `parameter_info`")
     parameter_info: dict[str, ParameterInfo]
     components: dict[str, float] = Field(description="in the units of `component_info`")

@@ -8,8 +8,7 @@ Every file says which rig, poles and version it is of, and the call that makes i
 
 from __future__ import annotations
 
-from types import MappingProxyType
-
+from ..checks import by_name
 from . import c_controller, matlab_data, matlab_script, python_script, report, responses_csv
 from .format import Format
 
@@ -23,7 +22,7 @@ _ALL = (
     report.FORMAT,
 )
 
-FORMATS = MappingProxyType({each.name: each for each in _ALL})
+FORMATS = by_name(_ALL)
 """Formats by name."""
 
 __all__ = ["FORMATS", "Format"]

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from types import MappingProxyType
-
-from ..checks import require_known
+from ..checks import by_name, require_known
 from .ackermann import Ackermann
 from .bass_gura import BassGura
 from .full_rank import FullRank
@@ -26,7 +24,7 @@ _ALL: tuple[Method, ...] = (
     LQRIntegral(),
 )
 
-METHODS = MappingProxyType({method.name: method for method in _ALL})
+METHODS = by_name(_ALL)
 """Placement methods by name."""
 
 

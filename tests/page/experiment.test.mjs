@@ -9,6 +9,7 @@ import {
   isStandard,
   scenarioBody,
   standard,
+  STANDARD,
   withDigital,
   withDisturbance,
   withEncoder,
@@ -18,6 +19,7 @@ import {
 import { differs } from '../../static/text/format.js';
 import { findingsOf } from '../../static/panels/findings.js';
 import { linearPeak, motorText, notSettled } from '../../static/panels/metrics.js';
+import { QUANTITIES } from '../../static/model/quantities.js';
 import { NONE } from '../../static/model/requirements.js';
 import { designOf, requestOf } from '../../static/model/store.js';
 
@@ -162,4 +164,13 @@ test('what explains others, or says what limits cost, comes first among warnings
     findingsOf({ reply: part, problem: null, design: designOf(preset), requirements: NONE }).map((f) => f.code);
   assert.deepEqual(order({ findings }), ['loop_unstable', 'unlike_linear', 'slow_sampling', 'saturation_V_p']);
   assert.deepEqual(order({ findings: [] }), []);
+});
+
+test('each option that is not standard is told in words', () => {
+  const other = { number: (/** @type {number} */ v) => v / 100, boolean: (/** @type {boolean} */ v) => !v };
+  for (const [name, value] of Object.entries(STANDARD)) {
+    const words = QUANTITIES[`scenario.${name}`].words ?? [];
+    const changed = words.find((word) => word !== value) ?? other[typeof value](value);
+    assert.notDeepEqual(experimentWords({ ...STEPS, [name]: changed }), [], name);
+  }
 });
