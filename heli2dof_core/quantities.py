@@ -6,7 +6,7 @@ read them here.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import lru_cache
 from types import NoneType, UnionType
@@ -14,6 +14,7 @@ from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 
 from .checks import require_one_of, require_within
 from .docstrings import with_attributes
+from .errors import InvalidInputError
 
 T = TypeVar("T", bound=type)
 
@@ -99,16 +100,49 @@ def require_valid(instance: object) -> None:
         InvalidInputError: a value is no finite number, out of its range, or an unknown word; its field is the
             quantity's name.
     """
-    for name, known in quantities_of(type(instance)).items():
-        value, parts = getattr(instance, name), known.quantity.parts
-        if parts:
-            pairs = zip(parts.items(), value, strict=True)
+    for name, known, words, (low, high) in _judged(type(instance)):
+        value, about = getattr(instance, name), known.quantity
+        # The usual cases, inline: every change of a design comes here some dozen times.
+        if value is known.default or (value is None and about.absent) or (words and value in words):
+            continue
+        if type(value) is float and known.kind is float and low <= value <= high:
+            continue
+        if about.parts:
             checked = tuple(
-                _checked(part, known.kind, about, f"{name}.{own}") for (own, about), part in pairs
+                _checked(part, known.kind, own, f"{name}.{which}")
+                for (which, own), part in zip(about.parts.items(), _parts(value, about, name), strict=True)
             )
         else:
-            checked = _checked(value, known.kind, known.quantity, name)
+            checked = _checked(value, known.kind, about, name)
         object.__setattr__(instance, name, checked)
+
+
+@lru_cache(maxsize=64)
+def _judged(cls: type) -> tuple[tuple[str, Field, tuple[str, ...], tuple[float, float]], ...]:
+    """The quantities of which not every value is right, with the words or the range that they may be in."""
+    found = []
+    for name, known in quantities_of(cls).items():
+        low, high = known.quantity.low, known.quantity.high
+        if low is not None and high is not None:
+            found.append((name, known, (), (low, high)))
+        elif known.choices or known.quantity.parts:
+            found.append((name, known, known.choices, _NONE))
+    return tuple(found)
+
+
+_NONE = (1.0, 0.0)
+"""A range that holds nothing."""
+
+
+def _parts(value: Any, about: Quantity, path: str) -> Sequence[Any]:
+    if not isinstance(value, Sequence) or len(value) != len(about.parts):
+        raise InvalidInputError(
+            f"{path} is {value!r}, not {len(about.parts)} values",
+            field=path,
+            value=value,
+            hint=f"Give {', '.join(about.parts)}.",
+        )
+    return value
 
 
 def _checked(value: Any, kind: Any, about: Quantity, path: str) -> Any:
@@ -116,10 +150,11 @@ def _checked(value: Any, kind: Any, about: Quantity, path: str) -> Any:
         return None
     if get_origin(kind) is Literal:
         require_one_of(value, kind, path)
-    elif about.low is not None and about.high is not None:
-        number = require_within(value, path, about.unit, about.low, about.high)
-        return number if kind is float else value
-    return value
+        return value
+    if about.low is None or about.high is None:
+        return value
+    number = require_within(value, path, about.unit, about.low, about.high)
+    return number if kind is float else value
 
 
 def _present(kind: Any) -> Any:

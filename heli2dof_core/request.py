@@ -63,19 +63,32 @@ class Place:
     def given(self, values: Mapping[str, Any] | None) -> dict[str, Any]:
         """What an object says, by the fields of the core; where it gives a tuple's part, the whole of it."""
         found: dict[str, Any] = {}
-        parts = {} if values is None else values
-        for name, known in self.fields.items():
-            whole = "." in self.names.get(name, "")
-            if name in parts and (parts[name] is not None or known.quantity.absent):
-                found[known.name] = (*found.get(known.name, ()), parts[name]) if whole else parts[name]
-            elif whole:
-                found[known.name] = (*found.get(known.name, ()), known.default)
+        if not values:
+            return found
+        known = self.fields
+        for name, value in values.items():
+            own = known.get(name)
+            if own is None or (value is None and not own.quantity.absent):
+                continue
+            if "." in self.names.get(name, ""):
+                return self._whole(values)
+            found[own.name] = value
         return found
+
+    def _whole(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """A tuple of which some parts are given."""
+        (field,) = {known.name for known in self.fields.values()}
+        given = [(values.get(name), known) for name, known in self.fields.items()]
+        return {
+            field: tuple(
+                known.default if v is None and not known.quantity.absent else v for v, known in given
+            )
+        }
 
     def changed(self, base: T, values: Mapping[str, Any] | None, **others: Any) -> T:
         """`base` with what an object says, and with `others`; errors name the core's field."""
         changes = {**self.given(values), **others}
-        if not changes:
+        if all(getattr(base, name) == value for name, value in changes.items()):
             return base
         with within_field(self.attribute):
             return replace(base, **changes)  # pyright: ignore[reportArgumentType, reportCallIssue, reportUnknownVariableType]

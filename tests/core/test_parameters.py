@@ -91,6 +91,8 @@ def test_unknown_preset_lists_those_that_exist():
         (lambda: Scenario(duration=-1.0), "duration"),
         (lambda: Scenario(theta=math.inf), "theta"),
         (lambda: Scenario(initial=(math.nan, None, 0.0, 0.0)), "initial.theta"),
+        (lambda: Scenario(initial=(0.1, 0.2)), "initial"),
+        (lambda: Scenario(initial=None), "initial"),
         (lambda: Scenario(anti_windup="wishful"), "anti_windup"),
         (lambda: plant(preset().parameters, 2.0), "theta_0"),
     ],
