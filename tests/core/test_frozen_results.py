@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
+import sys
 from collections.abc import Callable, Iterator
 from dataclasses import fields, is_dataclass, replace
 from functools import cached_property
@@ -134,7 +135,18 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[Frozen]:
     for kind in {Frozen, *subclasses(Frozen)}:
         if "__post_init__" in vars(kind):
             monkeypatch.setattr(kind, "__post_init__", noting(kind.__post_init__))
+    forget()
     return found
+
+
+def forget() -> None:
+    """Empties the core's caches, so that results are made here, whatever other tests have asked for."""
+    slow = ("symbolic", "compiled", "formulas", "kernels", "interpreted", "engine")  # they hold no results
+    for name, module in [*sys.modules.items()]:
+        if name.startswith("heli2dof_core.") and name.split(".")[1] not in slow:
+            for known in vars(module).values():
+                if callable(getattr(known, "cache_clear", None)):
+                    known.cache_clear()
 
 
 def parts(thing: Any) -> Iterator[tuple[str, Any]]:
