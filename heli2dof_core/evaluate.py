@@ -30,10 +30,11 @@ from .weights import bryson_weights
 
 @dataclass(frozen=True, repr=False)
 class Step(Shown):
-    """One response and its metrics."""
+    """One response, its metrics, and all remarks on it: on its design, its loop and itself, each once."""
 
     response: Response
     metrics: StepMetrics
+    findings: tuple[Finding, ...]
 
     def summary(self) -> str:
         """The model and its metrics."""
@@ -115,7 +116,7 @@ class Report(Shown):
 
     def _step(self, n: int, model: Model) -> Step:
         response = self._courses.response(n, model)
-        return _measured(response)
+        return _measured(self.loop, response)
 
 
 def place(spec: Spec) -> Design:
@@ -130,7 +131,7 @@ def simulate(loop: Loop, spec: Spec, model: Model, most_steps: int | None = None
     A disturbance does not count into the steps' figures: those are of the same experiment without it.
     """
     if model == "linear":
-        return _measured(simulate_linear(loop, spec.scenario, most_steps))
+        return _measured(loop, simulate_linear(loop, spec.scenario, most_steps))
     return _step_of_the_rig(loop, spec, most_steps)
 
 
@@ -139,9 +140,9 @@ def _step_of_the_rig(loop: Loop, spec: Spec, most_steps: int | None, calm: Respo
     scenario = spec.scenario
     response = _on_the_rig(loop, spec, scenario, most_steps)
     if scenario.disturbance is None:
-        return _measured(response)
+        return _measured(loop, response)
     return _measured(
-        response, calm or _on_the_rig(loop, spec, replace(scenario, disturbance=None), most_steps)
+        loop, response, calm or _on_the_rig(loop, spec, replace(scenario, disturbance=None), most_steps)
     )
 
 
@@ -151,13 +152,12 @@ def _on_the_rig(loop: Loop, spec: Spec, scenario: Scenario, most_steps: int | No
     return simulate_digital(loop, spec.limits, scenario, scenario.digital)
 
 
-def _measured(response: Response, calm: Response | None = None) -> Step:
+def _measured(loop: Loop, response: Response, calm: Response | None = None) -> Step:
     """With its metrics; those of its steps from the experiment without a disturbance, where it has one."""
     metrics = step_metrics(response, calm)
-    if calm is None:
-        return Step(response, metrics)
-    told = (*response.findings, *([_CALM] if metrics.axes else []))
-    return Step(replace(response, findings=told), metrics)
+    if calm is not None and metrics.axes:
+        response = replace(response, findings=(*response.findings, _CALM))
+    return Step(response, metrics, merged(loop.design.findings, loop.findings, response.findings))
 
 
 _CALM = Finding(

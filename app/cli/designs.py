@@ -56,7 +56,6 @@ def rga(as_json: bool, base: IO[str] | None, **values: Any) -> None:
 def step(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     """Print the metrics of a step response; with --json its trajectories too."""
     from heli2dof_core import close_loop, place, simulate
-    from heli2dof_core.findings import merged
 
     from ..contract.experiment import ResponseRequest, states_reply, step_reply
 
@@ -67,6 +66,5 @@ def step(as_json: bool, base: IO[str] | None, **values: Any) -> None:
         result = simulate(loop, spec, request.scenario.model)
         if as_json:
             return print_json(step_reply(result, loop) | (states_reply(result) if request.states else {}))
-        remarks = merged(loop.design.findings, loop.findings, result.response.findings)
-        show((*result.tables(), *loop.tables()), result.response.summary(), findings=remarks)
+        show((*result.tables(), *loop.tables()), result.response.summary(), findings=result.findings)
     return None

@@ -7,7 +7,6 @@ from pydantic import Field
 from heli2dof_core import Loop
 from heli2dof_core.evaluate import Step as CoreStep
 from heli2dof_core.figures import AXIS, MOTOR, STEP
-from heli2dof_core.findings import merged
 from heli2dof_core.metrics import StepMetrics
 from heli2dof_core.request import (
     DIGITAL,
@@ -154,7 +153,7 @@ def step_reply(step: CoreStep, loop: Loop, common: Reply | None = None) -> Reply
         **{signal.name: response.voltages[i] for i, signal in enumerate(INPUTS)},
         "reference": dict(zip(("theta", "psi"), response.reference, strict=True)),
         "metrics": metrics_reply(step.metrics),
-        "findings": findings_reply(merged(loop.design.findings, loop.findings, response.findings)),
+        "findings": findings_reply(step.findings),
     }
 
 

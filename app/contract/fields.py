@@ -41,13 +41,11 @@ def asked(*places: Place) -> type[Strict]:
             kind = _kind(known)
             none = proposed or known.default is None
             default = None if proposed else known.default
-            own[name] = (kind | None if none else kind, Field(default=default, description=described(known)))
+            own[name] = (
+                kind | None if none else kind,
+                Field(default=default, description=known.quantity.described),
+            )
     return create_model("Asked", __base__=Strict, **own)
-
-
-def described(known: Quantified) -> str:
-    """What a schema says of a quantity."""
-    return known.quantity.described
 
 
 def _kind(known: Quantified) -> Any:

@@ -98,15 +98,16 @@ def rga_reply(design: Design, gains: Interaction, frequencies: Sequence[float] =
     """RGA, pairing and Niederlinski index; without steady state only the findings."""
     no_steady_state = [f for f in design.findings if f.code == "no_steady_state"]
     reply: Reply = {"findings": findings_reply([*no_steady_state, *gains.findings])}
-    if gains.rga is not None:
-        reply["rga"] = gains.rga.tolist()
+    rga, index, cross = gains.rga, gains.niederlinski, gains.niederlinski_cross
+    if rga is not None:
+        reply["rga"] = rga.tolist()
         reply["pairing"] = [list(pair) for pair in gains.pairing]
         reply["reason"] = gains.reason
-    if gains.niederlinski is not None:
-        reply["niederlinski"] = gains.niederlinski
-    if gains.niederlinski_cross is not None:
-        reply["niederlinski_cross"] = gains.niederlinski_cross
-    if frequencies and gains.rga is not None:
+    if index is not None:
+        reply["niederlinski"] = index
+    if cross is not None:
+        reply["niederlinski_cross"] = cross
+    if frequencies and rga is not None:
         at = np.array(frequencies)
         rows, columns = dominance_over_frequency(design, at)
         reply["frequencies"] = list(frequencies)
