@@ -7,6 +7,13 @@ from __future__ import annotations
 K_PP, K_PY, K_YP, K_YY, ALPHA, J_Y, ML2, MGL, B_P, B_Y, K_S = range(11)
 GAIN, OFFSET, LIMIT, WANTED, TRACKING, TRAVEL, DISTURBANCE, CONSTANTS = 11, 23, 25, 27, 29, 33, 34, 36
 
+# c goes on for a rig whose rotors, friction or estimator are modelled: time constants, dead zones, squares s of the
+# thrust curves (0: linear), both frictions; the gains of both motors on the states behind the sixth; and the
+# estimator, six rows by state, by what the motors get, and a constant (`FULL` + 3 columns each)
+TAU, DEAD, SQUARE, COULOMB, BREAKAWAY, MORE_GAIN, ESTIMATOR, MORE_CONSTANTS = 36, 38, 40, 42, 44, 46, 62, 164
+PLAIN, LAGGED, FULL = 6, 8, 14
+"""States of the loop: θ, ψ, θ̇, ψ̇, z_p, z_y; with both rotors' speeds v_p, v_y; with six states of an estimator."""
+
 # m: each motor's mode and which limit it is at (±1), the stop that pitch rests on (0, ±1), the motor
 # that each integrator drives, and the kind of anti-windup
 SIDE, REST, MOTOR_OF, WINDUP, MODES = 2, 4, 5, 7, 8
