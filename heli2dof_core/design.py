@@ -257,14 +257,13 @@ def design(
     if rotor_poles is not None:
         task = _SixStates(plant, actuators or Actuators.none(plant), poles, rotor_poles)
         return task.placed(structure, method, weights)
-    own = {"actuators": actuators}
     if chosen.structured:
-        return Design(plant, poles, method, structure, *full_rank_gain(plant, poles, structure), **own)
+        K, inverse = full_rank_gain(plant, poles, structure)
+        return Design(plant, poles, method, structure, K, inverse, actuators=actuators)
     placed = chosen.place(Task(plant.A, plant.B, poles.array, C, weights))
     K = np.ascontiguousarray(placed.K, dtype=np.float64)
-    return Design(
-        plant, poles, method, None, K, K[:, :2] - plant.statics, placed.integral, chosen.places_poles, **own
-    )
+    own = (None, K, K[:, :2] - plant.statics, placed.integral, chosen.places_poles)
+    return Design(plant, poles, method, *own, actuators)
 
 
 @dataclass(frozen=True)
@@ -278,11 +277,11 @@ class _SixStates:
 
     def placed(self, structure: Structure, method: str, weights: Weights | None) -> Design:
         chosen, (A, B) = method_named(method), with_rotors(self.plant, self.actuators)
-        known = {"actuators": self.actuators, "rotor_poles": self.rotor_poles}
+        known = (self.actuators, self.rotor_poles)
         if chosen.structured:
             arguments = (self.plant, self.actuators, self.poles, self.rotor_poles, structure)
             K, inverse = full_rank_gain_with_rotors(*arguments)
-            return Design(self.plant, self.poles, method, structure, K, inverse, **known)
+            return Design(self.plant, self.poles, method, structure, K, inverse, None, True, *known)
         if weights is not None:  # what the rotors' speeds cost is their voltages' business
             weights = replace(weights, states=(*weights.states, 0.0, 0.0))
         wanted = np.array([*self.poles.values, *self.rotor_poles], dtype=np.complex128)
@@ -290,4 +289,4 @@ class _SixStates:
         K = np.ascontiguousarray(found.K, dtype=np.float64)
         inverse = K[:, :2] - (np.eye(2) + K[:, 4:]) @ np.linalg.solve(A[2:4, 4:], A[2:4, :2])
         own = (method, None, K, inverse, found.integral, chosen.places_poles)
-        return Design(self.plant, self.poles, *own, **known)
+        return Design(self.plant, self.poles, *own, *known)

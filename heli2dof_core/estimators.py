@@ -129,8 +129,7 @@ def observe(design: Design, observer: Observer) -> Estimator:
         F = np.vstack((np.hstack((A, B)), np.hstack((rest, -lag))))
         G, H = np.vstack((L, np.zeros((2, 2)))), np.vstack((rest.T, lag))
         parts = (F, G, H, np.eye(6), np.zeros((6, 2)))
-    parts = tuple(fixed(part) for part in parts)
-    return Estimator("observer", *parts, L=L, wanted=wanted)
+    return Estimator("observer", *map(fixed, parts), L=L, wanted=wanted)
 
 
 def _thrust(design: Design) -> Floats:
@@ -143,7 +142,7 @@ def _filters() -> Estimator:
     """Second-order filters on both angles; their states are x₁ = ∫ x₂ and x₂, of which ω² x₂ is the rate."""
     w, zeta = FILTER_FREQUENCY, FILTER_DAMPING
     one = np.array([[0.0, 1.0], [-(w**2), -2.0 * zeta * w]])
-    F, G = np.kron(np.eye(2), one), np.kron(np.eye(2), np.array([[0.0], [1.0]]))
+    F, G = fixed(np.kron(np.eye(2), one)), fixed(np.kron(np.eye(2), np.array([[0.0], [1.0]])))
     rates = np.zeros((4, 4))
     rates[2, 1] = rates[3, 3] = w**2
     return Estimator("filtered", F, G, np.zeros((4, 2)), rates, fixed(np.eye(4, 2)))

@@ -38,7 +38,7 @@ class _Controller(Frozen):
     def of(cls, spec: Spec) -> _Controller:
         loop, scenario = loop_of(spec), spec.scenario
         system = NonlinearLoop.of(loop, spec.limits, scenario)
-        V_p, V_y = loop.design.plant.trim.tolist() if scenario.trim_feedforward else (0.0, 0.0)
+        V_p, V_y = loop.design.trim.tolist() if scenario.trim_feedforward else (0.0, 0.0)
         return cls(
             loop,
             (scenario.digital or Digital()).sample_time,
