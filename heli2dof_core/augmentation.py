@@ -6,14 +6,23 @@ import numpy as np
 
 from .design import Design
 from .estimators import Estimator
+from .rotors import Actuators
 from .signals import Floats
 
 
 def augmented_loop(
-    design: Design, estimator: Estimator | None, P: Floats, integral: Floats | None, by_reference: Floats
+    design: Design,
+    actuators: Actuators | None,
+    estimator: Estimator | None,
+    P: Floats,
+    integral: Floats | None,
+    by_reference: Floats,
 ) -> tuple[Floats, Floats, Floats, tuple[int, ...], Floats]:
-    """∂u/∂ states, A, B, places and motors' columns of a loop with rotors that lag, or with an estimator."""
-    plant, actuators, K = design.plant, design.actuators, design.K
+    """∂u/∂ states, A, B, places and motors' columns of a loop with rotors that lag, or with an estimator.
+
+    `actuators` are those of the rig, whatever the design knows of them.
+    """
+    plant, K = design.plant, design.K
     tau = np.zeros(2) if actuators is None else actuators.tau
     thrust = plant.B if actuators is None else plant.B * actuators.slope
     lagged = [j for j in range(2) if tau[j] > 0.0]

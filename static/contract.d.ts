@@ -534,6 +534,18 @@ export interface JoinRequest {
   recordings: string[];
 }
 
+/** The poles of the whole loop as the rotors' lag grows from nothing to what it is. */
+export interface Lag {
+  /** time constants at the end, pitch's and yaw's rotor, s */
+  tau: number[];
+  /** whether these are a real rig's, 0.16 s, as the rig given has none */
+  assumed: boolean;
+  /** of these, from nearly 0 to 1 */
+  share: number[];
+  /** per pole its course over `share`, rad/s */
+  poles: Complex[][];
+}
+
 /** Limits that differ from the preset's. */
 export interface LimitChanges {
   /** largest voltage of the pitch motor, either way, V */
@@ -585,8 +597,8 @@ export interface LoopsChanges {
   yaw?: LoopChanges;
 }
 
-/** A design with its outer loop, and frequencies at which L(jω) is wanted. */
-export interface LoopsRequest extends DesignRequest {
+/** A design with its outer loop, and frequencies at which L(jω) is wanted; of the scenario `measured` counts. */
+export interface LoopsRequest extends StepRequest {
   /** rad/s */
   frequencies: number[];
 }

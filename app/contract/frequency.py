@@ -17,12 +17,14 @@ from heli2dof_core import (
 from heli2dof_core.figures import MARGINS, SENSITIVITY
 from heli2dof_core.figures import Margins as CoreMargins
 from heli2dof_core.interaction import dominance_over_frequency
+from heli2dof_core.lag_track import LagTrack
 from heli2dof_core.margins import loop_margins, open_loop_response
 from heli2dof_core.sensitivity import Sensitivity as CoreSensitivity
 from heli2dof_core.signals import AXES
 
 from .design import DesignRequest
-from .model import Finding, Model, Reply, findings_reply, present, told_by
+from .experiment import StepRequest
+from .model import Complex, Finding, Model, Reply, findings_reply, poles_reply, present, reply_of, told_by
 
 
 class RgaRequest(DesignRequest):
@@ -33,12 +35,26 @@ class RgaRequest(DesignRequest):
     )
 
 
-class LoopsRequest(DesignRequest):
-    """A design with its outer loop, and frequencies at which L(jω) is wanted."""
+class LoopsRequest(StepRequest):
+    """A design with its outer loop, and frequencies at which L(jω) is wanted; of the scenario `measured` counts."""
 
     frequencies: list[Annotated[float, Field(ge=1e-9, le=1e6)]] = Field(
         min_length=1, max_length=2000, description="rad/s"
     )
+
+
+class Lag(Model):
+    """The poles of the whole loop as the rotors' lag grows from nothing to what it is."""
+
+    tau: list[float] = Field(description="time constants at the end, pitch's and yaw's rotor, s")
+    assumed: bool = Field(description="whether these are a real rig's, 0.16 s, as the rig given has none")
+    share: list[float] = Field(description="of these, from nearly 0 to 1")
+    poles: list[list[Complex]] = Field(description="per pole its course over `share`, rad/s")
+
+
+def lag_reply(track: LagTrack) -> Reply:
+    """The track, pole by pole."""
+    return reply_of(Lag, track, poles=[poles_reply(course) for course in track.poles.T])
 
 
 class Dominance(Model):

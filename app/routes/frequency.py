@@ -5,15 +5,26 @@ from __future__ import annotations
 from fastapi import APIRouter, Response
 
 from heli2dof_core import interaction, loop_of, place
+from heli2dof_core.lag_track import lag_track
 
 from ..contract.encoding import json_response
-from ..contract.frequency import LoopsRequest, OpenLoops, Rga, RgaRequest, open_loops_reply, rga_reply
+from ..contract.experiment import StepRequest
+from ..contract.frequency import (
+    Lag,
+    LoopsRequest,
+    OpenLoops,
+    Rga,
+    RgaRequest,
+    lag_reply,
+    open_loops_reply,
+    rga_reply,
+)
 from ..contract.model import Reply, described
 from ..jobs.compute import Compute
 
 
 def build_router(compute: Compute) -> APIRouter:
-    """The routes rga and loops under /api/v1."""
+    """The routes rga, loops and lag under /api/v1."""
     router = APIRouter(prefix="/api/v1", tags=["design"])
 
     @router.post("/rga", **described(Rga, "Relative gain array, pairing and Niederlinski index"))
@@ -33,6 +44,13 @@ def build_router(compute: Compute) -> APIRouter:
         def work() -> Reply:
             spec = request.to_spec()
             return open_loops_reply(loop_of(spec), request.frequencies)
+
+        return json_response(await compute.run(work))
+
+    @router.post("/lag", **described(Lag, "The loop's poles as the rotors' lag grows to what it is"))
+    async def lag(request: StepRequest) -> Response:
+        def work() -> Reply:
+            return lag_reply(lag_track(loop_of(request.to_spec())))
 
         return json_response(await compute.run(work))
 

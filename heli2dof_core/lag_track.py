@@ -1,0 +1,60 @@
+"""Where the rotors' lag takes the poles of the whole loop, as it grows from nothing to what it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .augmentation import augmented_loop
+from .frozen import Frozen
+from .loop import Loop
+from .poles import match_poles
+from .rotors import Actuators
+from .signals import Complexes, Floats, fixed
+
+USUAL = 0.16
+"""Time constant of a real rig's rotors, s, taken where a rig has none of its own: of a first-generation Aero's 0.156,
+of an Aero 2's 0.162 to 0.169."""
+STEPS = 60
+
+
+@dataclass(frozen=True)
+class LagTrack(Frozen):
+    """The poles of the whole loop over the rotors' lag.
+
+    Attributes:
+        tau: both rotors' time constants at the end, (2,), s: the rig's own, or `USUAL` where it has none.
+        assumed: whether they are `USUAL`.
+        share: of these, (steps,), from nearly 0 to 1, finer where poles move fast.
+        poles: rad/s, (steps, n), each column the course of one pole.
+    """
+
+    tau: Floats
+    assumed: bool
+    share: Floats
+    poles: Complexes
+
+
+def lag_track(loop: Loop, steps: int = STEPS) -> LagTrack:
+    """The track of each pole of the loop; gains and estimator stay as they are."""
+    own, design = loop.actuators or Actuators.none(loop.design.plant), loop.design
+    assumed = not own.lags
+    tau = fixed(np.full(2, USUAL)) if assumed else own.tau
+    parts = (loop.estimator, loop.proportional, loop.integral, loop.voltage_from_reference)
+    _, A, _, places, _ = augmented_loop(design, replace(own, tau=tau), *parts)
+    kept = [i for i, place in enumerate(places) if place not in _apart(loop)]
+    A, places = A[np.ix_(kept, kept)], [places[i] for i in kept]
+    rotors = [i for i, place in enumerate(places) if place in (6, 7)]
+    share = np.linspace(0.0, 1.0, steps + 1)[1:] ** 2
+    stack = np.repeat(A[None], steps, axis=0)
+    stack[:, rotors] /= share[:, None, None]  # their rows are divided by τ
+    poles = np.linalg.eigvals(stack).astype(np.complex128)
+    for k in range(steps - 1, 0, -1):  # back from the end, whose order is that of the loop
+        poles[k - 1] = poles[k - 1][match_poles(poles[k], poles[k - 1])]
+    return LagTrack(tau, assumed, share, poles)
+
+
+def _apart(loop: Loop) -> set[int]:
+    """Places of the integrals that drive no motor."""
+    return {loop.places[i] for i in range(len(loop.A)) if i not in loop.connected}
