@@ -14,14 +14,18 @@ def augmented_loop(
     design: Design,
     actuators: Actuators | None,
     estimator: Estimator | None,
-    P: Floats,
-    integral: Floats | None,
-    by_reference: Floats,
+    outer: tuple[Floats, Floats | None, Floats],
 ) -> tuple[Floats, Floats, Floats, tuple[int, ...], Floats]:
     """∂u/∂ states, A, B, places and motors' columns of a loop with rotors that lag, or with an estimator.
 
-    `actuators` are those of the rig, whatever the design knows of them.
+    Args:
+        design: K.
+        actuators: those of the rig, whatever the design knows of them.
+        estimator: of the states, if they are not measured.
+        outer: volts of each motor per error, per integral of the errors (None where nothing integrates), and per
+            reference, each 2×2.
     """
+    P, integral, by_reference = outer
     plant, K = design.plant, design.K
     tau = np.zeros(2) if actuators is None else actuators.tau
     thrust = plant.B if actuators is None else plant.B * actuators.slope

@@ -41,8 +41,8 @@ def lag_track(loop: Loop, steps: int = STEPS) -> LagTrack:
     own, design = loop.actuators or Actuators.none(loop.design.plant), loop.design
     assumed = not own.lags
     tau = fixed(np.full(2, USUAL)) if assumed else own.tau
-    parts = (loop.estimator, loop.proportional, loop.integral, loop.voltage_from_reference)
-    _, A, _, places, _ = augmented_loop(design, replace(own, tau=tau), *parts)
+    outer = (loop.proportional, loop.integral, loop.voltage_from_reference)
+    _, A, _, places, _ = augmented_loop(design, replace(own, tau=tau), loop.estimator, outer)
     kept = [i for i, place in enumerate(places) if place not in _apart(loop)]
     A, places = A[np.ix_(kept, kept)], [places[i] for i in kept]
     rotors = [i for i, place in enumerate(places) if place in (6, 7)]

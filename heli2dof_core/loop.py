@@ -232,7 +232,7 @@ def close_loop(design: Design, outer: OuterLoop = OuterLoop(), estimator: Estima
         motors = np.zeros((order, 2))
         motors[:4] = plant.B
         return Loop(design, outer, P, integral, F, law, by_reference, A, B, tuple(range(order)), motors)
-    parts = augmented_loop(design, design.actuators, estimator, P, integral, by_reference)
+    parts = augmented_loop(design, design.actuators, estimator, (P, integral, by_reference))
     return Loop(design, outer, P, integral, F, parts[0], by_reference, *parts[1:], estimator)
 
 
