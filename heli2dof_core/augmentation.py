@@ -63,3 +63,11 @@ def augmented_loop(
     B += told @ by_reference
     places = (*range(4), *range(4, 4 + z), *(6 + j for j in lagged), *range(8, 8 + n - w))
     return law, A, B, places, motors
+
+
+def inner_loop(design: Design) -> tuple[Floats, Floats]:
+    """A and B of the rig with its rotors under u = −Kx + v, from v, without an outer loop; θ and ψ come first."""
+    if design.actuators is None or design.rotor_poles is not None:
+        return design.A_closed, design.model[1]
+    _, A, B, _, _ = augmented_loop(design, design.actuators, None, (np.zeros((2, 2)), None, np.eye(2)))
+    return A, B

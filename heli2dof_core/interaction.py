@@ -6,12 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .augmentation import inner_loop
 from .design import Design
 from .eigenvalues import resolvent
 from .findings import Finding, Severity
 from .relative_gains import diagonal_dominance
+from .rotors import Actuators
 from .scenario import Pairing
-from .signals import INPUTS, OUTPUTS, C, Complexes, Floats
+from .signals import INPUTS, OUTPUTS, Complexes, Floats
 from .tables import Shown, Table, latex_matrix, number
 
 
@@ -99,16 +101,28 @@ def interaction(design: Design, pairing: Pairing = "diagonal") -> Interaction:
     Of two by two gains the pairing with a relative gain above ½ is the one nearer to 1, and the only
     one with a positive Niederlinski index unless both have: the index is 1/λ₁₁, and 1/λ₁₂ crosswise.
     """
-    (a, _), (_, d) = design.steady_state_inverse.tolist()
+    (a, b), (c, d) = design.steady_state_inverse.tolist()
     determinant = design.steady_state_determinant
     if not determinant:
         return Interaction(None, pairing)
+    if design.actuators is not None and design.rotor_poles is None:
+        (a, b), (c, d) = _on_the_machine(design, design.actuators).tolist()
+        determinant = a * d - b * c
+        if not determinant:
+            return Interaction(None, pairing)
     return Interaction(a * d / determinant, pairing)  # Ĝ(0) = adj(Ĝ(0)⁻¹)/det, so λ₁₁ = ĝ₁₁ (Ĝ⁻¹)₁₁
 
 
+def _on_the_machine(design: Design, actuators: Actuators) -> Floats:
+    """Ĝ(0)⁻¹ where a change of voltage acts φ′ times as hard as the design knows."""
+    slope = np.where(actuators.slope > 0.0, actuators.slope, 1.0)[:, None]
+    return design.steady_state_inverse + (1.0 - 1.0 / slope) * design.plant.statics
+
+
 def closed_loop_response(design: Design, frequencies: Floats) -> Complexes:
-    """Ĝ(jω) at `frequencies` (rad/s), shape (n, 2, 2), rad/V (Eq. 17)."""
-    return C @ resolvent(design.A_closed, design.plant.B, frequencies)
+    """Ĝ(jω) at `frequencies` (rad/s), shape (n, 2, 2), rad/V (Eq. 17), on the rig's own rotors."""
+    A, B = inner_loop(design)
+    return resolvent(A, B, frequencies)[:, :2]
 
 
 def rga_over_frequency(design: Design, frequencies: Floats) -> Complexes:
