@@ -47,6 +47,37 @@ def gain(structure: Structure, *, shifted: bool = False) -> Callable[..., tuple[
 
 
 @cache
+def gain_with_rotors(structure: Structure, *, shifted: bool = False) -> Callable[..., tuple[Matrix, Matrix]]:
+    """f(d_10, d_11, d_12, d_20, d_21, d_22, *parameters, theta_0, tau_p, tau_y) → K, 2×6, and Ĝ(0)⁻¹, 2×2.
+
+    With `shifted` the function takes the basis' shift c as one more argument, the last. Where thrust is no straight
+    line, each motor's thrust constants are given times the curve's slope φ′ at the trim.
+    """
+    from .symbolic.full_rank import steady_state_inverse
+    from .symbolic.names import PARAMETERS, c, tau_p, tau_y, theta_0
+    from .symbolic.rotors import COEFFICIENTS, base, full_rank_with_rotors
+
+    coefficients = [d for triple in COEFFICIENTS for d in triple]
+    arguments = [*coefficients, *PARAMETERS.values(), theta_0, tau_p, tau_y, *([c] if shifted else [])]
+    K = full_rank_with_rotors(structure, shifted=shifted).K
+    inverse = steady_state_inverse(K, *base())
+    return _compile(arguments, (_physical(K.to_Matrix()), _physical(inverse.to_Matrix())))
+
+
+@cache
+def observer_gain(structure: Structure, *, shifted: bool = False) -> Callable[..., Matrix]:
+    """f(d_10, d_11, d_20, d_21, *parameters, theta_0) → L, 4×2, with the coefficients of the observer's polynomials.
+
+    With `shifted` the function takes the basis' shift c as one more argument, the last.
+    """
+    from .symbolic.names import PARAMETERS, c, d_10, d_11, d_20, d_21, theta_0
+    from .symbolic.observer import observer
+
+    arguments = [d_10, d_11, d_20, d_21, *PARAMETERS.values(), theta_0, *([c] if shifted else [])]
+    return _compile(arguments, _physical(observer(structure, shifted=shifted).L.to_Matrix()))
+
+
+@cache
 def construction(structure: Structure, *, shifted: bool = False) -> Callable[..., tuple[Matrix, Matrix, Any]]:
     """f(*parameters, theta_0[, c]) → T (4×4), Q (2×2), (α, β₀, γ, a), of the structure's basis."""
     from .symbolic.full_rank import full_rank

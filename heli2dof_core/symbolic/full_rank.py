@@ -102,22 +102,31 @@ def member(
     """The member of the family with this structure, over any field: that of the symbols, or the rational numbers.
 
     Args:
-        A: the rig's, 4×4.
-        B: the rig's, 4×2.
+        A: n×n, of a pair with the indices (n/2, n/2): the rig's, that with its rotors (`rotors`), or the observer's
+            dual (`observer`).
+        B: n×2.
         structure: which member; its own `shift` is not looked at.
-        polynomials: (d₁₀, d₁₁), (d₂₀, d₂₁).
+        polynomials: (d₁₀, d₁₁ …), (d₂₀, d₂₁ …), n/2 coefficients each, the leading 1 left out.
         shift: of the basis, an element of the field; None takes the one that gives the structure its name.
     """
-    form = canonical_form(A, B, INDICES, _rows(A, B, structure, shift))
+    half = A.shape[0] // 2
+    form = canonical_form(A, B, (half, half), _rows(A, B, (half, half), structure, shift))
     blocks = [((i,), pair) for i, pair in enumerate(polynomials)]
     return FullRank(form, feedback(form, desired_rows(form, blocks, _kept_triangle(structure))))
 
 
 def steady_state_inverse(K: DomainMatrix, A: DomainMatrix, B: DomainMatrix) -> DomainMatrix:
-    """Ĝ(0)⁻¹ = K's columns of θ and ψ less B₂⁻¹ A₂₁, 2×2, over the field of all three."""
-    angles, rates = [0, 1], [2, 3]
+    """Ĝ(0)⁻¹ = K's columns of θ and ψ less (I + K_v) B₂⁻¹ A₂₁, 2×2, over the field of all three.
+
+    Args:
+        K: 2×4, or 2×6 with K_v in its last columns, of the rotors' speeds.
+        A: the rig's without rotors, 4×4.
+        B: the same rig's, 4×2.
+    """
+    angles, rates, rotors = [0, 1], [2, 3], list(range(4, K.shape[1]))
     statics = B.extract(rates, angles).inv().matmul(A.extract(rates, angles))
-    return K.extract(angles, angles) - statics
+    inverse = K.extract(angles, angles) - statics
+    return inverse - K.extract(angles, rotors).matmul(statics) if rotors else inverse
 
 
 def to_field(matrix: sp.MatrixBase) -> DomainMatrix:
@@ -125,8 +134,6 @@ def to_field(matrix: sp.MatrixBase) -> DomainMatrix:
     return DomainMatrix.from_Matrix(matrix).convert_to(FIELD).to_dense()
 
 
-INDICES = (2, 2)
-"""Controllability indices of every rig whose motors' torques are not parallel; `indices` derives them."""
 _POLYNOMIALS = ((d_10, d_11), (d_20, d_21))
 
 
@@ -137,18 +144,33 @@ def _kept_triangle(structure: Structure) -> Triangle:
     return "lower" if structure.lead == "pitch" else "upper"
 
 
-def _rows(A: DomainMatrix, B: DomainMatrix, structure: Structure, shift: Any) -> list[DomainMatrix]:
+def _rows(
+    A: DomainMatrix, B: DomainMatrix, indices: tuple[int, int], structure: Structure, shift: Any
+) -> list[DomainMatrix]:
     """The leading rows q₁, q₂ that give the structure its name."""
     if structure.coupling == "axis-decoupled":
-        outputs = DomainMatrix.eye(4, A.domain).to_dense()
-        return [outputs.extract([i], list(range(4))) for i in range(2)]
-    q_1, q_2 = leading_rows(A, B, INDICES)
+        axes = _axes(A, B, indices)
+        return [axes.extract([i], list(range(A.shape[0]))) for i in range(2)]
+    q_1, q_2 = leading_rows(A, B, indices)
     if structure.coupling == "input-diagonal" and shift is None:
         return [q_1, q_2]
     yaw_leads = structure.coupling == "triangular" and structure.lead == "yaw"
-    if shift is None:  # K_yp/K_yy or K_py/K_pp
-        pitch, yaw = B.to_list()[2:]
-        shift = yaw[0] / yaw[1] if yaw_leads else pitch[1] / pitch[0]
+    if shift is None:  # the last derivative of the axes that is free of the inputs, derived once more
+        driven = _axes(A, B, indices)
+        for _ in range(indices[0] - 1):
+            driven = driven.matmul(A)
+        pitch, yaw = driven.matmul(B).to_list()
+        shift = (
+            yaw[0] / yaw[1] if yaw_leads else pitch[1] / pitch[0]
+        )  # K_yp/K_yy or K_py/K_pp, of the rig alone
     if yaw_leads:
         return [q_1, q_2 + q_1 * shift]
     return [q_1 + q_2 * shift, q_2]  # with c = K_py/K_pp this leaves θ alone in the first block
+
+
+def _axes(A: DomainMatrix, B: DomainMatrix, indices: tuple[int, int]) -> DomainMatrix:
+    """The rows that no input reaches before the last derivative, 2×n: θ and ψ of the rig."""
+    reached = B
+    for _ in range(indices[0] - 2):
+        reached = A.matmul(reached).hstack(B)
+    return reached.transpose().nullspace().rref()[0]

@@ -33,8 +33,10 @@ V_p, V_y = sp.symbols("V_p V_y")
 theta_0 = sp.Symbol("theta_0")
 sin_0, cos_0 = sp.symbols("sin_0 cos_0")  # plain symbols keep θ₀ ≠ 0 harmless for polynomials
 alpha, beta_0, gamma_, a = sp.symbols("alpha beta_0 gamma_ a")
-p_1, p_2, p_3, p_4 = sp.symbols("p_1 p_2 p_3 p_4")
-d_10, d_11, d_20, d_21 = sp.symbols("d_10 d_11 d_20 d_21")
+tau_p, tau_y = sp.symbols("tau_p tau_y")
+p_1, p_2, p_3, p_4, p_5, p_6 = sp.symbols("p_1 p_2 p_3 p_4 p_5 p_6")
+q_1, q_2, q_3, q_4 = sp.symbols("q_1 q_2 q_3 q_4")
+d_10, d_11, d_12, d_20, d_21, d_22 = sp.symbols("d_10 d_11 d_12 d_20 d_21 d_22")
 c = sp.Symbol("c")
 s = sp.Symbol("s")
 
@@ -60,7 +62,12 @@ NAMES: tuple[Name, ...] = (
     Name("beta_0", r"\beta_0", "effective inertia about yaw, J_y + m l² cos²θ₀", "kg·m²"),
     Name("gamma_", r"\gamma", "K_py K_yp − K_pp K_yy, minus the thrust matrix's determinant", "(N·m/V)²"),
     Name("a", "a", "gravity and stiffness in A₃₁, (m g l sinθ₀ − K_s)/α", "1/s²"),
+    Name("tau_p", r"\tau_p", "time constant of the pitch motor's rotor", "s"),
+    Name("tau_y", r"\tau_y", "time constant of the yaw motor's rotor", "s"),
     *(Name(f"p_{i}", f"p_{i}", f"desired pole {i}", "rad/s") for i in (1, 2, 3, 4)),
+    Name("p_5", "p_5", "desired pole 5, pitch's third where the rotors are placed", "rad/s"),
+    Name("p_6", "p_6", "desired pole 6, yaw's third where the rotors are placed", "rad/s"),
+    *(Name(f"q_{i}", f"q_{i}", f"desired pole {i} of the observer", "rad/s") for i in (1, 2, 3, 4)),
     Name("d_10", "d_{10}", "constant coefficient of d₁(s), p₁p₂", "1/s²"),
     Name("d_11", "d_{11}", "linear coefficient of d₁(s), −p₁ − p₂", "1/s"),
     Name("d_20", "d_{20}", "constant coefficient of d₂(s), p₃p₄", "1/s²"),
@@ -79,6 +86,18 @@ COEFFICIENTS_OF_POLES: dict[sp.Symbol, sp.Expr] = {
     d_21: -p_3 - p_4,
 }
 """Coefficients of the desired polynomials d₁, d₂ in terms of the poles."""
+
+COEFFICIENTS_OF_TRIPLES: dict[sp.Symbol, sp.Expr] = {
+    d: value
+    for names, (p, q, r) in (((d_10, d_11, d_12), (p_1, p_2, p_5)), ((d_20, d_21, d_22), (p_3, p_4, p_6)))
+    for d, value in zip(names, (-p * q * r, p * q + p * r + q * r, -p - q - r), strict=True)
+}
+"""Coefficients of the desired cubics where the rotors are placed, too: pitch's triple is p₁, p₂, p₅."""
+
+COEFFICIENTS_OF_OBSERVER_POLES: dict[sp.Symbol, sp.Expr] = {
+    d: value.subs({p_1: q_1, p_2: q_2, p_3: q_3, p_4: q_4}) for d, value in COEFFICIENTS_OF_POLES.items()
+}
+"""Coefficients of the observer's polynomials: (q₁, q₂) is pitch's pair, (q₃, q₄) yaw's."""
 
 
 def latex(expression: Any) -> str:
