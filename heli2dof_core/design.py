@@ -13,12 +13,13 @@ from .couplings import Structure
 from .engine import engine
 from .findings import Finding
 from .frozen import Frozen, frozen
-from .gains import full_rank_gain, full_rank_gain_with_rotors, with_rotors
+from .gains import full_rank_gain
 from .interop import state_space
 from .kernels.layout import POLYNOMIALS, ROUNDING
 from .placement.method import Task, Weights
 from .placement.registry import method as method_named
 from .placement.verdict import Verdict, eigenvector_condition, judge
+from .placement.with_rotors import gain_with_rotors, require_slopes, with_rotors
 from .plant import Plant
 from .poles import PoleSet
 from .remarks import design_remarks
@@ -75,7 +76,7 @@ class Design(Frozen, Shown):
         """A and B of the model that K is designed for: 4×4 and 4×2, or 6×6 and 6×2 with both rotors."""
         if self.rotor_poles is None or self.actuators is None:
             return self.plant.A, self.plant.B
-        return frozen(with_rotors(self.plant, self.actuators))
+        return frozen(with_rotors(self.plant.A, self.plant.B * self.actuators.slope, self.actuators.tau))
 
     @property
     def states(self) -> tuple[Signal, ...]:
@@ -276,14 +277,16 @@ class _SixStates:
     rotor_poles: tuple[float, float]
 
     def placed(self, structure: Structure, method: str, weights: Weights | None) -> Design:
-        chosen, (A, B) = method_named(method), with_rotors(self.plant, self.actuators)
+        chosen, slope, tau = method_named(method), self.actuators.slope, self.actuators.tau
         known = (self.actuators, self.rotor_poles)
         if chosen.structured:
-            arguments = (self.plant, self.actuators, self.poles, self.rotor_poles, structure)
-            K, inverse = full_rank_gain_with_rotors(*arguments)
+            task = (self.plant, self.poles, self.rotor_poles, structure, tau)
+            K, inverse = gain_with_rotors(*task, slope=slope)
             return Design(self.plant, self.poles, method, structure, K, inverse, None, True, *known)
         if weights is not None:  # what the rotors' speeds cost is their voltages' business
             weights = replace(weights, states=(*weights.states, 0.0, 0.0))
+        require_slopes(slope)
+        A, B = with_rotors(self.plant.A, self.plant.B * slope, tau)
         wanted = np.array([*self.poles.values, *self.rotor_poles], dtype=np.complex128)
         found = chosen.place(Task(A, B, wanted, np.eye(2, 6), weights))
         K = np.ascontiguousarray(found.K, dtype=np.float64)

@@ -70,7 +70,7 @@ def gain_with_rotors(
     """
     require_structure(plant.parameters, structure)
     lags, slopes = _require_lags(tau), np.asarray(slope, dtype=float)
-    _require_slopes(slopes)
+    require_slopes(slopes)
     if not plant.nearly_parallel:
         numbers = list(plant.numbers)
         for motor, name in _THRUSTS:
@@ -153,7 +153,8 @@ def _require_lags(tau: ArrayLike) -> Floats:
     return lags
 
 
-def _require_slopes(slopes: Floats) -> None:
+def require_slopes(slopes: Floats) -> None:
+    """Raises UncontrollableError where a thrust curve has no slope at the trim."""
     for axis, value in zip(("pitch", "yaw"), slopes.tolist(), strict=True):
         if not value > 0:
             raise UncontrollableError(
