@@ -18,6 +18,7 @@ Knows no web, no 3D and no plot. SymPy and python-control are imported when they
 
 from typing import TYPE_CHECKING, Any
 
+from .body import body_of
 from .comparison import Comparison, compare, compare_splits
 from .components import Components
 from .couplings import Structure
@@ -47,7 +48,7 @@ from .plant import Plant, plant
 from .poles import PoleSet, match_poles, pole_error
 from .presets import PRESETS, Preset, preset
 from .relative_gains import best_pairing, diagonal_dominance, niederlinski_index, relative_gain_array
-from .request import body_of, spec_of
+from .request import spec_of
 from .robustness import Cloud, Uncertainty, cloud
 from .rotors import Actuators, AxisFriction, Friction, Rotor, Rotors
 from .scenario import Digital, Disturbance, Limits, OuterLoop, PIGains, Scenario

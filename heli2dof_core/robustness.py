@@ -139,8 +139,13 @@ def cloud_in_parts(
         InvalidInputError: the scenario has a digital controller or a disturbance.
         Heli2DofError: the design does not exist.
     """
-    for name in ("digital", "disturbance"):
-        if getattr(spec.scenario, name) is not None:
+    known = spec.scenario
+    for name, there in (
+        ("digital", known.digital is not None),
+        ("disturbance", known.disturbance is not None),
+        ("noise", any(known.noise)),
+    ):
+        if there:
             raise InvalidInputError(
                 f"uncertain rigs take no {name}: their controller is continuous and their motors undisturbed",
                 field=f"scenario.{name}",

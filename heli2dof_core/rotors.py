@@ -86,7 +86,7 @@ class Friction:
     static: Annotated[
         float | None,
         Quantity(
-            "torque that an axis at rest withstands, at least the one against the motion",
+            "torque that an axis at rest withstands; less than the one against the motion counts as equal",
             "N·m",
             0.0,
             1e3,
@@ -97,18 +97,11 @@ class Friction:
 
     def __post_init__(self) -> None:
         require_valid(self)
-        if self.static is not None and self.static < self.coulomb:
-            raise InvalidInputError(
-                f"static friction of {self.static:g} N·m is less than the {self.coulomb:g} N·m against the motion",
-                field="static",
-                value=self.static,
-                hint="Give at least as much, or leave it out.",
-            )
 
     @property
     def breakaway(self) -> float:
         """F_s, N·m."""
-        return self.coulomb if self.static is None else self.static
+        return max(self.coulomb, self.static or 0.0)
 
 
 @dataclass(frozen=True)

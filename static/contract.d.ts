@@ -120,6 +120,8 @@ export interface ComparisonRow {
   /** asked for where the rotors are placed, rad/s */
   rotor_poles?: Complex[];
   closed_loop_poles?: Complex[];
+  /** where the request has one, or measures by it */
+  observer?: ObserverGains;
   findings?: Finding[];
   /** RGA at s = 0; rows θ, ψ, columns V_p, V_y */
   rga?: number[][];
@@ -332,6 +334,7 @@ export interface Evaluation {
   margins: LoopMargins;
   sensitivity?: Sensitivity;
   loop_poles: Complex[];
+  observer?: ObserverGains;
   stable: boolean;
   trim: Voltages;
   limits: Limits;
@@ -443,6 +446,8 @@ export interface Gains {
   closed_loop_poles: Complex[];
   /** one per input */
   controllability_indices: number[];
+  /** where the request has one, or measures by it */
+  observer?: ObserverGains;
   findings: Finding[];
 }
 
@@ -694,6 +699,14 @@ export interface ObserverChanges {
   angle_noise?: number;
   /** of the estimate's errors: q₁, q₂ (pitch's pair), q₃, q₄ (yaw's), rad/s */
   poles?: (number | { re: number; im: number })[] | null;
+}
+
+/** What estimates the states: x̂' = A x̂ + B u + L (y − C x̂). */
+export interface ObserverGains {
+  /** 4×2, rows θ, ψ, θ̇, ψ̇, columns θ, ψ; 1/s, and 1/s² below */
+  L: number[][];
+  /** eigenvalues of A − LC, rad/s, slowest first */
+  poles: Complex[];
 }
 
 /** Added to the file's angles after their signs, in its unit. */
@@ -1276,6 +1289,7 @@ export interface Step {
   trim: Voltages;
   metrics: Metrics;
   loop_poles: Complex[];
+  observer?: ObserverGains;
   stable: boolean;
   findings: Finding[];
 }

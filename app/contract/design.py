@@ -13,6 +13,7 @@ from pydantic import Field, create_model
 
 from heli2dof_core import (
     Design,
+    Estimator,
     Parameters,
     Spec,
     plant,
@@ -171,6 +172,20 @@ class DesignRequest(asked(STRUCTURE, OUTER, ROTORS)):
         return spec_of(self.model_dump(exclude_unset=True, include=NAMES))
 
 
+class ObserverGains(Model):
+    """What estimates the states: x̂' = A x̂ + B u + L (y − C x̂)."""
+
+    L: list[list[float]] = Field(description="4×2, rows θ, ψ, θ̇, ψ̇, columns θ, ψ; 1/s, and 1/s² below")
+    poles: list[Complex] = Field(description="eigenvalues of A − LC, rad/s, slowest first")
+
+
+def observer_reply(known: Estimator | None) -> Reply:
+    """An observer's gain and poles, under ``observer``; nothing of other estimators."""
+    if known is None or known.L is None:
+        return {}
+    return {"observer": reply_of(ObserverGains, known)}
+
+
 class Gains(told_by(OF_GAINS)):
     """K in V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇, with rotors placed v_p, v_y in V/V; rows V_p, V_y.
 
@@ -193,6 +208,7 @@ class Gains(told_by(OF_GAINS)):
     )
     closed_loop_poles: list[Complex]
     controllability_indices: list[int] = Field(description="one per input")
+    observer: ObserverGains | None = Field(None, description="where the request has one, or measures by it")
     findings: list[Finding]
 
 

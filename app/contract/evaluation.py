@@ -9,7 +9,7 @@ from heli2dof_core.request import (
     LIMITS,
 )
 
-from .design import Gains, gains_reply
+from .design import Gains, ObserverGains, gains_reply
 from .experiment import BothModels, StepRequest, loop_reply, step_reply
 from .fields import Whole
 from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, rga_reply, sensitivity_reply
@@ -48,6 +48,7 @@ class Evaluation(Model):
     margins: LoopMargins
     sensitivity: Sensitivity | None = None
     loop_poles: list[Complex]
+    observer: ObserverGains | None = None
     stable: bool
     trim: Voltages
     limits: Limits

@@ -20,7 +20,7 @@ from heli2dof_core.request import (
 from heli2dof_core.scenario import Model as RigModel
 from heli2dof_core.signals import INPUTS, INTEGRALS, OUTPUTS, STATES
 
-from .design import DesignRequest
+from .design import DesignRequest, ObserverGains, observer_reply
 from .fields import asked
 from .model import (
     Angles,
@@ -140,6 +140,7 @@ class Step(Model):
     trim: Voltages
     metrics: Metrics
     loop_poles: list[Complex]
+    observer: ObserverGains | None = None
     stable: bool
     findings: list[Finding]
 
@@ -157,6 +158,7 @@ def loop_reply(loop: Loop) -> Reply:
         "loop_poles": poles_reply(loop.poles),
         "stable": loop.stable,
         "trim": voltages_reply(loop.design.trim),
+        **observer_reply(loop.estimator),
     }
 
 

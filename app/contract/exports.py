@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from heli2dof_core import Spec, evaluate
+from heli2dof_core.body import body_of
 from heli2dof_core.checks import by_name
 from heli2dof_core.export import FORMATS as CORE_FORMATS
 from heli2dof_core.export import Format
 from heli2dof_core.presets import PRESETS
-from heli2dof_core.request import body_of
 from heli2dof_core.version import package_version
 
 from .encoding import json_bytes

@@ -5,8 +5,16 @@ from __future__ import annotations
 from fastapi import APIRouter, Response
 
 from heli2dof_core import evaluate, loop_of, place, simulate, suggest_pi
+from heli2dof_core.estimators import observe
 
-from ..contract.design import DesignRequest, Gains, Suggestion, gains_reply, suggestion_reply
+from ..contract.design import (
+    DesignRequest,
+    Gains,
+    Suggestion,
+    gains_reply,
+    observer_reply,
+    suggestion_reply,
+)
 from ..contract.encoding import json_response
 from ..contract.evaluation import EvaluateRequest, Evaluation, report_reply
 from ..contract.experiment import ResponseRequest, Step, states_reply, step_reply
@@ -20,7 +28,13 @@ def build_router(compute: Compute) -> APIRouter:
 
     @router.post("/gains", **described(Gains, "K of u = −Kx + v and the poles that it gives"))
     async def gains(request: DesignRequest) -> Response:
-        return json_response(await compute.run(lambda: gains_reply(place(request.to_spec()))))
+        def work() -> Reply:
+            spec = request.to_spec()
+            placed = place(spec)
+            known = None if spec.observer is None else observe(placed, spec.observer)
+            return gains_reply(placed) | observer_reply(known)
+
+        return json_response(await compute.run(work))
 
     @router.post("/step", **described(Step, "Step response of the whole loop"))
     async def step(request: ResponseRequest) -> Response:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 
+from ..body import body_of
 from ..placement.registry import METHODS
 from ..presets import PRESETS, Preset
-from ..request import body_of
 from ..signals import AXES
 from ..spec import Spec
 from ..tables import number

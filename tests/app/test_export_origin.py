@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from app.contract.experiment import StepRequest
 from heli2dof_core import PRESETS, Limits, OuterLoop, PIGains, Scenario, Spec, Structure
+from heli2dof_core.body import body_of
 from heli2dof_core.placement.method import Weights
-from heli2dof_core.request import body_of
 from heli2dof_core.scenario import Digital, Disturbance
 from tests.strategies import operating_points, pole_sets, rigs, structures
 

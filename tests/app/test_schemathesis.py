@@ -42,13 +42,16 @@ DESIGN = {
     "structure_unavailable": "a coupling needs K_pp or K_yy other than 0; only some have a shift",
     "method_unavailable": "a method may not solve the task: multiple poles, a Riccati equation without solution",
     "invalid_input shift": "the axis-decoupled structure has none",
+    "invalid_input rotors.(pitch|yaw).tau": "rotors are placed that follow at once",
+    "invalid_input rotors.(pitch|yaw).(matched_at|dead_zone)": "a curve is matched beyond its dead zone",
+    "invalid_input rotor_poles.[01]": "those are real: each axis' pair may be complex",
 }
 EXPERIMENT = DESIGN | {
     "invalid_input scenario.digital.sample_time": "the duration may hold at most 100,000 samples of the controller",
     "invalid_input scenario.digital.encoders.(theta|psi)": "the counts of another rig",
 }
 RIGS = EXPERIMENT | {
-    "invalid_input scenario.(digital|disturbance)": "the cloud is continuous and undisturbed",
+    "invalid_input scenario.(digital|disturbance|noise)": "the cloud is continuous and undisturbed",
 }
 RULES: dict[str, dict[str, str]] = {
     "POST /api/v1/suggest": DESIGN
@@ -57,11 +60,14 @@ RULES: dict[str, dict[str, str]] = {
         "invalid_input loops.*": "there may be none in the range of gains that keep the whole loop stable",
     },
     **dict.fromkeys(
-        [f"POST /api/v1/{name}" for name in ("gains", "rga", "loops", "splits", "walkthrough")],
+        [f"POST /api/v1/{name}" for name in ("gains", "rga", "splits", "walkthrough")],
         DESIGN,
     ),
     **dict.fromkeys(
-        [f"POST /api/v1/{name}" for name in ("step", "evaluate", "compare", "motion", "recordings/sample")],
+        [
+            f"POST /api/v1/{name}"
+            for name in ("step", "evaluate", "loops", "lag", "compare", "motion", "recordings/sample")
+        ],
         EXPERIMENT,
     ),
     "POST /api/v1/export/{format}": EXPERIMENT,
