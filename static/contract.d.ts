@@ -385,8 +385,8 @@ export interface Friction {
   /** torque against the motion, N·m */
   coulomb: number;
   /**
-   * torque that an axis at rest withstands, at least the one against the motion, N·m; as against the motion where left
-   * out
+   * torque that an axis at rest withstands; less than the one against the motion counts as equal, N·m; as against the
+   * motion where left out
    */
   static?: number;
 }
@@ -396,8 +396,8 @@ export interface FrictionChanges {
   /** torque against the motion, N·m */
   coulomb?: number | null;
   /**
-   * torque that an axis at rest withstands, at least the one against the motion, N·m; as against the motion where left
-   * out
+   * torque that an axis at rest withstands; less than the one against the motion counts as equal, N·m; as against the
+   * motion where left out
    */
   static?: number | null;
 }

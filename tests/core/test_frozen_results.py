@@ -24,6 +24,7 @@ from heli2dof_core import Digital, Disturbance, Loop, OuterLoop, Spec, Uncertain
 from heli2dof_core.engine import engine
 from heli2dof_core.export import FORMATS
 from heli2dof_core.frozen import Frozen, frozen, read_only
+from heli2dof_core.lag_track import lag_track
 from heli2dof_core.paper.consequence import consequence
 from heli2dof_core.paper.figures import figures
 from heli2dof_core.placement.method import Task
@@ -110,6 +111,8 @@ def everything_else() -> Iterator[Any]:
     yield heli.compare_splits(SPEC)
     A, B = np.diag([1.0, 2.0, -1.0], 1), np.array([[0.0, 1.0], [0.0, 0.0], [1.0, 0.5], [0.0, 1.0]])
     yield heli.suggest_pi(heli.place(SPEC))
+    lagged = SPEC.changed(rotors=heli.Rotors(heli.Rotor(0.1), heli.Rotor(0.1)), measured="observer")
+    yield lag_track(heli.loop_of(lagged.changed(place_rotors=True))), heli.loop_of(lagged).padded
     for name in heli.METHODS:
         C = np.eye(1, 4) if name == "lqr-integral" else None
         yield heli.place_poles(A, B, [-4, -5, -6, -7], name, C=C)
