@@ -31,7 +31,8 @@ from .errors import (
     UncontrollableError,
     UnpairedPolesError,
 )
-from .evaluate import Report, Step, evaluate, place, simulate
+from .estimators import Estimator, Observer
+from .evaluate import Report, Step, evaluate, loop_of, place, simulate
 from .findings import Finding
 from .formulas import formulas
 from .interaction import Interaction, interaction, rga_over_frequency
@@ -48,6 +49,7 @@ from .presets import PRESETS, Preset, preset
 from .relative_gains import best_pairing, diagonal_dominance, niederlinski_index, relative_gain_array
 from .request import body_of, spec_of
 from .robustness import Cloud, Uncertainty, cloud
+from .rotors import Actuators, AxisFriction, Friction, Rotor, Rotors
 from .scenario import Digital, Disturbance, Limits, OuterLoop, PIGains, Scenario
 from .simulation.response import Response
 from .spec import Spec
@@ -64,7 +66,9 @@ if TYPE_CHECKING:
 __all__ = [
     "METHODS",
     "PRESETS",
+    "Actuators",
     "Assessment",
+    "AxisFriction",
     "Cloud",
     "Columns",
     "Comparison",
@@ -72,7 +76,9 @@ __all__ = [
     "Design",
     "Digital",
     "Disturbance",
+    "Estimator",
     "Finding",
+    "Friction",
     "Heli2DofError",
     "Identification",
     "Interaction",
@@ -80,6 +86,7 @@ __all__ = [
     "Limits",
     "Loop",
     "MethodUnavailableError",
+    "Observer",
     "OuterLoop",
     "Overlay",
     "PIGains",
@@ -90,6 +97,8 @@ __all__ = [
     "Recording",
     "Report",
     "Response",
+    "Rotor",
+    "Rotors",
     "Scenario",
     "Spec",
     "Step",
@@ -117,6 +126,7 @@ __all__ = [
     "full_rank",
     "identify",
     "interaction",
+    "loop_of",
     "match_poles",
     "niederlinski_index",
     "place",

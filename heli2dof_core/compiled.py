@@ -94,3 +94,7 @@ def _compile(arguments: Sequence[Any], expression: Any) -> Callable[..., Any]:
     import sympy as sp
 
     return sp.lambdify(arguments, expression, modules="math", cse=True)
+
+
+def observer_gain(structure: Structure):
+    raise NotImplementedError

@@ -2,31 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import chain
-from math import hypot, isfinite, sqrt
+from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .compiled import gain
-from .couplings import Structure, require_structure
+from .couplings import Structure
 from .engine import engine
-from .errors import StructureUnavailableError
 from .findings import Finding
 from .frozen import Frozen, frozen
+from .gains import full_rank_gain, full_rank_gain_with_rotors, with_rotors
 from .interop import state_space
 from .kernels.layout import POLYNOMIALS, ROUNDING
-from .placement.exact import exact_coefficients, exact_matrix, float_matrix
 from .placement.method import Task, Weights
 from .placement.registry import method as method_named
 from .placement.verdict import Verdict, eigenvector_condition, judge
 from .plant import Plant
 from .poles import PoleSet
 from .remarks import design_remarks
+from .rotors import Actuators
 from .scratch import scratch
-from .signals import INPUTS, OUTPUTS, STATES, C, Complexes, Floats
+from .signals import INPUTS, OUTPUTS, ROTORS, STATES, C, Complexes, Floats, Signal
 from .tables import Shown, Table, latex_matrix, number, poles
 
 if TYPE_CHECKING:
@@ -44,13 +42,16 @@ class Design(Frozen, Shown):
         poles: the poles asked for, rad/s.
         method: name of the placement method (`placement.registry`).
         structure: structure of the closed loop; None where the method is not full-rank's.
-        K: gain, 2×4, V/rad in columns θ, ψ and V·s/rad in columns θ̇, ψ̇ (Eqs. 21, 22).
+        K: gain, 2×4, V/rad in columns θ, ψ and V·s/rad in columns θ̇, ψ̇ (Eqs. 21, 22); where the rotors are
+            placed, too, 2×6, V/V in columns v_p, v_y.
         steady_state_inverse: Ĝ(0)⁻¹, 2×2, V/rad: the voltages v that hold one radian on either axis. It equals K's
             first two columns minus B₂⁻¹ A₂₁ and so exists even where a closed-loop pole is 0 and Ĝ(0) does not; it is
             then singular. Where K has a closed form, so has this: near 0 the difference of the numbers would lose
             the digits that decide.
         integral: 2×2, V/(rad·s): the method's own integral action; None where it has none.
         aims: whether the method aims at `poles`, or chooses its own.
+        actuators: rotors and friction of the rig, which the design may know of or not; None of the paper's rig.
+        rotor_poles: the poles p₅ of pitch's and p₆ of yaw's triple, rad/s, where the rotors are placed; else None.
     """
 
     plant: Plant
@@ -61,16 +62,41 @@ class Design(Frozen, Shown):
     steady_state_inverse: Floats
     integral: Floats | None = None
     aims: bool = True
+    actuators: Actuators | None = None
+    rotor_poles: tuple[float, float] | None = None
+
+    @property
+    def trim(self) -> Floats:
+        """Voltages that hold the rig at its operating point, (2,), V, thrust curves considered."""
+        return self.plant.trim if self.actuators is None else self.actuators.trim
+
+    @cached_property
+    def model(self) -> tuple[Floats, Floats]:
+        """A and B of the model that K is designed for: 4×4 and 4×2, or 6×6 and 6×2 with both rotors."""
+        if self.rotor_poles is None or self.actuators is None:
+            return self.plant.A, self.plant.B
+        return frozen(with_rotors(self.plant, self.actuators))
+
+    @property
+    def states(self) -> tuple[Signal, ...]:
+        """Those of the model."""
+        return STATES if self.rotor_poles is None else (*STATES, *ROTORS)
+
+    @cached_property
+    def wanted(self) -> Complexes:
+        """All poles asked for, rad/s: p₁ … p₄, and p₅, p₆ where the rotors are placed."""
+        return frozen(np.array([*self.poles.values, *(self.rotor_poles or ())], dtype=np.complex128))
 
     @cached_property
     def A_closed(self) -> Floats:
-        """A − BK, 4×4."""
-        return frozen(self.plant.A - self.plant.B @ self.K)
+        """A − BK, 4×4 or 6×6."""
+        A, B = self.model
+        return frozen(A - B @ self.K)
 
     @cached_property
     def verdict(self) -> Verdict:
         """Where the poles of A − BK are, exactly where floats do not tell it."""
-        return judge(self.plant.A, self.plant.B, self.K, self.poles.array)
+        return judge(*self.model, self.K, self.wanted)
 
     @property
     def closed_loop_poles(self) -> Complexes:
@@ -90,7 +116,7 @@ class Design(Frozen, Shown):
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """Remarks on the poles and the gain."""
-        found = self.poles.values if self.aims else self.closed_loop_poles.tolist()
+        found = self.wanted.tolist() if self.aims else self.closed_loop_poles.tolist()
         verdict = {"stable": self.stable, "steady": self.steady_state_determinant != 0}
         return design_remarks(self.plant, self.K, found, self.pole_error, **verdict)
 
@@ -116,6 +142,8 @@ class Design(Frozen, Shown):
 
         So it does where the product is nothing but rounding of K (`ROUNDING`), as in the loop's own verdict.
         """
+        if self.rotor_poles is not None:
+            return self._determinant_with_rotors()
         # plain numbers: on two by two, NumPy takes longer around a product than it takes itself
         (p, q), (r, s) = self.plant.thrust
         (w, x), (y, z) = self.steady_state_inverse.tolist()
@@ -132,6 +160,22 @@ class Design(Frozen, Shown):
         size = abs(a) * h + e * abs(d) + abs(b) * g + f * abs(c)
         return product / (p * s - q * r) if abs(product) > ROUNDING * size else 0.0
 
+    def _determinant_with_rotors(self) -> float:
+        """The same of six states: det(A − BK) = det(B₂ φ′) det Ĝ(0)⁻¹ / (τ_p τ_y)."""
+        A, B = self.model
+        thrust, lag = A[2:4, 4:], B[4:].diagonal()
+        statics = np.abs(np.linalg.solve(thrust, A[2:4, :2]))
+        sizes = np.abs(self.K[:, :2]) + (np.eye(2) + np.abs(self.K[:, 4:])) @ statics
+        (a, b), (c, d) = self.steady_state_inverse.tolist()
+        size = float(
+            sizes[0, 0] * abs(d) + abs(a) * sizes[1, 1] + sizes[0, 1] * abs(c) + abs(b) * sizes[1, 0]
+        )
+        determinant = a * d - b * c
+        if self.aims:
+            product = float(np.prod(self.wanted).real)
+            determinant = product / float(np.linalg.det(thrust) * np.prod(lag))
+        return determinant if abs(determinant) > ROUNDING * size else 0.0
+
     @cached_property
     def steady_state(self) -> Floats | None:
         """Ĝ(0), 2×2, rad/V; None where a pole of A − BK lies at 0."""
@@ -144,7 +188,7 @@ class Design(Frozen, Shown):
     def stable(self) -> bool:
         """Whether all poles of A − BK lie left of the imaginary axis: those asked for, or the method's own."""
         if self.aims:
-            return self.steady_state_determinant != 0 and all(p.real < 0 for p in self.poles.values)
+            return self.steady_state_determinant != 0 and all(p.real < 0 for p in self.wanted.tolist())
         f = np.empty(POLYNOMIALS)
         engine().polynomial_matrices(self.plant.A, self.plant.B, -self.K, f)
         return bool(engine().is_stable(f, scratch.stability))
@@ -157,8 +201,9 @@ class Design(Frozen, Shown):
         >>> sorted(round(p.real, 6) for p in inner.poles().tolist())
         [-7.0, -6.0, -5.0, -4.0]
         """
-        matrices = (self.A_closed, self.plant.B, C, np.zeros((2, 2)))
-        return state_space("inner_loop", matrices, STATES, ("v_p", "v_y"), OUTPUTS)
+        n = len(self.A_closed)
+        matrices = (self.A_closed, self.model[1], np.eye(2, n), np.zeros((2, 2)))
+        return state_space("inner_loop", matrices, self.states, ("v_p", "v_y"), OUTPUTS)
 
     def summary(self) -> str:
         """Method, poles and size of K."""
@@ -167,10 +212,11 @@ class Design(Frozen, Shown):
 
     def tables(self) -> tuple[Table, ...]:
         """K, and the poles as placed beside those asked for."""
-        units = ("V/rad", "V/rad", "V·s/rad", "V·s/rad")
-        heads = [f"{s.symbol} ({unit})" for s, unit in zip(STATES, units, strict=True)]
-        wanted = self.poles.values if self.aims else (None,) * 4
-        rows = zip("1234", map(number, wanted), map(number, self.closed_loop_poles.tolist()), strict=True)
+        units = ("V/rad", "V/rad", "V·s/rad", "V·s/rad", "V/V", "V/V")
+        heads = [f"{s.symbol} ({unit})" for s, unit in zip(self.states, units, strict=False)]
+        placed = self.closed_loop_poles.tolist()
+        wanted = self.wanted.tolist() if self.aims else (None,) * len(placed)
+        rows = zip("123456", map(number, wanted), map(number, placed), strict=False)
         return (
             Table.matrix("K, u = −Kx + v", self.K, [s.symbol for s in INPUTS], heads),
             Table.of("poles, rad/s", ("pole", "wanted", "placed"), rows),
@@ -186,6 +232,9 @@ def design(
     structure: Structure = Structure(),
     method: str = FULL_RANK,
     weights: Weights | None = None,
+    *,
+    actuators: Actuators | None = None,
+    rotor_poles: tuple[float, float] | None = None,
 ) -> Design:
     """State feedback for the rig: by the derived closed form, or by another method.
 
@@ -195,62 +244,49 @@ def design(
         structure: of the closed loop; full-rank placement alone looks at it.
         method: name in `placement.registry`.
         weights: of the quadratic methods.
+        actuators: rotors and friction of the rig; None of the paper's.
+        rotor_poles: where the rotors' own poles shall be, rad/s, one per axis; None leaves the rotors out of the
+            model.
 
     Raises:
-        InvalidInputError: there is no such method.
+        InvalidInputError: there is no such method; or a rotor is to be placed that does not lag.
         StructureUnavailableError: the rig has no such structure.
         MethodUnavailableError: the method cannot place these poles on this rig.
     """
     chosen = method_named(method)
+    if rotor_poles is not None:
+        task = _SixStates(plant, actuators or Actuators.none(plant), poles, rotor_poles)
+        return task.placed(structure, method, weights)
     if chosen.structured:
-        return Design(plant, poles, method, structure, *full_rank_gain(plant, poles, structure))
+        K, inverse = full_rank_gain(plant, poles, structure)
+        return Design(plant, poles, method, structure, K, inverse, actuators=actuators)
     placed = chosen.place(Task(plant.A, plant.B, poles.array, C, weights))
     K = np.ascontiguousarray(placed.K, dtype=np.float64)
-    return Design(
-        plant, poles, method, None, K, K[:, :2] - plant.statics, placed.integral, chosen.places_poles
-    )
+    own = (None, K, K[:, :2] - plant.statics, placed.integral, chosen.places_poles)
+    return Design(plant, poles, method, *own, actuators)
 
 
-def full_rank_gain(plant: Plant, poles: PoleSet, structure: Structure) -> tuple[Floats, Floats]:
-    """K, 2×4, and Ĝ(0)⁻¹, 2×2, by the closed forms that the derivation gives.
+@dataclass(frozen=True)
+class _SixStates:
+    """The rig and both rotors' speeds, whose poles shall be placed."""
 
-    They divide by γ, shifted by γ², so that as many digits are lost as γ's terms cancel, or twice as many. Where the
-    motors push nearly alike the same construction runs over the rational numbers, which loses none, and so it does
-    where a product leaves the floats' range.
+    plant: Plant
+    actuators: Actuators
+    poles: PoleSet
+    rotor_poles: tuple[float, float]
 
-    Raises:
-        StructureUnavailableError: the rig has no such structure, or K is beyond the floats' range.
-    """
-    require_structure(plant.parameters, structure)
-    if plant.nearly_parallel:
-        return _exact_gain(plant, poles, structure)
-    arguments = (*poles.coefficients, *plant.numbers)
-    try:
-        if structure.shift is None:
-            K, inverse = gain(structure)(*arguments)
-        else:
-            K, inverse = gain(structure.family, shifted=True)(*arguments, structure.shift)
-    except ArithmeticError:
-        return _exact_gain(plant, poles, structure)
-    if not isfinite(sum(chain(*K, *inverse))):
-        return _exact_gain(plant, poles, structure)
-    return np.array(K), np.array(inverse)
-
-
-def _exact_gain(plant: Plant, poles: PoleSet, structure: Structure) -> tuple[Floats, Floats]:
-    from sympy import QQ
-
-    from .symbolic.full_rank import member, steady_state_inverse
-
-    shift = None if structure.shift is None else QQ(*float(structure.shift).as_integer_ratio())
-    polynomials = [exact_coefficients(pair) for pair in (poles.values[:2], poles.values[2:])]
-    A, B = exact_matrix(plant.A), exact_matrix(plant.B)
-    try:
-        placed = member(A, B, structure, polynomials, shift)
-        return float_matrix(placed.K), float_matrix(steady_state_inverse(placed.K, A, B))
-    except ArithmeticError as error:
-        raise StructureUnavailableError(
-            "the gain of this structure is too large a number for this rig",
-            field="parameters",
-            hint="Make the motors' thrusts larger or less alike, or choose another coupling.",
-        ) from error
+    def placed(self, structure: Structure, method: str, weights: Weights | None) -> Design:
+        chosen, (A, B) = method_named(method), with_rotors(self.plant, self.actuators)
+        known = (self.actuators, self.rotor_poles)
+        if chosen.structured:
+            arguments = (self.plant, self.actuators, self.poles, self.rotor_poles, structure)
+            K, inverse = full_rank_gain_with_rotors(*arguments)
+            return Design(self.plant, self.poles, method, structure, K, inverse, None, True, *known)
+        if weights is not None:  # what the rotors' speeds cost is their voltages' business
+            weights = replace(weights, states=(*weights.states, 0.0, 0.0))
+        wanted = np.array([*self.poles.values, *self.rotor_poles], dtype=np.complex128)
+        found = chosen.place(Task(A, B, wanted, np.eye(2, 6), weights))
+        K = np.ascontiguousarray(found.K, dtype=np.float64)
+        inverse = K[:, :2] - (np.eye(2) + K[:, 4:]) @ np.linalg.solve(A[2:4, 4:], A[2:4, :2])
+        own = (method, None, K, inverse, found.integral, chosen.places_poles)
+        return Design(self.plant, self.poles, *own, *known)

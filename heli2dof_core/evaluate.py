@@ -8,6 +8,7 @@ from functools import cached_property
 
 from .behaviour import Experiment, behaviour_remarks
 from .design import Design, design
+from .estimators import estimator
 from .figures import Margins
 from .findings import Finding, merged
 from .interaction import Interaction, interaction
@@ -122,7 +123,15 @@ class Report(Shown):
 def place(spec: Spec) -> Design:
     """The design alone."""
     weights = spec.weights or bryson_weights(spec.limits) if method(spec.method).weighted else None
-    return design(plant(spec.parameters, spec.theta_0), spec.poles, spec.structure, spec.method, weights)
+    rig, rotors = plant(spec.parameters, spec.theta_0), spec.rotor_poles if spec.place_rotors else None
+    task = (rig, spec.poles, spec.structure, spec.method, weights)
+    return design(*task, actuators=spec.actuators, rotor_poles=rotors)
+
+
+def loop_of(spec: Spec, placed: Design | None = None) -> Loop:
+    """The whole loop; `placed` is the spec's design, if it is known."""
+    found = placed or place(spec)
+    return close_loop(found, spec.outer, estimator(found, spec.scenario.measured, spec.observer))
 
 
 def simulate(loop: Loop, spec: Spec, model: Model, most_steps: int | None = None) -> Step:
@@ -147,9 +156,10 @@ def _step_of_the_rig(loop: Loop, spec: Spec, most_steps: int | None, calm: Respo
 
 
 def _on_the_rig(loop: Loop, spec: Spec, scenario: Scenario, most_steps: int | None) -> Response:
-    if scenario.digital is None:
+    digital = scenario.controller
+    if digital is None:
         return simulate_nonlinear(loop, spec.limits, scenario, most_steps)
-    return simulate_digital(loop, spec.limits, scenario, scenario.digital)
+    return simulate_digital(loop, spec.limits, scenario, digital)
 
 
 def _measured(loop: Loop, response: Response, calm: Response | None = None) -> Step:
@@ -180,7 +190,7 @@ def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = No
         Heli2DofError: see `errors`.
     """
     placed, scenario = place(spec), spec.scenario
-    loop = close_loop(placed, spec.outer)
+    loop = loop_of(spec, placed)
     scenarios = {"": scenario}
     if each_axis:
         scenarios |= {
@@ -190,13 +200,13 @@ def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = No
         }
     courses = run_experiments(loop, spec.limits, [*scenarios.values()], most_steps)
     nonlinear: tuple[Step, ...] = ()
-    if scenario.digital is not None or scenario.disturbance is not None:
+    if scenario.controller is not None or scenario.disturbance is not None:
         nonlinear = tuple(
             _step_of_the_rig(
                 loop,
                 replace(spec, scenario=each),
                 most_steps,
-                courses.response(n, "nonlinear") if scenario.digital is None else None,
+                courses.response(n, "nonlinear") if scenario.controller is None else None,
             )
             for n, each in enumerate(scenarios.values())
         )

@@ -10,16 +10,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .augmentation import augmented_loop
 from .design import Design
 from .eigenvalues import eigenvalues
 from .engine import engine
+from .estimators import Estimator
 from .findings import Finding
 from .frozen import Frozen, frozen
 from .interop import state_space
-from .kernels.layout import OWN, PI, POLYNOMIALS, ROUNDING, STATIC
+from .kernels.layout import FULL, LAGGED, OWN, PI, PLAIN, POLYNOMIALS, ROUNDING, STATIC
+from .rotors import Actuators
 from .scenario import OuterLoop
 from .scratch import scratch
-from .signals import AXES, INPUTS, INTEGRALS, OUTPUTS, STATES, Complexes, Floats
+from .signals import AXES, INPUTS, INTEGRALS, OUTPUTS, ROTORS, STATES, Complexes, Floats, Signal
 from .tables import Shown, Table, conjugates, number, poles
 
 if TYPE_CHECKING:
@@ -30,8 +33,9 @@ if TYPE_CHECKING:
 class Loop(Frozen, Shown):
     """Design and outer loop together, linear, in deviations from the trim.
 
-    States are x = [θ, ψ, θ̇, ψ̇] and, with PI, z = ∫ error of pitch and yaw in rad·s. The voltage is
-    u = −Kx + `proportional` e + `integral` z + `feedforward` r, e = r − [θ, ψ].
+    States are x = [θ, ψ, θ̇, ψ̇] and, with PI, z = ∫ error of pitch and yaw in rad·s; then the speed of each rotor
+    that lags, in V, and the states of what estimates x. The voltage is u = −Kx̂ + `proportional` e + `integral` z
+    + `feedforward` r, e = r − [θ, ψ], x̂ = x where the states are measured.
 
     Attributes:
         design: the state feedback.
@@ -39,10 +43,15 @@ class Loop(Frozen, Shown):
         proportional: 2×2, volts of each motor per error of pitch and yaw, V/rad.
         integral: 2×2, per integral of these errors, V/(rad·s); None where nothing integrates.
         feedforward: 2×2, per reference, V/rad.
-        voltage_from_state: ∂u/∂[x, z], 2×6 (2×4 where nothing integrates), V per state.
+        voltage_from_state: ∂u/∂ states, 2×n, V per state: n is 6, 4 where nothing integrates, more with rotors or an
+            estimator.
         voltage_from_reference: ∂u/∂r, 2×2, V/rad.
-        A: state matrix of the whole loop, 6×6 or 4×4.
-        B: from the references [θ_ref, ψ_ref] to the states' rates.
+        A: state matrix of the whole loop, n×n.
+        B: from the references [θ_ref, ψ_ref] to the states' rates, n×2.
+        places: where each state stands in the kernels' arrays (`kernels.layout`), (n,).
+        motors: from the voltages that reach the motors to the states' rates, n×2; the law's own knowledge of them in
+            an estimator is not in it.
+        estimator: what estimates the states; None where they are measured.
     """
 
     design: Design
@@ -54,6 +63,37 @@ class Loop(Frozen, Shown):
     voltage_from_reference: Floats
     A: Floats
     B: Floats
+    places: tuple[int, ...]
+    motors: Floats
+    estimator: Estimator | None = None
+
+    @property
+    def actuators(self) -> Actuators | None:
+        """Rotors and friction of the rig; None of the paper's."""
+        return self.design.actuators
+
+    @property
+    def size(self) -> tuple[int, ...]:
+        """As many zeros as the kernels' states of this loop: they are compiled for each number of them."""
+        if self.estimator is not None:
+            return WITH_ESTIMATOR
+        return PAPERS if self.actuators is None or self.actuators.plain else WITH_ROTORS
+
+    @cached_property
+    def padded(self) -> tuple[Floats, Floats, Floats]:
+        """∂u/∂ states, A and B with the states at their places in the kernels' arrays; the paper's rig as it is."""
+        n = len(self.size)
+        if n == PLAIN:
+            return self.voltage_from_state, self.A, self.B
+        law, A, B, at = np.zeros((2, n)), np.zeros((n, n)), np.zeros((n, 2)), list(self.places)
+        law[:, at], A[np.ix_(at, at)], B[at] = self.voltage_from_state, self.A, self.B
+        return frozen((law, A, B))
+
+    @property
+    def states(self) -> tuple[Signal, ...]:
+        """The loop's states."""
+        known = (*STATES, *INTEGRALS, *ROTORS)
+        return tuple(known[i] if i < len(known) else estimated(i - len(known)) for i in self.places)
 
     @property
     def has_integrators(self) -> bool:
@@ -86,10 +126,11 @@ class Loop(Frozen, Shown):
     @cached_property
     def connected(self) -> tuple[int, ...]:
         """The states of the loop: all but integrals that drive no motor, as that of a PI loop whose gain is 0."""
+        n = len(self.A)
         if self.integral is None:
-            return 0, 1, 2, 3
+            return tuple(range(n))
         (a, b), (c, d) = self.integral.tolist()
-        return (0, 1, 2, 3, *((4,) if a or c else ()), *((5,) if b or d else ()))
+        return (0, 1, 2, 3, *((4,) if a or c else ()), *((5,) if b or d else ()), *range(6, n))
 
     @cached_property
     def connected_poles(self) -> Complexes:
@@ -100,7 +141,7 @@ class Loop(Frozen, Shown):
 
     @cached_property
     def poles(self) -> Complexes:
-        """All poles, rad/s: six with PI, four without; slowest first. A disconnected integrator's lies at 0."""
+        """All poles, rad/s, slowest first: one per state. A disconnected integrator's lies at 0."""
         own = self.connected_poles
         if len(own) == len(self.A):  # as a rule
             return own
@@ -119,7 +160,9 @@ class Loop(Frozen, Shown):
 
     @property
     def _poles_are_the_designs(self) -> bool:
-        return len(self.connected) == 4 and not any(map(any, self.proportional.tolist()))
+        known = self.actuators is None or self.design.rotor_poles is not None
+        closed = len(self.connected) > len(self.design.states) or any(map(any, self.proportional.tolist()))
+        return known and self.estimator is None and not closed
 
     def to_control(self, *, voltages: bool = False) -> control.StateSpace:
         """The whole loop: θ_ref, ψ_ref to θ, ψ, rad to rad, in deviations from the operating point.
@@ -134,9 +177,7 @@ class Loop(Frozen, Shown):
             C, D = np.vstack((C, self.voltage_from_state)), np.vstack((D, self.voltage_from_reference))
             outputs = (*OUTPUTS, *INPUTS)
         references = [f"{signal.name}_ref" for signal in OUTPUTS]
-        return state_space(
-            "whole_loop", (self.A, self.B, C, D), (*STATES, *INTEGRALS)[:order], references, outputs
-        )
+        return state_space("whole_loop", (self.A, self.B, C, D), self.states, references, outputs)
 
     def summary(self) -> str:
         """Stability and poles."""
@@ -161,10 +202,19 @@ def _slowest_first(pole: complex) -> tuple[float, float]:
     return -pole.real, -pole.imag
 
 
-def close_loop(design: Design, outer: OuterLoop = OuterLoop()) -> Loop:
+PAPERS, WITH_ROTORS, WITH_ESTIMATOR = ((0,) * n for n in (PLAIN, LAGGED, FULL))
+
+
+def estimated(i: int) -> Signal:
+    """The state number `i` of an estimator."""
+    return Signal(f"w_{i + 1}", f"w_{i + 1}", "", "state of what estimates the states")
+
+
+def close_loop(design: Design, outer: OuterLoop = OuterLoop(), estimator: Estimator | None = None) -> Loop:
     """Puts the outer loop around a design (Fig. 3, or Fig. 2 with ``outer="none"``).
 
-    A method's own integral action takes the place of the PI loops.
+    A method's own integral action takes the place of the PI loops. `estimator` is what the feedback acts on where the
+    states are not measured (`estimators.estimator`).
     """
     kind = OWN if design.integral is not None else PI if outer.outer == "pi" else STATIC
     order = 4 if kind == STATIC else 6
@@ -175,10 +225,15 @@ def close_loop(design: Design, outer: OuterLoop = OuterLoop()) -> Loop:
     plant, cross = design.plant, outer.pairing == "cross"
     settings = (kind, gains, cross, outer.decoupler)
     steady = (design.steady_state_inverse, design.steady_state_determinant)
-    engine().loop_matrices(
-        design.K, *steady, plant.A, plant.B, *settings, P, integral, F, law, by_reference, A, B
-    )
-    return Loop(design, outer, P, None if kind == STATIC else integral, F, law, by_reference, A, B)
+    K = design.K if design.rotor_poles is None else np.ascontiguousarray(design.K[:, :4])
+    engine().loop_matrices(K, *steady, plant.A, plant.B, *settings, P, integral, F, law, by_reference, A, B)
+    integral = None if kind == STATIC else integral
+    if estimator is None and (design.actuators is None or design.actuators.plain):
+        motors = np.zeros((order, 2))
+        motors[:4] = plant.B
+        return Loop(design, outer, P, integral, F, law, by_reference, A, B, tuple(range(order)), motors)
+    parts = augmented_loop(design, estimator, P, integral, by_reference)
+    return Loop(design, outer, P, integral, F, parts[0], by_reference, *parts[1:], estimator)
 
 
 def _remarks(loop: Loop) -> Iterator[Finding]:

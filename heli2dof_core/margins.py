@@ -50,11 +50,8 @@ def open_loop_response(loop: Loop, frequencies: Floats) -> Complexes:
         loop: stable or not.
         frequencies: above 0, rad/s, shape (n,).
     """
-    order = len(loop.A)
-    B = np.zeros((order, 2))
-    B[:4] = loop.design.plant.B
     response = np.empty((2, len(frequencies)), dtype=np.complex128)
     for motor, law in enumerate(loop.voltage_from_state):
-        b = B[:, [motor]]
+        b = loop.motors[:, [motor]]
         response[motor] = -(law @ resolvent(loop.A - b * law, b, frequencies))[:, 0]
     return response

@@ -11,6 +11,7 @@ from .components import Components
 from .couplings import Structure
 from .parameters import PARAMETER_INFO, Parameters
 from .poles import PoleSet
+from .rotors import AxisFriction, Rotors
 from .scenario import Limits, OuterLoop, PIGains, Scenario
 from .tables import Shown, Table, number
 
@@ -27,6 +28,8 @@ class Preset(Shown):
         rig: which machine the scene shows.
         encoders: counts per revolution of pitch and yaw.
         components: the parts that the parameters are computed from, where the source gives them.
+        rotors, friction: as its source or recordings tell of them; where none does, the paper's.
+        place_rotors, rotor_poles: whether the rotors are placed, too, and where, rad/s.
     """
 
     name: str
@@ -42,6 +45,10 @@ class Preset(Shown):
     theta_0: float = 0.0
     components: Components | None = None
     encoders: tuple[int, int] = (4096, 8192)
+    rotors: Rotors = Rotors()
+    friction: AxisFriction = AxisFriction()
+    place_rotors: bool = False
+    rotor_poles: tuple[float, float] = (-15.0, -15.0)
 
     def __post_init__(self) -> None:
         require_one_of(self.rig, RigName, "rig")

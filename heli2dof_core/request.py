@@ -15,12 +15,14 @@ from .checks import require_known
 from .couplings import Structure
 from .design import FULL_RANK
 from .errors import InvalidInputError, within_field
+from .estimators import Observer
 from .parameters import Parameters
 from .placement.method import Weights
 from .placement.registry import METHODS
 from .poles import PoleSet
 from .presets import DEFAULT, PRESETS, Preset, preset
 from .quantities import Field, quantities_of
+from .rotors import AxisFriction, Friction, Rotor, Rotors
 from .scenario import Digital, Disturbance, Limits, OuterLoop, PIGains, Scenario
 from .signals import AXES, INPUTS, OUTPUTS, STATES, Signal
 from .spec import Spec
@@ -107,6 +109,10 @@ LOOP = {axis: Place(f"loops.{axis}", f"outer.{axis}", PIGains, by_preset=None) f
 POINT = Place("operating_point", "", Spec, {"theta": "theta_0"}, by_preset=None)
 PARAMETERS = Place("parameters", "parameters", Parameters, by_preset=None)
 LIMITS = Place("limits", "limits", Limits, by_preset=None)
+ROTOR = {axis: Place(f"rotors.{axis}", f"rotors.{axis}", Rotor, by_preset=None) for axis in AXES}
+FRICTION = {axis: Place(f"friction.{axis}", f"friction.{axis}", Friction, by_preset=None) for axis in AXES}
+ROTORS = Place("", "", Spec, {"place_rotors": "place_rotors"}, by_preset=None)
+OBSERVER = Place("observer", "observer", Observer)
 SCENARIO = Place("scenario", "scenario", Scenario, by_preset=("duration", "samples"))
 REFERENCE = Place(
     "scenario.reference", "scenario", Scenario, {"theta": "theta", "psi": "psi"}, by_preset=None
@@ -117,6 +123,7 @@ INITIAL = Place(
     Scenario,
     {name: f"initial.{name}" for name in ("theta", "psi", "theta_dot", "psi_dot")},
 )
+NOISE = Place("scenario.noise", "scenario", Scenario, {"theta": "noise.theta", "psi": "noise.psi"})
 DIGITAL = Place("scenario.digital", "scenario.digital", Digital)
 ENCODERS = Place(
     "scenario.digital.encoders",
@@ -125,8 +132,9 @@ ENCODERS = Place(
     {"theta": "encoders.theta", "psi": "encoders.psi"},
 )
 DISTURBANCE = Place("scenario.disturbance", "scenario.disturbance", Disturbance)
-DESIGN = (POINT, PARAMETERS, LIMITS, STRUCTURE, OUTER, *LOOP.values())
-EXPERIMENT = (SCENARIO, REFERENCE, INITIAL, DIGITAL, ENCODERS, DISTURBANCE)
+MACHINE = (*ROTOR.values(), *FRICTION.values())
+DESIGN = (POINT, PARAMETERS, LIMITS, STRUCTURE, OUTER, *LOOP.values(), *MACHINE, ROTORS, OBSERVER)
+EXPERIMENT = (SCENARIO, REFERENCE, INITIAL, NOISE, DIGITAL, ENCODERS, DISTURBANCE)
 _WEIGHTED: dict[str, tuple[Signal, ...]] = {"states": STATES, "inputs": INPUTS, "integrals": OUTPUTS}
 """Per kind of weights the signals that they belong to."""
 _WHOLES = {"outer": "loops", "spread": "uncertainty"}
@@ -199,7 +207,30 @@ def spec_of(body: Mapping[str, Any]) -> Spec:
         scenario=_scenario(body.get("scenario", {}), base),
         method=method,
         weights=_weights(body.get("weights", {}), bryson_weights(base.limits)),
+        rotors=Rotors(**_by_axis(ROTOR, base.rotors, body.get("rotors"))),
+        friction=AxisFriction(**_by_axis(FRICTION, base.friction, body.get("friction"))),
+        place_rotors=ROTORS.given(body).get("place_rotors", base.place_rotors),
+        rotor_poles=_rotor_poles(body.get("rotor_poles"), base),
+        observer=_observer(body.get("observer")),
     )
+
+
+def _by_axis(places: Mapping[str, Place], base: Any, given: Mapping[str, Any] | None) -> dict[str, Any]:
+    own = given or {}
+    return {axis: place.changed(getattr(base, axis), own.get(axis)) for axis, place in places.items()}
+
+
+def _rotor_poles(given: Any, base: Preset) -> Any:
+    return base.rotor_poles if given is None else tuple(_complex(pole) for pole in given)
+
+
+def _observer(given: Mapping[str, Any] | None) -> Observer | None:
+    if given is None:
+        return None
+    poles = given.get("poles")
+    with within_field("observer"):
+        whole = {} if poles is None else {"poles": PoleSet(_complex(pole) for pole in poles)}
+    return OBSERVER.changed(Observer(), given, **whole)
 
 
 def _require_known(values: Mapping[str, Any], tree: Mapping[str, Any], above: str = "") -> None:
@@ -219,7 +250,7 @@ def _require_known(values: Mapping[str, Any], tree: Mapping[str, Any], above: st
 def _tree() -> dict[str, Any]:
     """The names of a body's fields, below one another."""
     weights = (f"weights.{kind}.{signal.name}" for kind, signals in _WEIGHTED.items() for signal in signals)
-    whole = ("preset", "method", "poles", "split", "scenario.model")
+    whole = ("preset", "method", "poles", "split", "rotor_poles", "observer.poles", "scenario.model")
     tree: dict[str, Any] = {}
     for path in (*whole, *weights, *(path for path, _, _ in quantities())):
         level = tree
@@ -247,6 +278,8 @@ def _scenario(given: Mapping[str, Any], base: Preset) -> Scenario:
     others = INITIAL.given(given["initial"]) if "initial" in given else {}
     if given.get("reference") is not None:
         others |= {"theta": None, "psi": None, **REFERENCE.given(given["reference"])}
+    if given.get("noise") is not None:
+        others |= NOISE.given(given["noise"])
     digital = given.get("digital")
     if digital is not None:
         counts = digital.get("encoders")
@@ -292,6 +325,7 @@ def _differing(spec: Spec, preset: Preset) -> Body:
         **_differences(vars(spec.structure), vars(preset.structure)),
         "weights": _weights_body(spec, preset),
         **_outer_body(spec, preset),
+        **_machine_body(spec, preset),
         "scenario": _scenario_body(spec.scenario, preset),
     }
     return {name: value for name, value in body.items() if value not in ({}, [])}
@@ -311,6 +345,30 @@ def _outer_body(spec: Spec, preset: Preset) -> Body:
     return {**_differences(own, base), "loops": {axis: gains for axis, gains in loops.items() if gains}}
 
 
+def _machine_body(spec: Spec, preset: Preset) -> Body:
+    parts = {
+        name: {
+            axis: _differences(own, asdict(getattr(preset, name))[axis])
+            for axis, own in asdict(getattr(spec, name)).items()
+        }
+        for name in ("rotors", "friction")
+    }
+    body: Body = {
+        name: {axis: own for axis, own in by_axis.items() if own} for name, by_axis in parts.items()
+    }
+    if spec.place_rotors != preset.place_rotors:
+        body["place_rotors"] = spec.place_rotors
+    if spec.rotor_poles != preset.rotor_poles:
+        body["rotor_poles"] = [*spec.rotor_poles]
+    if spec.observer is not None:
+        own, usual = vars(spec.observer), vars(Observer())
+        body["observer"] = {
+            name: value for name, value in own.items() if name != "poles" and value != usual[name]
+        }
+        body["observer"]["poles"] = [_pole_body(p) for p in spec.observer.poles.values]
+    return body
+
+
 def _weights_body(spec: Spec, preset: Preset) -> Body:
     """Those of a quadratic method; others do not look at them."""
     if METHODS[spec.method].places_poles:
@@ -327,13 +385,17 @@ def _scenario_body(scenario: Scenario, preset: Preset) -> Body:
     base, usual = preset.scenario, Scenario()
     own = {f.name: getattr(scenario, f.name) for f in fields(scenario)}
     reference = {name: own.pop(name) for name in ("theta", "psi")}
-    initial, digital, disturbance = (own.pop(name) for name in ("initial", "digital", "disturbance"))
+    initial, noise, digital, disturbance = (
+        own.pop(name) for name in ("initial", "noise", "digital", "disturbance")
+    )
     body = _differences(own, vars(usual) | {"duration": base.duration, "samples": base.samples})
     if (scenario.theta, scenario.psi) != (base.theta, base.psi):
         body["reference"] = {name: angle for name, angle in reference.items() if angle is not None}
     if initial != usual.initial:
         start = zip((signal.name for signal in STATES), initial, strict=True)
         body["initial"] = {name: value for name, value in start if value is not None}
+    if noise != usual.noise:
+        body["noise"] = dict(zip(("theta", "psi"), noise, strict=True))
     if digital is not None:
         body["digital"] = _digital_body(digital, preset)
     if disturbance is not None:

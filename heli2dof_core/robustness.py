@@ -14,10 +14,10 @@ from .checks import require_within
 from .compiled import linear_matrices
 from .engine import engine
 from .errors import InvalidInputError
-from .evaluate import place
+from .evaluate import loop_of
 from .frozen import Frozen, read_only
 from .kernels.layout import POLYNOMIAL_WORKSPACE, POLYNOMIALS, WORKSPACE
-from .loop import Loop, close_loop
+from .loop import Loop
 from .parameters import PARAMETER_INFO, Parameters
 from .plant import rig_constants
 from .quantities import Quantity, documented, require_valid
@@ -146,7 +146,7 @@ def cloud_in_parts(
                 field=f"scenario.{name}",
                 hint="Leave it out.",
             )
-    loop = close_loop(place(spec), spec.outer)
+    loop = loop_of(spec)
     rigs = _random_rigs(spec.parameters, uncertainty)
     system = NonlinearLoop.of(loop, spec.limits, spec.scenario)
     t = np.linspace(0.0, spec.scenario.duration, GRID)

@@ -165,6 +165,11 @@ class Actuators(Frozen):
     slope: Floats
     plain: bool
 
+    @classmethod
+    def none(cls, plant: Plant) -> Actuators:
+        """Those of the paper's rig."""
+        return actuators(plant, Rotors(), AxisFriction(), (1.0, 1.0))
+
     @cached_property
     def lags(self) -> bool:
         """Whether either rotor takes time."""

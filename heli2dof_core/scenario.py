@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from math import hypot
 from typing import Annotated, Literal
 
 import numpy as np
@@ -17,6 +18,7 @@ Outer = Literal["pi", "none"]
 Pairing = Literal["diagonal", "cross"]
 Model = Literal["linear", "nonlinear"]
 Rates = Literal["filtered", "true"]
+Measured = Literal["states", "filtered", "observer"]
 AntiWindup = Literal["none", "clamping", "back-calculation"]
 
 MOST_SAMPLES = 20_001
@@ -129,6 +131,9 @@ class Disturbance:
         require_valid(self)
 
 
+SAMPLED = 0.002
+"""Sample time of a controller that has to sample for its noise alone, s."""
+
 _REST = "at rest at the operating point (θ₀, 0) where left out"
 
 
@@ -179,6 +184,24 @@ class Scenario:
             "tolerance of the nonlinear integration, relative and (rad, rad/s) absolute", "", 1e-12, 1e-2
         ),
     ] = 1e-8
+    measured: Annotated[
+        Measured,
+        Quantity(
+            "what the state feedback acts on: the states (a digital controller: as its `rates` say), angles with "
+            "filtered rates, or an observer's estimate"
+        ),
+    ] = "states"
+    noise: Annotated[
+        tuple[float, float],
+        Quantity(
+            "standard deviation of white noise on the measured angles at each sample; without a digital controller "
+            "one that samples every 2 ms is simulated",
+            parts={
+                "theta": Quantity("of the noise on measured pitch", "rad", 0.0, 1.0),
+                "psi": Quantity("of the noise on measured yaw", "rad", 0.0, 1.0),
+            },
+        ),
+    ] = (0.0, 0.0)
     digital: Digital | None = None
     disturbance: Disturbance | None = None
 
@@ -191,6 +214,20 @@ class Scenario:
                 value=self.digital.sample_time,
                 hint=f"At most {MOST_SAMPLE_TIMES} fit in the duration.",
             )
+
+    @property
+    def controller(self) -> Digital | None:
+        """The digital controller that is simulated: the scenario's own, or one that samples for the noise alone."""
+        if self.digital is not None or not any(self.noise):
+            return self.digital
+        return Digital(SAMPLED, encoders=(0, 0), rates="true" if self.measured == "states" else "filtered")
+
+    @property
+    def noises(self) -> tuple[float, float]:
+        """Standard deviation of the noise on θ and ψ, that of the digital controller among it, rad."""
+        own = 0.0 if self.digital is None else self.digital.noise
+        theta, psi = self.noise
+        return hypot(theta, own), hypot(psi, own)
 
     @property
     def times(self) -> Floats:

@@ -45,6 +45,10 @@ INTEGRALS = (
     Signal("z_p", "z_p", "rad·s", "integral of the pitch error"),
     Signal("z_y", "z_y", "rad·s", "integral of the yaw error"),
 )
+ROTORS = (
+    Signal("v_p", "v_p", "V", "speed of the pitch motor's rotor, as the voltage that would hold it"),
+    Signal("v_y", "v_y", "V", "speed of the yaw motor's rotor, as the voltage that would hold it"),
+)
 AXES = ("pitch", "yaw")
 """Names of the two axes and of their loops, in the order of the outputs."""
 

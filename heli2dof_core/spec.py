@@ -4,19 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Annotated, Any, TypeVar
 
+from .checks import require_within
 from .couplings import Coupling, Lead, Structure
 from .design import FULL_RANK
 from .errors import InvalidInputError, within_field
+from .estimators import Observer
 from .parameters import Parameters
 from .placement.method import Weights
-from .plant import STEEPEST
-from .poles import PoleSet
+from .plant import STEEPEST, plant
+from .poles import LARGEST, ZERO, PoleSet
 from .presets import DEFAULT, Preset
 from .presets import preset as preset_named
 from .quantities import Quantity, require_valid
-from .scenario import Limits, Outer, OuterLoop, Pairing, PIGains, Scenario
+from .rotors import Actuators, AxisFriction, Rotors, actuators
+from .scenario import Limits, Measured, Outer, OuterLoop, Pairing, PIGains, Scenario
 from .tables import Shown, poles
 
 T = TypeVar("T")
@@ -32,6 +36,9 @@ class Spec(Shown):
         method, weights: another placement method, and the weights of a quadratic one.
         outer: the loop around it.
         scenario: the experiment.
+        rotors, friction: of the rig as it is; by default as in the paper's model.
+        rotor_poles: the poles of the rotors where they are placed, too, pitch's and yaw's, rad/s.
+        observer: what estimates the states where `scenario.measured` says so; None is the usual one.
     """
 
     parameters: Parameters
@@ -45,9 +52,20 @@ class Spec(Shown):
     scenario: Scenario
     method: str = FULL_RANK
     weights: Weights | None = None
+    rotors: Rotors = Rotors()
+    friction: AxisFriction = AxisFriction()
+    place_rotors: Annotated[
+        bool,
+        Quantity(
+            "the rotors' speeds are states of the model that is placed: full rank on six states, K is 2×6"
+        ),
+    ] = False
+    rotor_poles: tuple[float, float] = (-15.0, -15.0)
+    observer: Observer | None = None
 
     def __post_init__(self) -> None:
         require_valid(self)
+        object.__setattr__(self, "rotor_poles", _rotor_poles(self.rotor_poles))
 
     @classmethod
     def from_preset(cls, preset: Preset | str = DEFAULT, **changes: Any) -> Spec:
@@ -61,7 +79,9 @@ class Spec(Shown):
         """
         own = preset_named(preset) if isinstance(preset, str) else preset
         rig = (own.parameters, own.limits, own.theta_0)
-        return cls(*rig, own.poles, own.structure, own.outer, own.scenario).changed(**changes)
+        design = (own.poles, own.structure, own.outer, own.scenario)
+        machine = {name: getattr(own, name) for name in ("rotors", "friction", "place_rotors", "rotor_poles")}
+        return cls(*rig, *design, **machine).changed(**changes)
 
     def changed(
         self,
@@ -79,6 +99,12 @@ class Spec(Shown):
         decoupler: bool | None = None,
         reference: tuple[float | None, float | None] | None = None,
         duration: float | None = None,
+        rotors: Rotors | None = None,
+        friction: AxisFriction | None = None,
+        place_rotors: bool | None = None,
+        rotor_poles: tuple[float, float] | None = None,
+        observer: Observer | None = None,
+        measured: Measured | None = None,
     ) -> Spec:
         """The same with some things changed; what is left out stays.
 
@@ -100,6 +126,12 @@ class Spec(Shown):
             decoupler: as in `OuterLoop`.
             reference: of θ and ψ, rad, absolute; None leaves that axis at rest.
             duration: s.
+            rotors: of both motors.
+            friction: of both axes.
+            place_rotors: as in `Spec`.
+            rotor_poles: rad/s, of pitch's rotor and of yaw's.
+            observer: as in `Spec`.
+            measured: as in `Scenario`.
 
         Raises:
             Heli2DofError: a value is out of its range; its field says which.
@@ -122,7 +154,7 @@ class Spec(Shown):
             pairing=pairing,
             decoupler=decoupler,
         )
-        scenario = given(duration=duration)
+        scenario = given(duration=duration, measured=measured)
         if reference is not None:
             with within_field("reference"):
                 scenario |= zip(("theta", "psi"), _two(reference, "(theta, psi)"), strict=True)
@@ -145,12 +177,52 @@ class Spec(Shown):
                 theta_0=theta_0,
                 outer=part("outer", loops),
                 scenario=part("scenario", scenario),
+                rotors=rotors,
+                friction=friction,
+                place_rotors=place_rotors,
+                rotor_poles=rotor_poles,
+                observer=observer,
             ),
         )
+
+    @cached_property
+    def actuators(self) -> Actuators | None:
+        """Rotors and friction as numbers, at the operating point; None where all is as in the paper."""
+        if self.rotors == _PAPERS[0] and self.friction == _PAPERS[1]:
+            return None
+        limits = (self.limits.V_p, self.limits.V_y)
+        found = actuators(plant(self.parameters, self.theta_0), self.rotors, self.friction, limits)
+        return None if found.plain else found
 
     def summary(self) -> str:
         """Method, poles and outer loop."""
         return f"{self.method}, {self.structure.coupling}; poles {poles(self.poles.values)} rad/s; {self.outer.outer}"
+
+
+_PAPERS = Rotors(), AxisFriction()
+
+
+def _rotor_poles(values: Sequence[complex]) -> tuple[float, float]:
+    """Two real poles, each of its axis' triple."""
+    if len(values) != 2:
+        raise InvalidInputError(
+            f"{len(values)} rotor poles given",
+            field="rotor_poles",
+            value=len(values),
+            hint="Give two: pitch's rotor's, then yaw's.",
+        )
+    found = []
+    for i, pole in enumerate(values):
+        value = complex(pole)
+        if abs(value.imag) >= ZERO:
+            raise InvalidInputError(
+                f"the rotor pole {value:g} is complex",
+                field=f"rotor_poles.{i}",
+                value=str(value),
+                hint="Make it real: its axis' pair may be complex.",
+            )
+        found.append(require_within(value.real, f"rotor_poles.{i}", "rad/s", -LARGEST, LARGEST))
+    return found[0], found[1]
 
 
 def _two(values: Sequence[T], what: str) -> Sequence[T]:

@@ -3,6 +3,14 @@
  * not to be changed by hand.
  */
 
+/** White noise on the measured angles, rad, one value per sample. */
+export interface AngleNoise {
+  /** of the noise on measured pitch, rad */
+  theta?: number;
+  /** of the noise on measured yaw, rad */
+  psi?: number;
+}
+
 /** Units of single angles, where they are not the file's usual one; a reference takes its axis' unit. */
 export interface AngleUnits {
   /** of pitch */
@@ -21,6 +29,12 @@ export interface Angles {
   theta?: number;
   /** yaw, rad */
   psi?: number;
+}
+
+/** Friction of both axes. */
+export interface AxisFrictionChanges {
+  pitch?: FrictionChanges;
+  yaw?: FrictionChanges;
 }
 
 /** Step metrics of one axis; s, %, rad, rad·s, rad·s². They belong to the response, not to its samples. */
@@ -98,11 +112,13 @@ export interface ComparisonRow {
    */
   eigenvector_condition?: number;
   method: string;
-  /** V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y */
+  /** V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇, then V/V, columns v_p, v_y; rows V_p, V_y */
   K?: number[][];
   /** the method's own integral action, V/(rad·s) */
   integral?: number[][];
   poles?: Complex[];
+  /** asked for where the rotors are placed, rad/s */
+  rotor_poles?: Complex[];
   closed_loop_poles?: Complex[];
   findings?: Finding[];
   /** RGA at s = 0; rows θ, ψ, columns V_p, V_y */
@@ -170,6 +186,8 @@ export interface DesignRequest {
   pairing?: 'diagonal' | 'cross' | null;
   /** static decoupler Ĝ(0)⁻¹ diag(|ĝ|) between the PI controllers and the motors */
   decoupler?: boolean | null;
+  /** the rotors' speeds are states of the model that is placed: full rank on six states, K is 2×6 */
+  place_rotors?: boolean | null;
   /** name of a preset, see GET /api/v1/presets */
   preset?:
     | 'quanser-2dof-manual'
@@ -189,6 +207,12 @@ export interface DesignRequest {
   split?: [number[], number[]] | null;
   weights?: WeightChanges;
   loops?: LoopsChanges;
+  rotors?: RotorsChanges;
+  friction?: AxisFrictionChanges;
+  /** of pitch's and of yaw's rotor where they are placed, real, rad/s */
+  rotor_poles?: (number | { re: number; im: number })[] | null;
+  /** estimates the states where `scenario.measured` says so */
+  observer?: ObserverChanges | null;
 }
 
 /** How text was split into cells. */
@@ -353,8 +377,36 @@ export interface FrequencyResponse {
   phase: number[];
 }
 
+/** Coulomb friction of one axis, with stiction. */
+export interface Friction {
+  /** torque against the motion, N·m */
+  coulomb: number;
+  /**
+   * torque that an axis at rest withstands, at least the one against the motion, N·m; as against the motion where left
+   * out
+   */
+  static?: number;
+}
+
+/** Coulomb friction of one axis, with stiction. */
+export interface FrictionChanges {
+  /** torque against the motion, N·m */
+  coulomb?: number | null;
+  /**
+   * torque that an axis at rest withstands, at least the one against the motion, N·m; as against the motion where left
+   * out
+   */
+  static?: number | null;
+}
+
+/** Friction of both axes. */
+export interface FrictionPair {
+  pitch: Friction;
+  yaw: Friction;
+}
+
 /**
- * K in V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y.
+ * K in V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇, with rotors placed v_p, v_y in V/V; rows V_p, V_y.
  *
  * `integral` is a method's own integral action, V/(rad·s); `pole_error` is left out where the method chose its own
  * poles, `eigenvector_condition` where there are too few eigenvectors.
@@ -377,15 +429,17 @@ export interface Gains {
    */
   eigenvector_condition?: number;
   method: string;
-  /** V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y */
+  /** V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇, then V/V, columns v_p, v_y; rows V_p, V_y */
   K: number[][];
   /** the method's own integral action, V/(rad·s) */
   integral?: number[][];
-  /** 4×4, x = [θ, ψ, θ̇, ψ̇], SI */
+  /** of the model, 4×4, x = [θ, ψ, θ̇, ψ̇], or 6×6, [x, v_p, v_y], SI */
   A: number[][];
-  /** 4×2, inputs V_p, V_y, SI */
+  /** 4×2 or 6×2, inputs V_p, V_y, SI */
   B: number[][];
   poles: Complex[];
+  /** asked for where the rotors are placed, rad/s */
+  rotor_poles?: Complex[];
   closed_loop_poles: Complex[];
   /** one per input */
   controllability_indices: number[];
@@ -614,6 +668,22 @@ export interface MotorMetrics {
   effort: number;
 }
 
+/** What estimates the states from the angles and the voltages. */
+export interface ObserverChanges {
+  /** full-rank: its poles are placed; kalman: optimal for white noise of these densities */
+  method?: 'full-rank' | 'kalman';
+  /** of the estimate's errors */
+  coupling?: 'triangular' | 'input-diagonal' | 'axis-decoupled';
+  /** the axis that leads where the errors' coupling is triangular */
+  lead?: 'pitch' | 'yaw';
+  /** white noise that a Kalman filter expects on the motors' voltages, V/√Hz */
+  voltage_noise?: number;
+  /** white noise that it expects on the measured angles, rad/√Hz */
+  angle_noise?: number;
+  /** of the estimate's errors: q₁, q₂ (pitch's pair), q₃, q₄ (yaw's), rad/s */
+  poles?: (number | { re: number; im: number })[] | null;
+}
+
 /** Added to the file's angles after their signs, in its unit. */
 export interface Offsets {
   /** to pitch, in the file's unit */
@@ -824,6 +894,8 @@ export interface Preset {
   pairing: 'diagonal' | 'cross';
   /** static decoupler Ĝ(0)⁻¹ diag(|ĝ|) between the PI controllers and the motors */
   decoupler: boolean;
+  /** the rotors' speeds are states of the model that is placed: full rank on six states, K is 2×6 */
+  place_rotors: boolean;
   name: string;
   title: string;
   source: string;
@@ -842,6 +914,9 @@ export interface Preset {
   operating_point: Record<string, number>;
   poles: Complex[];
   loops: Loops;
+  rotors: RotorPair;
+  friction: FrictionPair;
+  rotor_poles: Complex[];
   scenario: Scenario;
 }
 
@@ -985,6 +1060,60 @@ export interface RobustnessRequest extends StepRequest {
   uncertainty?: Record<string, number> | null;
 }
 
+/** One motor's rotor. */
+export interface Rotor {
+  /** time constant of the rotor's speed; 0 follows at once, s */
+  tau: number;
+  /** thrust by rotor speed: linear, or quadratic beyond the dead zone */
+  curve: 'linear' | 'quadratic';
+  /** speed, as a voltage, up to which a quadratic curve gives no thrust, V */
+  dead_zone: number;
+  /**
+   * where a quadratic curve meets the linear one, V; the trim voltage where left out, or the limit of a motor that
+   * rests at the trim
+   */
+  matched_at?: number;
+}
+
+/** One motor's rotor: how long it takes, and how thrust follows its speed. */
+export interface RotorChanges {
+  /** time constant of the rotor's speed; 0 follows at once, s */
+  tau?: number | null;
+  /** thrust by rotor speed: linear, or quadratic beyond the dead zone */
+  curve?: 'linear' | 'quadratic' | null;
+  /** speed, as a voltage, up to which a quadratic curve gives no thrust, V */
+  dead_zone?: number | null;
+  /**
+   * where a quadratic curve meets the linear one, V; the trim voltage where left out, or the limit of a motor that
+   * rests at the trim
+   */
+  matched_at?: number | null;
+}
+
+/** Both motors' rotors. */
+export interface RotorPair {
+  pitch: Rotor;
+  yaw: Rotor;
+}
+
+/**
+ * The rotors' speeds, as the voltages that would hold them, V; left out where they follow at once.
+ *
+ * Linear: deviations from the trim.
+ */
+export interface Rotors {
+  /** pitch motor's rotor, V */
+  v_p: number[];
+  /** yaw motor's rotor, V */
+  v_y: number[];
+}
+
+/** The rotors of the pitch and the yaw motor. */
+export interface RotorsChanges {
+  pitch?: RotorChanges;
+  yaw?: RotorChanges;
+}
+
 /** A design whose digital rig is to be recorded while its references step. */
 export interface SampleRequest extends StepRequest {
   /** of the recording, s */
@@ -1027,10 +1156,16 @@ export interface ScenarioChanges {
   trim_feedforward?: boolean;
   /** tolerance of the nonlinear integration, relative and (rad, rad/s) absolute */
   rtol?: number;
+  /**
+   * what the state feedback acts on: the states (a digital controller: as its `rates` say), angles with filtered rates,
+   * or an observer's estimate
+   */
+  measured?: 'states' | 'filtered' | 'observer';
   /** ignored by evaluate, which computes both */
   model?: 'linear' | 'nonlinear';
   reference?: Reference | null;
   initial?: Initial;
+  noise?: AngleNoise;
   /** nonlinear model; null is continuous */
   digital?: DigitalController | null;
   /** nonlinear model */
@@ -1124,6 +1259,7 @@ export interface Step {
   /** yaw motor, V */
   V_y: number[];
   states?: States;
+  rotors?: Rotors;
   reference: Angles;
   trim: Voltages;
   metrics: Metrics;

@@ -55,14 +55,14 @@ def rga(as_json: bool, base: IO[str] | None, **values: Any) -> None:
 @takes(*DESIGN, *LOOPS, *SCENARIO, MODEL)
 def step(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     """Print the metrics of a step response; with --json its trajectories too."""
-    from heli2dof_core import close_loop, place, simulate
+    from heli2dof_core import loop_of, simulate
 
     from ..contract.experiment import ResponseRequest, states_reply, step_reply
 
     with refusals(as_json):
         request = ResponseRequest.model_validate(body(base, values))
         spec = request.to_spec()
-        loop = close_loop(place(spec), spec.outer)
+        loop = loop_of(spec)
         result = simulate(loop, spec, request.scenario.model)
         if as_json:
             return print_json(step_reply(result, loop) | (states_reply(result) if request.states else {}))

@@ -12,7 +12,21 @@ import click
 
 from heli2dof_core.quantities import Field
 from heli2dof_core.recordings.recording import ANGLES, ROLES
-from heli2dof_core.request import LIMITS, LOOP, OUTER, PARAMETERS, POINT, REFERENCE, STRUCTURE, Place
+from heli2dof_core.request import (
+    FRICTION,
+    LIMITS,
+    LOOP,
+    NOISE,
+    OBSERVER,
+    OUTER,
+    PARAMETERS,
+    POINT,
+    REFERENCE,
+    ROTOR,
+    ROTORS,
+    STRUCTURE,
+    Place,
+)
 from heli2dof_core.request import SCENARIO as SCENARIO_PLACE
 from heli2dof_core.scenario import Model
 
@@ -92,6 +106,13 @@ def _kind(known: Field) -> click.ParamType | None:
     return {bool: None, int: click.INT, float: click.FLOAT}[known.kind]
 
 
+def _by_axis(places: Mapping[str, Place], what: str) -> Iterator[Option]:
+    """The options of a motor or an axis: --rotor-tau-pitch."""
+    for axis, place in places.items():
+        flags = {name: f"--{what}-{name.replace('_', '-')}-{axis}" for name in place.fields}
+        yield from _of(place, flags, f"{axis} {what}'s " if what == "rotor" else f"{axis} axis' friction: ")
+
+
 DESIGN = (
     Option("--preset", "preset", Name(_presets), "The rig, by the name of its preset."),
     Option(
@@ -108,6 +129,16 @@ DESIGN = (
     Option("--method", "method", Name(_methods), "Placement method."),
     *_of(STRUCTURE),
     Option("--split", "split", Split(), "Poles of pitch's and of yaw's pair: 1,3/2,4."),
+    *_by_axis(ROTOR, "rotor"),
+    *_by_axis(FRICTION, "friction"),
+    *_of(ROTORS),
+    Option(
+        "--rotor-poles", "rotor_poles", Numbers(), "Of pitch's and yaw's rotor where they are placed, rad/s."
+    ),
+    *_of(OBSERVER, {name: f"--observer-{name.replace('_', '-')}" for name in OBSERVER.fields}, "observer's "),
+    Option(
+        "--observer-poles", "observer.poles", Poles(), "Of the observer: pitch's pair, then yaw's, rad/s."
+    ),
 )
 LOOPS = (
     *_of(OUTER),
@@ -117,7 +148,11 @@ LOOPS = (
         for option in _of(place, {name: f"--{name}-{axis}" for name in place.fields}, f"{axis} loop's ")
     ),
 )
-SCENARIO = (*_of(REFERENCE), *_of(SCENARIO_PLACE))
+SCENARIO = (
+    *_of(REFERENCE),
+    *_of(SCENARIO_PLACE),
+    *_of(NOISE, {name: f"--noise-{name}" for name in NOISE.fields}),
+)
 MODEL = Option("--model", "scenario.model", Name(lambda: get_args(Model)), "nonlinear, or linear.")
 FREQUENCIES = Option("--frequencies", "frequencies", Numbers(), "Where |RGA(jω)| is wanted, rad/s: 0,1,10.")
 

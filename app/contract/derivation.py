@@ -113,7 +113,7 @@ def walkthrough_reply(design: Design) -> Reply:
         walk_through(design),
         A=design.plant.A,
         B=design.plant.B,
-        trim=voltages_reply(design.plant.trim),
+        trim=voltages_reply(design.trim),
         K=design.K,
         integral=design.integral,
         closed_loop=design.A_closed,

@@ -22,12 +22,16 @@ from heli2dof_core.design import FULL_RANK
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.presets import DEFAULT
 from heli2dof_core.request import (
+    FRICTION,
     LIMITS,
     LOOP,
     NAMES,
+    OBSERVER,
     OUTER,
     PARAMETERS,
     POINT,
+    ROTOR,
+    ROTORS,
     STRUCTURE,
     spec_of,
 )
@@ -42,6 +46,7 @@ from .model import (
     Finding,
     Model,
     Reply,
+    poles_reply,
     proposed,
     reply_of,
     told_by,
@@ -71,6 +76,39 @@ class LoopsChanges(Strict):
     yaw: LoopChanges = LoopChanges()
 
 
+class RotorChanges(asked(ROTOR["pitch"])):
+    """One motor's rotor: how long it takes, and how thrust follows its speed."""
+
+
+class RotorsChanges(Strict):
+    """The rotors of the pitch and the yaw motor."""
+
+    pitch: RotorChanges = RotorChanges()
+    yaw: RotorChanges = RotorChanges()
+
+
+class FrictionChanges(asked(FRICTION["pitch"])):
+    """Coulomb friction of one axis, with stiction."""
+
+
+class AxisFrictionChanges(Strict):
+    """Friction of both axes."""
+
+    pitch: FrictionChanges = FrictionChanges()
+    yaw: FrictionChanges = FrictionChanges()
+
+
+class ObserverChanges(asked(OBSERVER)):
+    """What estimates the states from the angles and the voltages."""
+
+    poles: list[Pole] | None = Field(
+        default=None,
+        min_length=4,
+        max_length=4,
+        description="of the estimate's errors: q₁, q₂ (pitch's pair), q₃, q₄ (yaw's), rad/s",
+    )
+
+
 def _weights_of(name: str, signals: Iterable[Signal], kind: Any, meaning: str) -> type[Strict]:
     fields: dict[str, Any] = {
         s.name: (kind | None, Field(default=None, description=meaning)) for s in signals
@@ -91,7 +129,7 @@ class WeightChanges(Strict):
     integrals: IntegralWeights = IntegralWeights()  # pyright: ignore[reportInvalidTypeForm]
 
 
-class DesignRequest(asked(STRUCTURE, OUTER)):
+class DesignRequest(asked(STRUCTURE, OUTER, ROTORS)):
     """A design: what differs from the preset."""
 
     preset: PresetName = Field(default=DEFAULT, description="name of a preset, see GET /api/v1/presets")
@@ -112,6 +150,17 @@ class DesignRequest(asked(STRUCTURE, OUTER)):
     )
     weights: WeightChanges = WeightChanges()
     loops: LoopsChanges = LoopsChanges()
+    rotors: RotorsChanges = RotorsChanges()
+    friction: AxisFrictionChanges = AxisFrictionChanges()
+    rotor_poles: list[Pole] | None = Field(
+        default=None,
+        min_length=2,
+        max_length=2,
+        description="of pitch's and of yaw's rotor where they are placed, real, rad/s",
+    )
+    observer: ObserverChanges | None = Field(
+        default=None, description="estimates the states where `scenario.measured` says so"
+    )
 
     def to_spec(self) -> Spec:
         """The core's spec.
@@ -123,20 +172,25 @@ class DesignRequest(asked(STRUCTURE, OUTER)):
 
 
 class Gains(told_by(OF_GAINS)):
-    """K in V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y.
+    """K in V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇, with rotors placed v_p, v_y in V/V; rows V_p, V_y.
 
     `integral` is a method's own integral action, V/(rad·s); `pole_error` is left out where the method
     chose its own poles, `eigenvector_condition` where there are too few eigenvectors.
     """
 
     method: str
-    K: list[list[float]] = Field(description="V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇; rows V_p, V_y")
+    K: list[list[float]] = Field(
+        description="V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇, then V/V, columns v_p, v_y; rows V_p, V_y"
+    )
     integral: list[list[float]] | None = Field(
         None, description="the method's own integral action, V/(rad·s)"
     )
-    A: list[list[float]] = Field(description="4×4, x = [θ, ψ, θ̇, ψ̇], SI")
-    B: list[list[float]] = Field(description="4×2, inputs V_p, V_y, SI")
+    A: list[list[float]] = Field(description="of the model, 4×4, x = [θ, ψ, θ̇, ψ̇], or 6×6, [x, v_p, v_y], SI")
+    B: list[list[float]] = Field(description="4×2 or 6×2, inputs V_p, V_y, SI")
     poles: list[Complex]
+    rotor_poles: list[Complex] | None = Field(
+        None, description="asked for where the rotors are placed, rad/s"
+    )
     closed_loop_poles: list[Complex]
     controllability_indices: list[int] = Field(description="one per input")
     findings: list[Finding]
@@ -169,16 +223,25 @@ def _indices(parameters: Parameters, theta_0: float) -> tuple[int, ...]:
     return controllability_indices(rig.A, rig.B)
 
 
+def _indices_of(design: Design) -> tuple[int, ...]:
+    """Those of the model; each rotor lengthens its motor's chain by one."""
+    own = _indices(design.plant.parameters, design.plant.theta_0)
+    return own if design.rotor_poles is None else tuple(i + 1 for i in own)
+
+
 def gains_reply(design: Design) -> Reply:
     """K and what it does to the poles."""
+    A, B = design.model
+    rotors = design.rotor_poles
     return reply_of(
         Gains,
         design,
-        A=design.plant.A,
-        B=design.plant.B,
+        A=A,
+        B=B,
         poles=design.poles.values,
+        rotor_poles=None if rotors is None else poles_reply(map(complex, rotors)),
         pole_error_bound=design.pole_error_bound if design.aims else None,
-        controllability_indices=_indices(design.plant.parameters, design.plant.theta_0),
+        controllability_indices=_indices_of(design),
     )
 
 

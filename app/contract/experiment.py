@@ -13,6 +13,7 @@ from heli2dof_core.request import (
     DISTURBANCE,
     ENCODERS,
     INITIAL,
+    NOISE,
     REFERENCE,
     SCENARIO,
 )
@@ -58,12 +59,17 @@ class InputDisturbance(asked(DISTURBANCE)):
     """Volts that act on the motors besides the controller's, from `time` on."""
 
 
+class AngleNoise(asked(NOISE)):
+    """White noise on the measured angles, rad, one value per sample."""
+
+
 class ScenarioChanges(asked(SCENARIO)):
     """An experiment: references step at t = 0; without a reference the preset's own is used."""
 
     model: RigModel = Field(default="nonlinear", description="ignored by evaluate, which computes both")
     reference: Reference | None = None
     initial: Initial = Initial()
+    noise: AngleNoise = AngleNoise()
     digital: DigitalController | None = Field(default=None, description="nonlinear model; null is continuous")
     disturbance: InputDisturbance | None = Field(default=None, description="nonlinear model")
 
@@ -107,6 +113,16 @@ class States(Model):
     z_y: list[float] | None = Field(None, description="integral of the yaw error, rad·s")
 
 
+class Rotors(Model):
+    """The rotors' speeds, as the voltages that would hold them, V; left out where they follow at once.
+
+    Linear: deviations from the trim.
+    """
+
+    v_p: list[float] = Field(description="pitch motor's rotor, V")
+    v_y: list[float] = Field(description="yaw motor's rotor, V")
+
+
 class Step(Model):
     """A step response; s, rad, V. Linear voltages are deviations from the trim.
 
@@ -119,6 +135,7 @@ class Step(Model):
     V_p: list[float] = Field(description="pitch motor, V")
     V_y: list[float] = Field(description="yaw motor, V")
     states: States | None = None
+    rotors: Rotors | None = None
     reference: Angles
     trim: Voltages
     metrics: Metrics
@@ -139,7 +156,7 @@ def loop_reply(loop: Loop) -> Reply:
     return {
         "loop_poles": poles_reply(loop.poles),
         "stable": loop.stable,
-        "trim": voltages_reply(loop.design.plant.trim),
+        "trim": voltages_reply(loop.design.trim),
     }
 
 
@@ -151,6 +168,11 @@ def step_reply(step: CoreStep, loop: Loop, common: Reply | None = None) -> Reply
         "t": response.t,
         **{signal.name: response.angles[i] for i, signal in enumerate(OUTPUTS)},
         **{signal.name: response.voltages[i] for i, signal in enumerate(INPUTS)},
+        **(
+            {}
+            if response.rotors is None
+            else {"rotors": dict(zip(("v_p", "v_y"), response.rotors, strict=True))}
+        ),
         "reference": dict(zip(("theta", "psi"), response.reference, strict=True)),
         "metrics": metrics_reply(step.metrics),
         "findings": findings_reply(step.findings),

@@ -11,7 +11,17 @@ from heli2dof_core.components import COMPONENT_INFO
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.presets import RigName
 from heli2dof_core.quantities import Quantity
-from heli2dof_core.request import LIMITS, OUTER, POINT, REFERENCE, SCENARIO, STRUCTURE
+from heli2dof_core.request import (
+    FRICTION,
+    LIMITS,
+    OUTER,
+    POINT,
+    REFERENCE,
+    ROTOR,
+    ROTORS,
+    SCENARIO,
+    STRUCTURE,
+)
 
 from .design import Loops, loops_reply
 from .model import Angles, Complex, Model, Reply, proposed, reply_of
@@ -44,7 +54,29 @@ class Scenario(proposed(SCENARIO)):
     reference: Angles
 
 
-class Preset(proposed(STRUCTURE, OUTER)):
+class Rotor(proposed(ROTOR["pitch"])):
+    """One motor's rotor."""
+
+
+class RotorPair(Model):
+    """Both motors' rotors."""
+
+    pitch: Rotor
+    yaw: Rotor
+
+
+class Friction(proposed(FRICTION["pitch"])):
+    """Coulomb friction of one axis, with stiction."""
+
+
+class FrictionPair(Model):
+    """Friction of both axes."""
+
+    pitch: Friction
+    yaw: Friction
+
+
+class Preset(proposed(STRUCTURE, OUTER, ROTORS)):
     """A rig with its source and everything that a design may change."""
 
     name: str
@@ -61,6 +93,9 @@ class Preset(proposed(STRUCTURE, OUTER)):
     operating_point: dict[str, float] = Field(description="theta, rad")
     poles: list[Complex]
     loops: Loops
+    rotors: RotorPair
+    friction: FrictionPair
+    rotor_poles: list[Complex]
     scenario: Scenario
 
 
@@ -92,5 +127,9 @@ def preset_reply(preset: CorePreset) -> Reply:
         operating_point=POINT.proposal(preset),
         poles=preset.poles.values,
         loops=loops_reply(preset.outer),
+        **ROTORS.proposal(preset),
+        rotors={axis: place.proposal(getattr(preset.rotors, axis)) for axis, place in ROTOR.items()},
+        friction={axis: place.proposal(getattr(preset.friction, axis)) for axis, place in FRICTION.items()},
+        rotor_poles=tuple(map(complex, preset.rotor_poles)),
         scenario={"reference": REFERENCE.proposal(scenario), **SCENARIO.proposal(scenario)},
     )

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from heli2dof_core import close_loop, place
+from heli2dof_core import loop_of
 from heli2dof_core.errors import within_field
 from heli2dof_core.recordings.files import MOST_FILES
 from heli2dof_core.recordings.guess import guess_columns
@@ -259,7 +259,7 @@ def overlaid(
         return driven_by_voltages(spec.parameters, recording, spec.limits.theta, wanted)
     if request.driver == "segments":
         return driven_in_segments(spec.parameters, recording, request.segment, spec.limits.theta, wanted)
-    loop = close_loop(place(spec), spec.outer)
+    loop = loop_of(spec)
     return driven_by_references(loop, spec.limits, recording, spec.scenario.digital, wanted)
 
 

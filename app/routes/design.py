@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Response
 
-from heli2dof_core import close_loop, evaluate, place, simulate, suggest_pi
+from heli2dof_core import evaluate, loop_of, place, simulate, suggest_pi
 
 from ..contract.design import DesignRequest, Gains, Suggestion, gains_reply, suggestion_reply
 from ..contract.encoding import json_response
@@ -26,7 +26,7 @@ def build_router(compute: Compute) -> APIRouter:
     async def step(request: ResponseRequest) -> Response:
         def work() -> Reply:
             spec = request.to_spec()
-            loop = close_loop(place(spec), spec.outer)
+            loop = loop_of(spec)
             step = simulate(loop, spec, request.scenario.model)
             return step_reply(step, loop) | (states_reply(step) if request.states else {})
 

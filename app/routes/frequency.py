@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Response
 
-from heli2dof_core import close_loop, interaction, place
+from heli2dof_core import interaction, loop_of, place
 
 from ..contract.encoding import json_response
 from ..contract.frequency import LoopsRequest, OpenLoops, Rga, RgaRequest, open_loops_reply, rga_reply
@@ -32,7 +32,7 @@ def build_router(compute: Compute) -> APIRouter:
     async def loops(request: LoopsRequest) -> Response:
         def work() -> Reply:
             spec = request.to_spec()
-            return open_loops_reply(close_loop(place(spec), spec.outer), request.frequencies)
+            return open_loops_reply(loop_of(spec), request.frequencies)
 
         return json_response(await compute.run(work))
 

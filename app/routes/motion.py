@@ -9,7 +9,7 @@ from urllib.parse import quote
 from fastapi import APIRouter, HTTPException, Query, Request, Response
 from fastapi.responses import RedirectResponse
 
-from heli2dof_core import Spec, close_loop, place, preset, simulate
+from heli2dof_core import Spec, loop_of, preset, simulate
 from heli2dof_core.geometry import RigName
 from heli2dof_core.scenario import Model
 from heli2dof_core.tables import poles
@@ -74,7 +74,7 @@ def _of_rig(request: StepRequest) -> tuple[RigName, str]:
 
 
 def _motion(spec: Spec, model: Model) -> Motion:
-    response = simulate(close_loop(place(spec), spec.outer), spec, model).response
+    response = simulate(loop_of(spec), spec, model).response
     theta, psi = response.angles
     V_p, V_y = response.voltages
     limits = (spec.limits.V_p, spec.limits.V_y, spec.limits.theta)

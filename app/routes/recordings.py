@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, HTTPException, Query, Request, Response, WebSocket
 
-from heli2dof_core import Spec, close_loop, place, preset
+from heli2dof_core import Spec, loop_of, preset
 from heli2dof_core.engine import engine
 from heli2dof_core.recordings.files import Dialect, joined_tables, read_table, write_csv
 from heli2dof_core.recordings.files.text import Decimal, Separator
@@ -123,7 +123,7 @@ def _sample(request: SampleRequest) -> bytes:
     rig = deviating_rig(spec.parameters, request.deviation, request.seed)
     wanted = (base.scenario.theta or _DEFAULT_STEPS[0], base.scenario.psi or _DEFAULT_STEPS[1])
     size = (abs(wanted[0] - spec.theta_0) if base.scenario.theta is None else abs(wanted[0]), abs(wanted[1]))
-    loop = close_loop(place(spec), spec.outer)
+    loop = loop_of(spec)
     run = sample_recording(loop, spec.limits, digital, rig=rig, duration=request.length, size=size)
     changed = {name: v for name, v in rig.as_dict().items() if v != getattr(spec.parameters, name)}
     truth = ", ".join(f"{name} = {value:.6g}" for name, value in changed.items())

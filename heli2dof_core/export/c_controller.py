@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import partial
 from math import isfinite
 
-from ..evaluate import place
+from ..evaluate import loop_of
 from ..frozen import Frozen
 from ..kernels.layout import BACK_CALCULATION, CLAMPING, MOTOR_OF, TRACKING, TRAVEL, WINDUP
-from ..loop import Loop, close_loop
+from ..loop import Loop
 from ..scenario import Digital
 from ..signals import Floats
 from ..simulation.digital import FILTER_DAMPING, FILTER_FREQUENCY, rate_filter
@@ -36,9 +36,9 @@ class _Controller(Frozen):
 
     @classmethod
     def of(cls, spec: Spec) -> _Controller:
-        loop, scenario = close_loop(place(spec), spec.outer), spec.scenario
+        loop, scenario = loop_of(spec), spec.scenario
         system = NonlinearLoop.of(loop, spec.limits, scenario)
-        V_p, V_y = loop.design.plant.trim.tolist() if scenario.trim_feedforward else (0.0, 0.0)
+        V_p, V_y = loop.design.trim.tolist() if scenario.trim_feedforward else (0.0, 0.0)
         return cls(
             loop,
             (scenario.digital or Digital()).sample_time,

@@ -32,7 +32,7 @@ def render(spec: Spec, link: str = "") -> bytes:
         "B": design.plant.B,
         "C": C,
         "D": np.zeros((2, 2)),
-        "trim": design.plant.trim[:, None],
+        "trim": design.trim[:, None],
         "K": design.K,
         "poles": design.poles.array[:, None],
         "placed": design.closed_loop_poles[:, None],

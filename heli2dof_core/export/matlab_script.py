@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from ..evaluate import place
-from ..loop import close_loop
+from ..evaluate import loop_of
 from ..parameters import PARAMETER_INFO
 from ..signals import Floats
 from ..spec import Spec
@@ -13,7 +12,7 @@ from .origin import origin
 
 def render(spec: Spec, link: str = "") -> str:
     """A script that defines rig, K, loops and the linear step response, checks them and plots."""
-    loop = close_loop(place(spec), spec.outer)
+    loop = loop_of(spec)
     design, scenario = loop.design, spec.scenario
     theta, psi, *start = scenario.resolved(spec.theta_0)
     initial = [start[0] - spec.theta_0, *start[1:], *[0.0] * (len(loop.A) - 4)]

@@ -84,7 +84,7 @@ def _parameters(spec: Spec) -> list[tuple[str, ...]]:
 
 
 def _trim(report: Report) -> str:
-    volts = zip(INPUTS, report.design.plant.trim.tolist(), strict=True)
+    volts = zip(INPUTS, report.design.trim.tolist(), strict=True)
     return ", ".join(f"{signal.symbol} = {number(value, 5)} V" for signal, value in volts)
 
 
@@ -160,7 +160,7 @@ def _displayed(mathml: str) -> str:
 
 def _responses(spec: Spec, report: Report) -> list[tuple[str, str]]:
     """Drawings and their captions."""
-    trim, reference = report.design.plant.trim, report.step["nonlinear"].response.reference
+    trim, reference = report.design.trim, report.step["nonlinear"].response.reference
     bounds, pictures = (spec.limits.V_p, spec.limits.V_y), []
     for i, signal in enumerate(OUTPUTS):
         curves = [Curve(t, np.degrees(response.angles[i]), kind) for t, response, kind in _traces(report)]

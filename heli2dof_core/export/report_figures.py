@@ -113,7 +113,7 @@ ROWS = (
 
 def merit(report: Report) -> tuple[list[str], list[tuple[str, ...]]]:
     """Head and rows of the table of both steps, each by the rig and by the linear model."""
-    trim, columns = report.design.plant.trim, []
+    trim, columns = report.design.trim, []
     for axis, signal in zip(AXES, OUTPUTS, strict=True):
         both = report.axis_steps.get(signal.name)
         models: tuple[tuple[Model, str], ...] = (("nonlinear", f"{axis} step"), ("linear", "(linear)"))

@@ -23,9 +23,7 @@ def render(spec: Spec, link: str = "") -> str:
             (f"{signal.name}_{model} [{signal.unit.replace('·', '*')}]", values)
             for signal, values in step.response.by_signal()
         ]
-    trim = ", ".join(
-        f"{s.name} = {v!r} V" for s, v in zip(INPUTS, report.design.plant.trim.tolist(), strict=True)
-    )
+    trim = ", ".join(f"{s.name} = {v!r} V" for s, v in zip(INPUTS, report.design.trim.tolist(), strict=True))
     lines = [
         *(f"# {line}" for line in origin(spec, FORMAT.name, link)),
         f"# Linear voltages are deviations from the trim, {trim}; those of the nonlinear rig hold it.",

@@ -55,7 +55,7 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
         scenario.rtol,
         ABSOLUTE_TOLERANCE * scenario.rtol,
         kernels.most_steps,
-        loop.design.plant.trim,
+        loop.design.trim,
         np.zeros(WORKSPACE),
         np.empty_like(system.constants),
         np.empty_like(system.modes),
@@ -73,7 +73,7 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
 
 def standing_voltages(loop: Loop, system: NonlinearLoop) -> Floats:
     """What the motors have until the controller's first voltages arrive: the trim fed forward, within the limits."""
-    trim = loop.design.plant.trim * system.experiment[FED]
+    trim = loop.design.trim * system.experiment[FED]
     return np.clip(trim, -system.limits, system.limits)
 
 

@@ -121,7 +121,7 @@ def simulate_nonlinear(
         scenario.rtol,
         ABSOLUTE_TOLERANCE * scenario.rtol,
         most_steps or kernels.most_steps,
-        loop.design.plant.trim,
+        loop.design.trim,
         np.empty(WORKSPACE),
         np.empty((len(t) + 1, 6)),
         np.empty(len(t) + 1),

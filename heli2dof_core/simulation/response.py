@@ -21,7 +21,7 @@ from ..kernels.layout import (
     REACHED,
     START,
 )
-from ..signals import INPUTS, INTEGRALS, STATES, Floats, Signal
+from ..signals import INPUTS, INTEGRALS, ROTORS, STATES, Floats, Signal
 from ..tables import Shown, number
 
 
@@ -60,8 +60,9 @@ class Response(Frozen, Shown):
         saturated: share of time that each motor spends at its limit.
         findings: remarks on this response.
         states: θ, ψ absolute, θ̇, ψ̇, and z_p, z_y = ∫ error where anything integrates, shape
-            (4 or 6, samples), rad, rad/s, rad·s.
+            (4 or 6, samples), rad, rad/s, rad·s; then the speeds of rotors that lag, V, and an estimator's states.
         measured: figures of the course itself, whatever its samples are.
+        signals: what the states are.
     """
 
     model: Literal["linear", "nonlinear"]
@@ -74,6 +75,7 @@ class Response(Frozen, Shown):
     findings: tuple[Finding, ...]
     states: Floats
     measured: Measured
+    signals: tuple[Signal, ...] = (*STATES, *INTEGRALS)
 
     @property
     def theta(self) -> Floats:
@@ -95,9 +97,17 @@ class Response(Frozen, Shown):
         """Voltage of the yaw motor, V; see `voltages`."""
         return self.voltages[1]
 
+    @property
+    def rotors(self) -> Floats | None:
+        """Speeds of both rotors, V, (2, samples), linear: deviations; None where both follow at once."""
+        rows = dict(zip((signal.name for signal in self.signals), self.states, strict=False))
+        if not any(rotor.name in rows for rotor in ROTORS):
+            return None
+        return np.array([rows.get(r.name, V) for r, V in zip(ROTORS, self.voltages, strict=True)])
+
     def by_signal(self) -> Iterator[tuple[Signal, Floats]]:
         """States and voltages, each with what it is."""
-        yield from zip((*STATES, *INTEGRALS), self.states, strict=False)
+        yield from zip(self.signals, self.states, strict=False)
         yield from zip(INPUTS, self.voltages, strict=True)
 
     def columns(self) -> dict[str, Floats]:

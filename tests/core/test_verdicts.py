@@ -232,7 +232,7 @@ def test_motors_that_push_nearly_alike_divide_by_no_zero(structure, share):
 
 
 def test_the_rational_gain_is_the_closed_forms_where_both_are_right():
-    from heli2dof_core.design import _exact_gain, full_rank_gain
+    from heli2dof_core.gains import _exact_gain, full_rank_gain
 
     for structure in verdicts.STRUCTURES:
         model = place(SPEC).plant
