@@ -143,7 +143,18 @@ def run_digital(
             grid[count] = following
             points += 1
         found, filled, _, _, hits, here = integrate_measured(
-            size, y, grid[:points], plant, free, rtol, atol, most_steps, w, course, ahead if over else own, ANGLES
+            size,
+            y,
+            grid[:points],
+            plant,
+            free,
+            rtol,
+            atol,
+            most_steps,
+            w,
+            course,
+            ahead if over else own,
+            ANGLES,
         )
         y[4], y[5] = z0, z1
         for i in range(1, count):
@@ -252,6 +263,31 @@ def sample_sensors(y, d, filters, noise, measured):
         x0, x1 = filters[axis, 0], filters[axis, 1]
         filters[axis, 0] = d[F] * x0 + d[F + 1] * x1 + d[BETA] * seen
         filters[axis, 1] = d[F + 2] * x0 + d[F + 3] * x1 + d[BETA + 1] * seen
+
+
+@kernel
+def held_speeds(size, plant, state):
+    """Speeds of rotors that follow at once: what their motors have."""
+    if len(size) > PLAIN:
+        for motor in range(2):
+            if plant[TAU + motor] == 0.0:
+                state[6 + motor] = plant[OFFSET + motor] + plant[DISTURBANCE + motor]
+
+
+@kernel
+def sample_estimator(size, y, estimator, measured, held):
+    """The estimator's states y[8:] go on by one sample, with the angles measured at its start and held voltages."""
+    if len(size) == FULL:
+        known = estimator.shape[0]
+        for i in range(known):
+            total = estimator[i, 10]
+            for j in range(known):
+                total += estimator[i, j] * y[8 + j]
+            for j in range(2):
+                total += estimator[i, 6 + j] * measured[j] + estimator[i, 8 + j] * held[j]
+            measured[4 + i] = total  # the old state is still needed
+        for i in range(known):
+            y[8 + i] = measured[4 + i]
 
 
 @kernel

@@ -190,7 +190,10 @@ def actuators_keep_modes(q, c, m, u):
                 return False
         if c[BREAKAWAY + i] > 0.0:
             way = m[SLIP + i]
-            if way == 0 or bernstein_least(way, q[0, 2 + i], q[1, 2 + i], q[2, 2 + i], q[3, 2 + i], q[4, 2 + i]) < 0.0:
+            if (
+                way == 0
+                or bernstein_least(way, q[0, 2 + i], q[1, 2 + i], q[2, 2 + i], q[3, 2 + i], q[4, 2 + i]) < 0.0
+            ):
                 return False
     return True
 

@@ -190,7 +190,9 @@ def run_nonlinear(
 
 
 @kernel
-def check_settling(size, own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, most_steps, w, raw, grid):
+def check_settling(
+    size, own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, most_steps, w, raw, grid
+):
     """Looks beyond the end, until an axis has been within its settling band for a time `turn`.
 
     The disturbance within c sets in at `since` there, too.

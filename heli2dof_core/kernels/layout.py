@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 # c: the rig's parameters (α = J_p + m l²), gains u = G y + offset, limits, references, back-calculation,
 # pitch travel, and volts that disturb the motors
 K_PP, K_PY, K_YP, K_YY, ALPHA, J_Y, ML2, MGL, B_P, B_Y, K_S = range(11)
@@ -17,7 +19,7 @@ PLAIN, LAGGED, FULL = 6, 8, 14
 """States of the loop: θ, ψ, θ̇, ψ̇, z_p, z_y; with both rotors' speeds v_p, v_y; with six states of an estimator."""
 INNER = FULL - PLAIN
 """States behind the sixth."""
-SIZES = tuple((0,) * size for size in (PLAIN, LAGGED, FULL))
+SIZES = tuple((np.int64(0),) * size for size in (PLAIN, LAGGED, FULL))
 """What kernels take for `size`: the length of a tuple is a constant for Numba, so that each size is compiled alone."""
 PAPER = SIZES[0]
 """The size of the paper's rig."""

@@ -96,7 +96,14 @@ def squarings_needed(size, M, dt):
 def exponential_series(size, M, factor, result, w):
     """Σ (M `factor`)ⁿ/n! up to n = TERMS into `result`, in four polynomials of degree 3 (Paterson and Stockmeyer)."""
     n = len(size) + 1
-    A, A2, A3, A4, total, product = w[:n], w[n : 2 * n], w[2 * n : 3 * n], w[3 * n : 4 * n], w[4 * n : 5 * n], w[5 * n :]
+    A, A2, A3, A4, total, product = (
+        w[:n],
+        w[n : 2 * n],
+        w[2 * n : 3 * n],
+        w[3 * n : 4 * n],
+        w[4 * n : 5 * n],
+        w[5 * n :],
+    )
     for i in range(n):
         for j in range(n):
             A[i, j] = M[i, j] * factor

@@ -207,9 +207,7 @@ def event_functions(size, y, c, m, k, g):
     count = 5
     if len(size) == PLAIN:
         if m[REST] != 0:
-            pitch, _ = accelerations(
-                y[0], 0.0, y[3], v0 + c[DISTURBANCE], v1 + c[DISTURBANCE + 1], c
-            )
+            pitch, _ = accelerations(y[0], 0.0, y[3], v0 + c[DISTURBANCE], v1 + c[DISTURBANCE + 1], c)
             g[4] = m[REST] * pitch
     else:
         count = 9
