@@ -164,9 +164,9 @@ def cloud_in_parts(
         part = slice(first, last)
         numbers = (RTOL, ABSOLUTE_TOLERANCE * RTOL, kernels.most_steps)
         own = np.empty_like(system.start), np.empty_like(system.constants), np.empty_like(system.modes)
-        scratch = (np.empty(WORKSPACE), *own, np.empty((GRID, 6)))
+        scratch = (np.empty(WORKSPACE), *own, np.empty((GRID, len(loop.size))))
         arguments = (system.start, t, system.constants, system.modes, *numbers, *scratch)
-        kernels.run_cloud(constants[part], *arguments, angles[part], within[part])
+        kernels.run_cloud(loop.size, constants[part], *arguments, angles[part], within[part])
 
     with ThreadPoolExecutor(2) as pool:
         begin, size = 0, CHUNK

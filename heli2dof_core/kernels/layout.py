@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 # c: the rig's parameters (α = J_p + m l²), gains u = G y + offset, limits, references, back-calculation,
 # pitch travel, and volts that disturb the motors
 K_PP, K_PY, K_YP, K_YY, ALPHA, J_Y, ML2, MGL, B_P, B_Y, K_S = range(11)
@@ -9,14 +11,25 @@ GAIN, OFFSET, LIMIT, WANTED, TRACKING, TRAVEL, DISTURBANCE, CONSTANTS = 11, 23, 
 
 # c goes on for a rig whose rotors, friction or estimator are modelled: time constants, dead zones, squares s of the
 # thrust curves (0: linear), both frictions; the gains of both motors on the states behind the sixth; and the
-# estimator, six rows by state, by what the motors get, and a constant (`FULL` + 3 columns each)
-TAU, DEAD, SQUARE, COULOMB, BREAKAWAY, MORE_GAIN, ESTIMATOR, MORE_CONSTANTS = 36, 38, 40, 42, 44, 46, 62, 164
+# estimator, six rows by state, by what the motors get, and a constant (`FULL` + 3 columns each); and how large the
+# states behind the sixth are as a rule, by which their errors are judged
+TAU, DEAD, SQUARE, COULOMB, BREAKAWAY, MORE_GAIN, ESTIMATOR, USUAL = 36, 38, 40, 42, 44, 46, 62, 164
+MORE_CONSTANTS = 172
 PLAIN, LAGGED, FULL = 6, 8, 14
 """States of the loop: θ, ψ, θ̇, ψ̇, z_p, z_y; with both rotors' speeds v_p, v_y; with six states of an estimator."""
+INNER = FULL - PLAIN
+"""States behind the sixth."""
+SIZES = tuple((np.int64(0),) * size for size in (PLAIN, LAGGED, FULL))
+"""What kernels take for `size`: the length of a tuple is a constant for Numba, so that each size is compiled alone."""
+PAPER = SIZES[0]
+"""The size of the paper's rig."""
 
 # m: each motor's mode and which limit it is at (±1), the stop that pitch rests on (0, ±1), the motor
 # that each integrator drives, and the kind of anti-windup
 SIDE, REST, MOTOR_OF, WINDUP, MODES = 2, 4, 5, 7, 8
+# m goes on where the size is not PLAIN: each rotor's part of its thrust curve (−1 backward, 0 dead zone, 1 forward) and
+# which way each axis slips on its friction (0: stuck; 1 without friction)
+ZONE, SLIP, MORE_MODES = 8, 10, 12
 INSIDE, BEYOND, SLIDING = 0, 1, 2
 NO_ANTI_WINDUP, CLAMPING, BACK_CALCULATION = 0, 1, 2
 
@@ -25,6 +38,9 @@ NO_ANTI_WINDUP, CLAMPING, BACK_CALCULATION = 0, 1, 2
 # until the first computed ones arrive
 TIME, STEP, FILTERED, F, BETA, RATE, DELAY, BEFORE, SETTINGS = 0, 1, 3, 4, 8, 10, 11, 12, 14
 
+ESTIMATED = (6, 11)
+"""Shape of the estimator of a digital controller, a row per state: w⁺ by w (6), measured angles (2), voltages (2), 1."""
+
 # x: an experiment's references, start θ, ψ, θ̇, ψ̇, limits, travel, whether the trim is fed forward, kind of
 # anti-windup, gains of back-calculation, and volts that disturb the motors
 REFERENCE, START, BOUND, STOP, FED, ANTI_WINDUP, BACK, VOLTS, EXPERIMENT = 0, 2, 6, 8, 9, 10, 11, 15, 17
@@ -32,21 +48,24 @@ REFERENCE, START, BOUND, STOP, FED, ANTI_WINDUP, BACK, VOLTS, EXPERIMENT = 0, 2,
 STATIC, PI, OWN = 0, 1, 2
 """What is around the state feedback: Ĝ(0)⁻¹, two PI loops, or the placement method's own integral action."""
 
-WORKSPACE = (24, 8)
+WORKSPACE = (24, FULL + 2)
 """Shape of the integrator's scratch array: slopes, continuous output, states; from row 16 on the digital rig's."""
 
-AUGMENTED = 7
-"""States of a linear response: up to six of the loop, and the constant 1 that carries the references."""
 DIVERGED = 1e3
 """An angle, rad, beyond which a response counts as diverged and is held at its last value."""
-LINEAR_WORKSPACE = (8 * AUGMENTED + 4, AUGMENTED)
-"""Shape of its scratch array: the augmented matrix, the voltages' rows and their rates', and seven matrices."""
 NODES = 256
 """Most intervals of a stretch of a linear course that is looked at as a whole; a power of 2."""
-STRETCH = (AUGMENTED + 2, NODES + 1)
-"""Shape of its nodes: the states and both voltages."""
-LADDER = (80, AUGMENTED, AUGMENTED)
-"""Shape of the powers of the linear loop's step, each the square of the one before."""
+
+
+def exact_shapes(size: int) -> tuple[tuple[int, int], tuple[int, int, int], tuple[int, int]]:
+    """Shapes of a linear response's scratch arrays, whose states are those of the loop and a constant 1.
+
+    The augmented matrix, the voltages' rows and their rates', and seven matrices; powers of the linear loop's step,
+    each the square of the one before; and nodes: the states and both voltages.
+    """
+    order = size + 1
+    return (8 * order + 4, order), (80, order, order), (order + 2, NODES + 1)
+
 
 # Columns of a motor's metrics (an axis': `kernels.figures`), of its margins, and of what both motors bear
 PEAK_VOLTAGE, EFFORT, MOTOR_METRICS = range(3)

@@ -33,6 +33,7 @@ from .layout import (
     MGL,
     ML2,
     OFFSET,
+    PAPER,
     RECORDED_WORKSPACE,
     SENSITIVITIES,
     TIME,
@@ -200,7 +201,7 @@ def run_recorder(
     `free` like m, `grid` (2,), `course` (2, 6). Returns the outcome, the samples filled and the impacts.
     """
     copy_into(c, own)
-    rig_without_feedback(c, m, plant, free)
+    rig_without_feedback(PAPER, c, m, plant, free)
     filters, seen, held, waiting = w[16:18], w[18], w[19], w[20]
     initialize_controller(y, c, d, filters, held)
     impacts = 0
@@ -209,7 +210,7 @@ def run_recorder(
             own[WANTED + i], own[OFFSET + i] = references[k, i], offsets[k, i]
         copy_into(y, states[k])
         sample_sensors(y, d, filters, noise[k], seen)
-        sample_controller(y, own, m, d, seen, w[21], waiting)
+        sample_controller(PAPER, y, own, m, d, seen, w[21], waiting)
         if d[DELAY] == 0.0:
             held[0], held[1] = waiting[0], waiting[1]
         for i in range(2):
@@ -217,7 +218,7 @@ def run_recorder(
             plant[OFFSET + i] = held[i]
         z0, z1 = y[4], y[5]
         grid[0], grid[1] = k * d[TIME], (k + 1) * d[TIME]
-        outcome, _, _, _, hits = integrate(y, grid, plant, free, rtol, atol, most_steps, w, course)
+        outcome, _, _, _, hits = integrate(PAPER, y, grid, plant, free, rtol, atol, most_steps, w, course)
         y[4], y[5] = z0, z1
         impacts += hits
         if outcome != 0:

@@ -156,7 +156,7 @@ def run_recorder(
     theta, psi, theta_dot, psi_dot = (theta_0, 0.0, 0.0, 0.0) if start is None else start.tolist()
     first = (theta, psi, theta_dot, psi_dot)
     system = NonlinearLoop.of(loop, limits, Scenario(initial=first, samples=2))
-    c, y = system.constants.copy(), system.start.copy()
+    c, y = system.constants.copy(), system.start[:6].copy()
     at_zero = NonlinearLoop.of(loop, limits, Scenario(theta=0.0, psi=0.0, initial=first, samples=2)).offset
     references = np.ascontiguousarray(references, dtype=float)
     offsets = np.ascontiguousarray(at_zero + references @ loop.voltage_from_reference.T)
