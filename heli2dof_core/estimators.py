@@ -139,10 +139,10 @@ def _thrust(design: Design) -> Floats:
 
 
 def _filters() -> Estimator:
-    """Second-order filters on both angles; their states are x₁ = ∫ x₂ and x₂, of which ω² x₂ is the rate."""
+    """Second-order filters on both angles; per axis w = [filtered angle, its rate/ω]."""
     w, zeta = FILTER_FREQUENCY, FILTER_DAMPING
-    one = np.array([[0.0, 1.0], [-(w**2), -2.0 * zeta * w]])
-    F, G = fixed(np.kron(np.eye(2), one)), fixed(np.kron(np.eye(2), np.array([[0.0], [1.0]])))
+    one = w * np.array([[0.0, 1.0], [-1.0, -2.0 * zeta]])
+    F, G = fixed(np.kron(np.eye(2), one)), fixed(np.kron(np.eye(2), np.array([[0.0], [w]])))
     rates = np.zeros((4, 4))
-    rates[2, 1] = rates[3, 3] = w**2
+    rates[2, 1] = rates[3, 3] = w
     return Estimator("filtered", F, G, np.zeros((4, 2)), rates, fixed(np.eye(4, 2)))

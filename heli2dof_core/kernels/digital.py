@@ -54,7 +54,6 @@ from .layout import (
     TIME,
     TRACKING,
     TRAVEL,
-    USUAL,
     WANTED,
     WINDUP,
     WORKSPACE,

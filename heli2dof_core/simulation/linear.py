@@ -21,8 +21,8 @@ AT_REST = fixed(np.zeros(2))
 def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = None) -> Response:
     """Step response of the loop without limits, exact at every sample.
 
-    Ignores saturation, anti-windup, travel stops, friction and feed-forward; thrust curves are straight. The states are augmented by a
-    constant 1 that carries the references, so that one exponential holds the whole step. Its figures are
+    Ignores saturation, anti-windup, travel stops, friction and feed-forward; thrust curves are straight. The states
+    are augmented by a constant 1 that carries the references, so that one exponential holds the whole step. Its figures are
     given up after `most_steps` groups of steps, by default a tenth of a second's work.
     """
     x, t, size = experiment(loop, None, scenario), scenario.times, loop.size
