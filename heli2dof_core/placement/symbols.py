@@ -136,7 +136,7 @@ def _placed(
             field="B",
             hint="Add an input, or take the states that no input reaches out of the model.",
         ) from None
-    dealt = -1.0 - np.arange(A.shape[0]) + 0j if numbers is None else numbers
+    dealt = -1.0 - np.arange(A.shape[0], dtype=np.complex128) if numbers is None else numbers
     chosen = require_groups(assign(dealt, indices) if groups is None else groups, dealt, indices)
     form = canonical_form(A, B, indices, leading_rows(A, B, indices))
     write = _Writer(read.letters, chosen, symbols)
@@ -177,14 +177,14 @@ def _feedback(
 
 
 class _Writer:
-    """Elements as a person would write them: factors, and the coefficients of each group's polynomial by its poles."""
+    """Elements as a person would write them: factored, and by the coefficients of each group's polynomial."""
 
     def __init__(self, letters: Letters, groups: Sequence[Group], poles: Sequence[sp.Symbol]) -> None:
         import sympy as sp
 
         self._letters, self.groups = letters, groups
         self._of_poles: dict[Any, sp.Expr] = {}
-        self._names: list[list[sp.Symbol]] = []
+        self._names: list[Sequence[sp.Symbol]] = []
         for group in groups if poles else ():
             roots = [poles[i] for i in group.poles]
             names = [sp.Dummy(f"d_{k}") for k in range(len(roots))]
@@ -267,12 +267,15 @@ def _positive(symbols: Sequence[sp.Symbol]) -> Finding:
 def _rows(matrix: Any, field: str) -> list[list[Any]]:
     """A matrix row by row, of whatever kind it is."""
     rows = matrix.tolist() if hasattr(matrix, "tolist") else matrix
-    if isinstance(rows, Sequence) and not isinstance(rows, str) and rows:
-        if all(isinstance(row, Sequence) and not isinstance(row, str) and len(row) for row in rows):
-            return [list(row) for row in rows]
+    if _is_list(rows) and all(map(_is_list, rows)):
+        return [list(row) for row in rows]
     raise InvalidInputError(
         f"{field} is no matrix", field=field, hint="Give it row by row: [[a, b], [c, d]]."
     )
+
+
+def _is_list(value: Any) -> bool:
+    return isinstance(value, Sequence) and not isinstance(value, str) and len(value) > 0
 
 
 def _require_shapes(given: Mapping[str, list[list[Any]]]) -> int:

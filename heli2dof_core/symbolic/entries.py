@@ -73,7 +73,7 @@ class Letters:
         """The letter in the field."""
         return self._generators[name] ** 2 ** self.roots.get(name, 0)
 
-    def in_letters(self, expression: sp.Expr) -> sp.Expr:
+    def in_letters(self, expression: sp.Expr) -> Any:
         """With roots of letters in place of what stands for them."""
         written = {
             self.domain.to_sympy(self._generators[name]): self.symbols[name] ** sp.Rational(1, 2**count)
@@ -114,7 +114,8 @@ class Letters:
         sides = [_monomial(side) for side in (value.numer, value.denom)]
         if not value:
             return value
-        if None in sides:
+        sides = [side for side in sides if side is not None]
+        if len(sides) < 2:
             raise WrittenError(
                 "sqrt takes numbers, and products of letters and numbers",
                 position,
@@ -339,7 +340,7 @@ def _sized_number(value: Fraction) -> Node:
     return Node("number", 1, value)
 
 
-def _of_sympy(value: sp.Basic) -> Node:  # noqa: PLR0911
+def _of_sympy(value: sp.Basic) -> Node:
     match value:
         case sp.Rational():
             return _sized_number(Fraction(int(value.p), int(value.q)))
@@ -374,8 +375,8 @@ def symbols_of(values: Iterator[object]) -> dict[str, sp.Symbol]:
     """
     found: dict[str, sp.Symbol] = {}
     for value in values:
-        for symbol in value.free_symbols if isinstance(value, sp.Basic) else ():
-            if found.setdefault(symbol.name, symbol) != symbol:  # pyright: ignore[reportAttributeAccessIssue]
+        for symbol in value.atoms(sp.Symbol) if isinstance(value, sp.Basic) else ():
+            if found.setdefault(symbol.name, symbol) != symbol:
                 raise InvalidInputError(
                     f"two different symbols are called {symbol}",
                     field="A",

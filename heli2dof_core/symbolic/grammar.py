@@ -66,8 +66,8 @@ _NUMBER = re.compile(r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _GREEK = "\u0391-\u03a1\u03a3-\u03a9\u03b1-\u03c1\u03c3-\u03c9"
 _SUBSCRIPTS = "\u2080-\u2089"
 _NAME = re.compile(f"[A-Za-z{_GREEK}][A-Za-z0-9_{_GREEK}{_SUBSCRIPTS}]*")
-_SAME = {"−": "-", "–": "-", "·": "*", "×": "*", "⋅": "*", "∙": "*", "÷": "/", "∕": "/", "**": "^"}  # noqa: RUF001
-_OPERATOR = re.compile(r"\*\*|[-+*/^()−–·×⋅∙÷∕]")  # noqa: RUF001
+_SAME = {"−": "-", "–": "-", "·": "*", "×": "*", "⋅": "*", "∙": "*", "÷": "/", "∕": "/", "**": "^"}
+_OPERATOR = re.compile(r"\*\*|[-+*/^()−–·×⋅∙÷∕]")
 _START = "a number, a letter, sqrt( or an opening bracket"
 _NEXT = "+, −, *, /, ^"
 
