@@ -12,11 +12,12 @@ from ..contract.design import DesignRequest
 from ..contract.encoding import json_bytes, json_response
 from ..contract.model import described
 from ..contract.paper import Paper
-from ..jobs.compute import Compute
+from ..contract.symbols import SymbolicPlacementReply, SymbolicPlaceRequest
+from ..jobs.compute import Compute, check_cancelled
 
 
 def build_router(compute: Compute) -> APIRouter:
-    """The routes symbolic, walkthrough and paper under /api/v1."""
+    """The routes symbolic, symbolic/place, walkthrough and paper under /api/v1."""
     router = APIRouter(prefix="/api/v1", tags=["derivation"])
 
     @router.get("/symbolic", **described(Symbolic, "The formulas, derived"))
@@ -36,6 +37,13 @@ def build_router(compute: Compute) -> APIRouter:
     )
     async def walkthrough(request: DesignRequest) -> Response:
         return json_response(await compute.run_slow(lambda: walkthrough_reply(place(request.to_spec()))))
+
+    @router.post(
+        "/symbolic/place",
+        **described(SymbolicPlacementReply, "State feedback for any controllable (A, B), in formulas"),
+    )
+    async def symbolic_place(request: SymbolicPlaceRequest) -> Response:
+        return json_response(await compute.run_slow(lambda: request.reply(check_cancelled)))
 
     @router.get("/paper", **described(Paper, "The paper, reproduced, and its errata proved"))
     async def paper() -> Response:

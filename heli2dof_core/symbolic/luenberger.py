@@ -78,17 +78,22 @@ def controllability_indices(A: DomainMatrix, B: DomainMatrix) -> tuple[int, ...]
     return tuple(sum(1 for column in pivots if column % p == i) for i in range(p))
 
 
-def leading_rows(A: DomainMatrix, B: DomainMatrix, indices: tuple[int, ...]) -> list[DomainMatrix]:
-    """q_i = row σ₁ + … + σ_i of [b₁ … A^(σ₁−1) b₁ | b₂ …]⁻¹, each 1×n."""
+def chains(A: DomainMatrix, B: DomainMatrix, indices: tuple[int, ...]) -> DomainMatrix:
+    """M = [b₁ … A^(σ₁−1) b₁ | b₂ …], n×n: the columns that the scan kept."""
     columns = []
     for i, index in enumerate(indices):
         column = _column(B, i)
         for _ in range(index):
             columns.append(column)
             column = A.matmul(column)
+    return columns[0].hstack(*columns[1:])
+
+
+def leading_rows(A: DomainMatrix, B: DomainMatrix, indices: tuple[int, ...]) -> list[DomainMatrix]:
+    """q_i = row σ₁ + … + σ_i of [b₁ … A^(σ₁−1) b₁ | b₂ …]⁻¹, each 1×n."""
     n = A.shape[0]
     units = DomainMatrix.eye(n, A.domain).to_dense().extract(list(range(n)), list(_ends(indices)))
-    rows = columns[0].hstack(*columns[1:]).transpose().lu_solve(units).transpose()
+    rows = chains(A, B, indices).transpose().lu_solve(units).transpose()
     return [_row(rows, i) for i in range(len(indices))]
 
 
