@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import sqrt
@@ -18,7 +18,7 @@ from .estimators import Estimator
 from .findings import Finding
 from .frozen import Frozen, frozen
 from .interop import state_space
-from .kernels.layout import FULL, LAGGED, OWN, PI, PLAIN, POLYNOMIALS, ROUNDING, STATIC
+from .kernels.layout import OWN, PI, PLAIN, POLYNOMIALS, ROUNDING, SIZES, STATIC
 from .rotors import Actuators
 from .scenario import OuterLoop
 from .scratch import scratch
@@ -73,7 +73,7 @@ class Loop(Frozen, Shown):
         return self.design.actuators
 
     @property
-    def size(self) -> tuple[int, ...]:
+    def size(self) -> Sequence[int]:
         """As many zeros as the kernels' states of this loop: they are compiled for each number of them."""
         if self.estimator is not None:
             return WITH_ESTIMATOR
@@ -202,7 +202,7 @@ def _slowest_first(pole: complex) -> tuple[float, float]:
     return -pole.real, -pole.imag
 
 
-PAPERS, WITH_ROTORS, WITH_ESTIMATOR = ((0,) * n for n in (PLAIN, LAGGED, FULL))
+PAPERS, WITH_ROTORS, WITH_ESTIMATOR = SIZES
 
 
 def estimated(i: int) -> Signal:

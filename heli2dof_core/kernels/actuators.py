@@ -31,7 +31,7 @@ from .layout import (
 
 @kernel
 def rotor_speed(y, motor, voltage, c):
-    """V of a motor that the controller gives a voltage, V: a state, or what it has where its rotor follows at once."""
+    """The speed of a motor that has got this voltage from the controller, V: a state, or the voltage at once."""
     return y[6 + motor] if c[TAU + motor] > 0.0 else voltage + c[DISTURBANCE + motor]
 
 

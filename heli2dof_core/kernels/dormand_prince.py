@@ -334,8 +334,8 @@ def first_event(size, q, c, m, k, g, probe):
 def next_look(q, c, m, low, high):
     """Where to look next for an event after the share `low` of a step, at `high` at the latest.
 
-    A rate that turns back may have been 0 before, and a rotor's speed at an end of its curve's part. What an axis that
-    is stuck withstands is no polynomial: it is looked at eight times.
+    A rate that turns back may have been 0 before, and a rotor's speed at an end of its curve's part. What an axis
+    that is stuck withstands is no polynomial: it is looked at eight times.
     """
     first = low + 1e-9 if low > 0.0 else 0.0
     for i in range(2):

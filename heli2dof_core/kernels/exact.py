@@ -103,8 +103,8 @@ def settling_horizon(poles):
 def propagate_measured(size, M, outputs, slopes, poles, t, length, theta_0, most, f, ladder, nodes, w):
     """Follows the course from the state in the first column of `nodes` at t for a time `length`.
 
-    `outputs` and `slopes`, (2, n), n one more than the size: voltages and their rates by state. The state at the end is
-    left in the first column, of a course that leaves ±DIVERGED the angles alone. Given up after `most` groups of
+    `outputs` and `slopes`, (2, n), n one more than the size: voltages and their rates by state. The state at the end
+    is left in the first column, of a course that leaves ±DIVERGED the angles alone. Given up after `most` groups of
     intervals. Returns the outcome and the time reached. Scratch: `ladder` and `w`, (6 n, n).
     """
     end = t + length

@@ -5,6 +5,7 @@ A kernel that `engine` hands out names its own beside its definition (`jit.entry
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -57,14 +58,14 @@ def times() -> Floats:
     return fixed([0.0, 1e-3])
 
 
-def constants(size: tuple[int, ...] = PAPER) -> Floats:
+def constants(size: Sequence[int] = PAPER) -> Floats:
     """A rig with inertia and limits, and no controller."""
     c = np.zeros(CONSTANTS if len(size) == PLAIN else MORE_CONSTANTS)
     c[[ALPHA, J_Y, LIMIT, LIMIT + 1]] = 1.0
     return c
 
 
-def modes(size: tuple[int, ...] = PAPER) -> Any:
+def modes(size: Sequence[int] = PAPER) -> Any:
     """All switches as they are at first."""
     return np.zeros(MODES if len(size) == PLAIN else MORE_MODES, dtype=np.int64)
 

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+
+from ..signals import fixed
 
 # c: the rig's parameters (α = J_p + m l²), gains u = G y + offset, limits, references, back-calculation,
 # pitch travel, and volts that disturb the motors
@@ -19,16 +23,17 @@ PLAIN, LAGGED, FULL = 6, 8, 14
 """States of the loop: θ, ψ, θ̇, ψ̇, z_p, z_y; with both rotors' speeds v_p, v_y; with six states of an estimator."""
 INNER = FULL - PLAIN
 """States behind the sixth."""
-SIZES = tuple((np.int64(0),) * size for size in (PLAIN, LAGGED, FULL))
-"""What kernels take for `size`: the length of a tuple is a constant for Numba, so that each size is compiled alone."""
+SIZES: Any = ((np.int64(0),) * PLAIN, (np.int64(0),) * LAGGED, fixed(np.zeros(FULL)))
+"""What kernels take for `size`, whose length it is. That of a tuple is a constant for Numba, so that loops over the
+states unroll; of the largest an array's is not, which is as well: unrolled it took a minute to compile."""
 PAPER = SIZES[0]
 """The size of the paper's rig."""
 
 # m: each motor's mode and which limit it is at (±1), the stop that pitch rests on (0, ±1), the motor
 # that each integrator drives, and the kind of anti-windup
 SIDE, REST, MOTOR_OF, WINDUP, MODES = 2, 4, 5, 7, 8
-# m goes on where the size is not PLAIN: each rotor's part of its thrust curve (−1 backward, 0 dead zone, 1 forward) and
-# which way each axis slips on its friction (0: stuck; 1 without friction)
+# m goes on where the size is not PLAIN: each rotor's part of its thrust curve (−1 backward, 0 dead zone, 1 forward)
+# and which way each axis slips on its friction (0: stuck; 1 without friction)
 ZONE, SLIP, MORE_MODES = 8, 10, 12
 INSIDE, BEYOND, SLIDING = 0, 1, 2
 NO_ANTI_WINDUP, CLAMPING, BACK_CALCULATION = 0, 1, 2
@@ -39,7 +44,7 @@ NO_ANTI_WINDUP, CLAMPING, BACK_CALCULATION = 0, 1, 2
 TIME, STEP, FILTERED, F, BETA, RATE, DELAY, BEFORE, SETTINGS = 0, 1, 3, 4, 8, 10, 11, 12, 14
 
 ESTIMATED = (6, 11)
-"""Shape of the estimator of a digital controller, a row per state: w⁺ by w (6), measured angles (2), voltages (2), 1."""
+"""Shape of a digital controller's estimator, a row per state: w⁺ by w (6), measured angles (2), voltages (2), 1."""
 
 # x: an experiment's references, start θ, ψ, θ̇, ψ̇, limits, travel, whether the trim is fed forward, kind of
 # anti-windup, gains of back-calculation, and volts that disturb the motors

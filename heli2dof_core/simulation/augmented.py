@@ -57,7 +57,7 @@ def _usual(estimator: Estimator) -> Floats:
         sizes = np.max(np.abs(np.hstack((rest, np.linalg.solve(estimator.F, rest)))), axis=1)
     except np.linalg.LinAlgError:
         return np.ones(estimator.order)
-    return np.where(sizes > 0.0, np.minimum(sizes, 1.0), 1.0)
+    return fixed(np.where(sizes > 0.0, np.minimum(sizes, 1.0), 1.0))
 
 
 def inner_start(loop: Loop, x: Floats, steps: tuple[float, float] = (0.0, 0.0)) -> Floats:

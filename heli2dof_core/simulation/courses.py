@@ -42,8 +42,8 @@ class Courses:
         i, x = _MODELS.index(model), self.experiments[n]
         found = Measured(self.axes[n, i], self.motors[n, i], self.courses[n, i])
         if model == "linear":
-            return linear_response(self.loop, x, self.t, self.linear[n], self.voltages[n, 0], found)
-        return limited_response(self.loop, x, self.t, self.nonlinear[n], self.voltages[n, 1], found)
+            return linear_response(self.loop, x, self.t, (self.linear[n], self.voltages[n, 0]), found)
+        return limited_response(self.loop, x, self.t, (self.nonlinear[n], self.voltages[n, 1]), found)
 
 
 def run_experiments(

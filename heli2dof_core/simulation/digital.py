@@ -76,7 +76,7 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
         *found,
     )
     course, voltages = np.ascontiguousarray(states.T), np.ascontiguousarray(held.T)
-    response = limited_response(loop, system.experiment, t, course, voltages, Measured(*found))
+    response = limited_response(loop, system.experiment, t, (course, voltages), Measured(*found))
     return replace(response, findings=(*response.findings, *_remarks(loop, scenario, digital)))
 
 

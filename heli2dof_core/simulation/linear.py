@@ -22,8 +22,8 @@ def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = Non
     """Step response of the loop without limits, exact at every sample.
 
     Ignores saturation, anti-windup, travel stops, friction and feed-forward; thrust curves are straight. The states
-    are augmented by a constant 1 that carries the references, so that one exponential holds the whole step. Its figures are
-    given up after `most_steps` groups of steps, by default a tenth of a second's work.
+    are augmented by a constant 1 that carries the references, so that one exponential holds the whole step. Its
+    figures are given up after `most_steps` groups of steps, by default a tenth of a second's work.
     """
     x, t, size = experiment(loop, None, scenario), scenario.times, loop.size
     law, A, B = loop.padded
@@ -52,12 +52,13 @@ def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = Non
         voltages,
         *found,
     )
-    return linear_response(loop, x, t, states, voltages, Measured(*found))
+    return linear_response(loop, x, t, (states, voltages), Measured(*found))
 
 
 def linear_response(
-    loop: Loop, x: Floats, t: Floats, states: Floats, voltages: Floats, found: Measured
+    loop: Loop, x: Floats, t: Floats, course: tuple[Floats, Floats], found: Measured
 ) -> Response:
-    """The course of an experiment with its remarks; `states` as the kernel has filled them."""
+    """The course of an experiment with its remarks: states as the kernel has filled them, and voltages."""
+    states, voltages = course
     own = own_states(loop, states)
     return course_response("linear", x.tolist(), t, found, states=own, signals=loop.states, voltages=voltages)

@@ -113,7 +113,8 @@ def simulate_nonlinear(
     The rig starts at rest at its operating point unless `scenario.initial` says otherwise. Whatever
     changes the rates abruptly is located: a voltage that reaches or leaves its limit, an integrator
     that clamping stops or lets go, pitch that meets its stop (without rebound) or leaves it, a rotor that enters
-    or leaves its dead zone, an axis that friction holds or lets go. After `most_steps`, by default half a second's work or two, it is given up and a finding says so.
+    or leaves its dead zone, an axis that friction holds or lets go. After `most_steps`, by default half a second's
+    work or two, it is given up and a finding says so.
     """
     system, kernels, size = NonlinearLoop.of(loop, limits, scenario), engine(), loop.size
     t, found = scenario.times, room()
@@ -139,13 +140,14 @@ def simulate_nonlinear(
         voltages,
         *found,
     )
-    return limited_response(loop, system.experiment, t, states, voltages, Measured(*found))
+    return limited_response(loop, system.experiment, t, (states, voltages), Measured(*found))
 
 
 def limited_response(
-    loop: Loop, x: Floats, t: Floats, states: Floats, voltages: Floats, found: Measured
+    loop: Loop, x: Floats, t: Floats, course: tuple[Floats, Floats], found: Measured
 ) -> Response:
-    """The course of an experiment with its remarks; `states` as the kernel has filled them."""
+    """The course of an experiment with its remarks: states as the kernel has filled them, and voltages."""
+    states, voltages = course
     numbers: list[float] = x.tolist()
     pitch, yaw, _, _, impacts, *_ = found.course[SHARE:].tolist()
     remarks = tuple(_remarks(numbers, (pitch, yaw), impacts))

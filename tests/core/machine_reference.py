@@ -103,7 +103,7 @@ class MachineReference:
         """Functions that are positive while the modes hold, with what to do when one is not any more."""
         found = [guard for i in range(2) for guard in (*self.motor_guards(i), *self.friction_guards(i))]
         if self.rest:
-            found.append((lambda y: self.pressing(y), "leave", 0))
+            found.append((self.pressing, "leave", 0))
         elif np.isfinite(self.travel):
             found.append((lambda y: self.travel - abs(y[0]), "meet", 0))
         return found
