@@ -66,10 +66,10 @@ class SymbolicPlacementReply(Model):
     controllability_indices: list[int] = Field(description="one per input, for letters in general position")
     groups: list[Group]
     holds_unless: list[Formula] = Field(
-        description="all holds where none of these is 0; where one is, an entry divides by 0 or the indices are others"
+        description="what must not be 0: where it is, an entry divides by 0 or the indices are others"
     )
     letters: dict[str, Formula] = Field(
-        description="by its name the letter as it stands in the formulas: what SymPy has a meaning for gets an underscore"
+        description="by its name the letter as the formulas have it: gamma_, where SymPy has a meaning for gamma"
     )
     findings: list[Finding]
 

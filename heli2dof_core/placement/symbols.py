@@ -136,7 +136,7 @@ def _placed(
             field="B",
             hint="Add an input, or take the states that no input reaches out of the model.",
         ) from None
-    dealt = -1.0 - np.arange(A.shape[0], dtype=np.complex128) if numbers is None else numbers
+    dealt = np.arange(A.shape[0]).astype(np.complex128) if numbers is None else numbers
     chosen = require_groups(assign(dealt, indices) if groups is None else groups, dealt, indices)
     form = canonical_form(A, B, indices, leading_rows(A, B, indices))
     write = _Writer(read.letters, chosen, symbols)

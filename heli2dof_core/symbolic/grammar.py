@@ -244,9 +244,13 @@ class _Parser:
 
 
 def _constant(node: Node) -> Fraction | None:
-    """The value of an exponent; None where it has letters, or powers and roots of its own."""
+    """The value of an exponent; None where it has letters or roots, or powers too large to be one."""
     if node.kind == "number":
         return node.value
+    if node.kind == "power":
+        base = _constant(node.parts[0])
+        small = base is not None and base != 0 and max(abs(base.numerator), base.denominator) <= LARGEST_POWER
+        return base**node.value.numerator if base and small and node.value.denominator == 1 else None
     if node.kind not in ("sum", "product"):
         return None
     values = [_constant(part) for part in node.parts]
@@ -286,7 +290,7 @@ def _name(token: _Token) -> str:
     text = "".join(parts)
     if len(text) > LONGEST_NAME or text.endswith("_") or "__" in text:
         raise WrittenError(
-            f"letters have names of at most {LONGEST_NAME} characters, without an underscore at the end or two in a row",
+            f"letters have names of at most {LONGEST_NAME} characters, and underscores only within them, one by one",
             token.position,
             "Write it like K_pp or omega_0.",
         )

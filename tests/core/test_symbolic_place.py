@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 import time
 from fractions import Fraction
 
@@ -58,8 +59,6 @@ def calculated(text, values):
     )
 
 
-import re  # noqa: E402
-
 _FRACTIONS = re.compile(r"(?<![\w.^*])\d+(?:\.\d+)?(?![\w.])")
 
 
@@ -70,9 +69,8 @@ def exact(rows, values):
     )
 
 
-def floats(matrix, values):
-    found = matrix.subs(values)
-    return np.array(found.tolist(), dtype=object).astype(complex)
+def rational(matrix):
+    return DomainMatrix.from_Matrix(matrix).convert_to(QQ).to_dense()
 
 
 def random_values(placed, rng):
@@ -98,13 +96,13 @@ def test_away_from_the_conditions_the_poles_are_placed(A, B):
         assert luenberger.controllability_indices(*exactly) == placed.controllability_indices
         poles = [-sp.Rational(k + 2, 2) for k in range(n)]
         at = numbers | {sp.Symbol(f"p_{i + 1}"): p for i, p in enumerate(poles)}
-        K = DomainMatrix.from_Matrix(placed.K.subs(at)).convert_to(QQ)
+        K = rational(placed.K.subs(at))
         closed = exactly[0] - exactly[1].matmul(K)
         assert closed.to_Matrix() == placed.closed_loop.subs(at)
         s = sp.Symbol("s")
         wanted = sp.Poly(sp.expand(sp.Mul(*(s - p for p in poles))), s)
         assert [sp.Rational(c) for c in closed.charpoly()] == wanted.all_coeffs()
-        T, Q = (DomainMatrix.from_Matrix(m.subs(at)).convert_to(QQ) for m in (placed.T, placed.Q))
+        T, Q = (rational(m.subs(at)) for m in (placed.T, placed.Q))
         ends = np.cumsum(placed.controllability_indices) - 1
         assert T.matmul(exactly[1]).extract(ends.tolist(), list(range(len(B[0])))) == Q
         numeric = [np.array(m.to_Matrix().tolist(), dtype=float) for m in exactly]
@@ -212,10 +210,10 @@ def test_letters_parse_back_as_letters(name):
 
 REFUSED = [
     ("", 1), ("a b", 3), ("2a", 2), ("a(b)", 2), ("sin(a)", 4), ("a +", 4), ("(a", 3), ("a)", 2), ("sqrt a", 6),
-    ("a^b", 3), ("a^(1/3)", 3), ("a^99", 3), ("1/0", 3), ("1/(a-a)", 3), ("0^-1", 1), ("a__b", 1), ("a_", 1),
+    ("a^b", 3), ("a^(1/3)", 3), ("a^99", 3), ("1/0", 3), ("1/(a-a)", 4), ("0^-1", 1), ("a__b", 1), ("a_", 1),
     ("_a", 1), ("a.b", 2), ("__import__('os')", 1), ("a if b else c", 3), ("1e999999999", 1), ("[a]", 1), ("a;b", 2),
-    ("lambda: 1", 7), ("(" * 40 + "a" + ")" * 40, 17), ("-" * 60 + "a", 17), ("a" * 60, 1), ("1" * 60, 1),
-    ("a+" * 150 + "a", 201), ("(a+b+c+d+e+f+g)^12", 1), ("((9^12)^12)^12", 1), ("sqrt(a+b)", 1), ("sqrt(2)", 1),
+    ("lambda: 1", 7), ("(" * 40 + "a" + ")" * 40, 18), ("-" * 60 + "a", 17), ("a" * 60, 1), ("1" * 60, 1),
+    ("a+" * 150 + "a", 201), ("(a+b+c+d+e+f+g)^12", 2), ("((9^12)^12)^12", 3), ("sqrt(a+b)", 1), ("sqrt(2)", 1),
     ("sqrt(-1)", 1), ("1.2.3", 4), ("a\x00", 2), ("😀", 1), ("٣", 1),
 ]  # fmt: skip
 
