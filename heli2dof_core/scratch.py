@@ -11,11 +11,14 @@ from .kernels.layout import (
     FOLLOWED,
     FREQUENCIES,
     LADDER,
+    LAG_WORKSPACE,
     LINEAR_WORKSPACE,
     MODES,
     POLYNOMIAL_WORKSPACE,
     POLYNOMIALS,
     STRETCH,
+    WHOLE_MINORS,
+    WHOLE_ROWS,
     WORKSPACE,
 )
 
@@ -39,6 +42,8 @@ class _Scratch(threading.local):
         self.stability = np.empty(POLYNOMIAL_WORKSPACE)
         self.margins = (np.empty(POLYNOMIALS), self.stability)
         self.sensitivity = np.empty((3, FREQUENCIES))
+        self.whole = (np.empty(WHOLE_ROWS), np.empty(WHOLE_MINORS))
+        self.lag = np.empty(LAG_WORKSPACE)
 
 
 scratch = _Scratch()
