@@ -15,6 +15,7 @@ from .kernels.layout import BAND
 from .loop import Loop
 from .metrics import StepMetrics
 from .remarks import FAR_OUT
+from .rotors import USUAL_LAG
 from .scenario import Digital, Limits, Scenario
 from .signals import AXES, INPUTS, OUTPUTS
 from .simulation.response import Response
@@ -27,6 +28,8 @@ UNLIKE_OVERSHOOT = 10.0
 """The same for overshoot, percentage points."""
 SLOWER = 5.0
 """How many times slower than every placed pole a pole of the whole loop is remarked on."""
+SLOWER_ROTORS = 1.5
+"""Times a real rig's lag that a design should bear, whose rig has none."""
 DEAD_SAMPLES = 1.5
 """Dead time of a digital loop in samples: one to compute, half a sample's hold
 (Åström and Wittenmark, Computer-Controlled Systems, 1997, section 8)."""
@@ -67,6 +70,7 @@ def behaviour_remarks(
     return tuple(
         chain(
             _on_delay(margins, scenario),
+            _on_lag(loop),
             _on_gain(loop, limits),
             _on_slow_poles(loop),
             _on_settling(loop, axes),
@@ -91,6 +95,20 @@ def _on_delay(margins: tuple[Margins, Margins], scenario: Scenario) -> Iterator[
             f"The {axis} motor's delay margin is {_time(short[axis])}. A digital controller with {usual} sample "
             f"time of {_time(sample)} adds up to {_time(DEAD_SAMPLES * sample)} of dead time. Place slower poles "
             "or lower the gains.",
+        )
+
+
+def _on_lag(loop: Loop) -> Iterator[Finding]:
+    own, limit = loop.actuators, loop.lag_margin
+    if limit is None:
+        yield Finding("lag_unlimited", "info", "The loop stays stable however slow both rotors are.")
+    elif (own is None or not own.lags) and limit < SLOWER_ROTORS * USUAL_LAG:
+        yield Finding(
+            "lives_by_fast_rotors",
+            "warning",
+            f"The design lives by rotors that follow at once: if both needed {limit:.3g} s, the loop would not be "
+            f"stable any more, and those of a real Aero need {USUAL_LAG:g} s. Place slower poles, or give the rig its "
+            "rotors and place them, too.",
         )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import sqrt
+from math import inf, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,11 +14,12 @@ from .augmentation import augmented_loop
 from .design import Design
 from .eigenvalues import eigenvalues
 from .engine import engine
-from .estimators import Estimator
+from .estimators import FILTER_DAMPING, FILTER_FREQUENCY, Estimator
 from .findings import Finding
 from .frozen import Frozen, frozen
 from .interop import state_space
 from .kernels.layout import OWN, PI, PLAIN, POLYNOMIALS, ROUNDING, SIZES, STATIC
+from .loop_polynomials import controller_numbers, whole_polynomials
 from .rotors import Actuators
 from .scenario import OuterLoop
 from .scratch import scratch
@@ -118,10 +119,51 @@ class Loop(Frozen, Shown):
 
     @cached_property
     def polynomials(self) -> Floats:
-        """Rig and law as 2×2 matrices of polynomials of s, (2, 2, 20), laid out as `kernels.polynomials` says."""
-        plant, f = self.design.plant, np.empty(POLYNOMIALS)
-        engine().polynomial_matrices(plant.A, plant.B, self.voltage_from_state, f)
-        return frozen(f)
+        """Rig and law as 2×2 matrices of polynomials of s, (2, 2, 20), laid out as `kernels.polynomials` says.
+
+        With rotors that lag or an estimator it is eight polynomials, (8, 2, 16), laid out as `kernels.whole` says.
+        """
+        return self.polynomials_on(self.design.plant.A, self.design.plant.B)
+
+    def polynomials_on(self, A: Floats, B: Floats, tau: Floats | None = None) -> Floats:
+        """The same of another rig, 4×4 and 4×2, and with other time constants of its rotors, under this law."""
+        own, known = self.actuators, self.estimator
+        if own is not None:
+            B, tau = B * own.slope, own.tau if tau is None else tau
+        tau = np.zeros(2) if tau is None else tau
+        if known is None and not tau.any() and self.design.rotor_poles is None:
+            f = np.empty(POLYNOMIALS)
+            engine().polynomial_matrices(
+                A, B, np.ascontiguousarray(self.voltage_from_state[:, : 4 + self._z]), f
+            )
+            return frozen(f)
+        return whole_polynomials(A, B, tau, self.controller)
+
+    @cached_property
+    def controller(self) -> Floats:
+        """The law as `kernels.whole` takes it, (5, 10)."""
+        filters = observer = None
+        if self.estimator is not None:
+            filters = (FILTER_FREQUENCY, FILTER_DAMPING) if self.estimator.model is None else None
+            L, model = self.estimator.L, self.estimator.model
+            observer = None if model is None or L is None else (model[0], model[1], L, model[2])
+        return controller_numbers(self.design.K, self.proportional, self.integral, filters, observer)
+
+    @cached_property
+    def lag_margin(self) -> float | None:
+        """The least time constant of both rotors, s, at which the loop is not stable; None where there is none.
+
+        Where the rotors are placed, it is the least above their own, the larger of both. None, too, where the loop is
+        not stable even there. Found from polynomials, without a grid (`kernels.lag`).
+        """
+        own = self.actuators
+        start = 0.0 if own is None or self.design.rotor_poles is None else float(own.tau.max())
+        found = engine().lag_margin(self.polynomials, start, scratch.lag)
+        return found if start < found < inf else None
+
+    @property
+    def _z(self) -> int:
+        return 0 if self.integral is None else 2
 
     @cached_property
     def connected(self) -> tuple[int, ...]:
@@ -244,7 +286,7 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
             "The method has its own integral action. The PI loops are not used.",
         )
     if not loop.stable and (loop.has_integrators or loop.design.stable):
-        yield _instability(loop)
+        yield _lagging(loop) or _instability(loop)
     if loop.has_integrators and loop.design.integral is None:
         for name, gains, integral in zip(
             AXES, (loop.outer.pitch, loop.outer.yaw), loop.integral_by_axis, strict=True
@@ -270,6 +312,19 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
             f"The whole loop rings: its least damping ratio is {damping:.2f}. Lower the gains or raise the "
             "integral times.",
         )
+
+
+def _lagging(loop: Loop) -> Finding | None:
+    """That the rotors' lag has done it, if it has."""
+    own, limit = loop.actuators, loop.lag_margin
+    if own is None or limit is None or not own.tau.max() >= limit:
+        return None
+    return Finding(
+        "rotors_unstable",
+        "error",
+        f"The rotors' lag of {own.tau.max():.3g} s makes the helicopter unstable: both may need at most {limit:.3g} s "
+        "with this design. Place slower poles or lower the gains, or place the rotors, too.",
+    )
 
 
 def _instability(loop: Loop) -> Finding:

@@ -11,6 +11,7 @@ from .kernels.layout import (
     CONSTANTS,
     FOLLOWED,
     FREQUENCIES,
+    LAG_WORKSPACE,
     MODES,
     MORE_CONSTANTS,
     MORE_MODES,
@@ -18,6 +19,8 @@ from .kernels.layout import (
     POLYNOMIAL_WORKSPACE,
     POLYNOMIALS,
     SIZES,
+    WHOLE_MINORS,
+    WHOLE_ROWS,
     WORKSPACE,
     exact_shapes,
 )
@@ -34,6 +37,8 @@ class _Scratch(threading.local):
         self.stability = np.empty(POLYNOMIAL_WORKSPACE)
         self.margins = (np.empty(POLYNOMIALS), self.stability)
         self.sensitivity = np.empty((3, FREQUENCIES))
+        self.whole = (np.empty(WHOLE_ROWS), np.empty(WHOLE_MINORS))
+        self.lag = np.empty(LAG_WORKSPACE)
 
     def experiments(self, size: int) -> tuple[Any, ...]:
         """Of both models' responses, for a loop with so many states."""

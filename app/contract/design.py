@@ -20,6 +20,7 @@ from heli2dof_core import (
 )
 from heli2dof_core.controllability import controllability_indices
 from heli2dof_core.design import FULL_RANK
+from heli2dof_core.figures import LOOP as FIGURES_OF_LOOP
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.presets import DEFAULT
 from heli2dof_core.request import (
@@ -186,7 +187,7 @@ def observer_reply(known: Estimator | None) -> Reply:
     return {"observer": reply_of(ObserverGains, known)}
 
 
-class Gains(told_by(OF_GAINS)):
+class Gains(told_by({**OF_GAINS, **FIGURES_OF_LOOP})):
     """K in V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇, with rotors placed v_p, v_y in V/V; rows V_p, V_y.
 
     `integral` is a method's own integral action, V/(rad·s); `pole_error` is left out where the method

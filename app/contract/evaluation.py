@@ -10,7 +10,7 @@ from heli2dof_core.request import (
 )
 
 from .design import Gains, ObserverGains, gains_reply
-from .experiment import BothModels, StepRequest, loop_reply, step_reply
+from .experiment import BothModels, OfLoop, StepRequest, loop_reply, step_reply
 from .fields import Whole
 from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, rga_reply, sensitivity_reply
 from .model import Complex, Finding, Model, Reply, Voltages, findings_reply, poles_reply
@@ -36,7 +36,7 @@ class AxisSteps(Model):
     psi: BothModels | None = None
 
 
-class Evaluation(Model):
+class Evaluation(OfLoop):
     """Gains, RGA, responses and margins at once."""
 
     seq: int | None = Field(None, description="the live request's number")

@@ -32,7 +32,8 @@ def build_router(compute: Compute) -> APIRouter:
             spec = request.to_spec()
             placed = place(spec)
             known = None if spec.observer is None else observe(placed, spec.observer)
-            return gains_reply(placed) | observer_reply(known)
+            lag = loop_of(spec, placed).lag_margin
+            return gains_reply(placed) | observer_reply(known) | ({} if lag is None else {"lag_margin": lag})
 
         return json_response(await compute.run(work))
 

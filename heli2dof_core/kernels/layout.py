@@ -102,10 +102,28 @@ at −σ counts as on the axis likewise where σ is below this share of the loop
 
 POLYNOMIALS = (2, 2, 20)
 """Shape of the loop as matrices of polynomials: `kernels.polynomials`."""
-POLYNOMIAL_WORKSPACE = (13, 16)
-FREQUENCIES = 2000
+POLYNOMIAL_WORKSPACE = (17, 16)
+# Where rotors take time or something is estimated, the loop is eight polynomials (`kernels.whole`), each its
+# coefficients and the sizes of their terms: det M, the same with a motor opened, what S has beside its diagonal times
+# det M, and the loop by the time constant τ of both rotors: what det M is without τ, by τ s, and by τ² s²
+WHOLE_CLOSED, WHOLE_OPENED, WHOLE_ACROSS, WHOLE_LAG, WHOLE = 0, 1, 3, 5, 8
+VALUE, TERMS = 0, 1
+WHOLE_POLYNOMIALS = (WHOLE, 2, 16)
+WHOLE_ROWS, WHOLE_MINORS = (12, 4, 2, 8), (14, 2, 16)
+"""Shapes of the scratch arrays of `kernels.whole`: rows of polynomials, and their minors."""
+# What a controller is to `kernels.whole`, (5, 10): in its first two rows K by x and by both rotors' speeds, and the
+# law by measured angles and by integrals; then in rows 2 and 3 the lower halves of the observer's A (4), B (2), L (2)
+# and the upper half of L (2); in row 4 what is measured, ω and ζ of the filters, the observer's time constants
+K_STATES, K_SPEEDS, BY_ANGLES, BY_INTEGRALS = 0, 4, 6, 8
+OWN_A, OWN_B, OWN_L, OWN_L_ANGLES = 0, 4, 6, 8
+OBSERVER_ROW, KIND_ROW = 2, 4
+KIND, OMEGA, ZETA, OWN_TAU = 0, 1, 2, 3
+ALL_STATES, FILTERED_RATES, OBSERVED = 0.0, 1.0, 2.0
+CONTROLLER = (5, 10)
+LAG_WORKSPACE = (29, 32)
+FREQUENCIES = 6000
 """Most frequencies at which the sensitivity is looked at: its steps grow with the distance from the poles, so that
-fifty are common, and three pairs of poles as near the axis as `ROUNDING` allows ask for a third of these."""
+fifty are common, and seven pairs of poles as near the axis as `ROUNDING` allows ask for three quarters of these."""
 
 SENSITIVITIES = 11
 """Columns of a recorded course's derivatives: by θ, ψ, θ̇, ψ̇ at its start, then by seven parameters."""

@@ -92,7 +92,7 @@ def inner_starts(loop: Loop, experiments: Floats) -> Floats:
 def _settled(estimator: Estimator, angles: Floats) -> Floats:
     """States of an estimator of a rig that has rested at these angles, in deviations."""
     if estimator.measured == "filtered":
-        return -np.linalg.solve(estimator.F, estimator.G @ angles)
+        return fixed(-np.linalg.solve(estimator.F, estimator.G @ angles))
     return np.concatenate((angles, np.zeros(estimator.order - 2)))
 
 
