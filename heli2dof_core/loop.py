@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf, sqrt
+from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,13 +18,14 @@ from .estimators import FILTER_DAMPING, FILTER_FREQUENCY, Estimator
 from .findings import Finding
 from .frozen import Frozen, frozen
 from .interop import state_space
-from .kernels.layout import OWN, PI, PLAIN, POLYNOMIALS, ROUNDING, SIZES, STATIC
+from .kernels.layout import OWN, PI, PLAIN, POLYNOMIALS, SIZES, STATIC
 from .loop_polynomials import controller_numbers, whole_polynomials
+from .remarks import lag_instability, loop_instability
 from .rotors import Actuators
 from .scenario import OuterLoop
 from .scratch import scratch
 from .signals import AXES, INPUTS, INTEGRALS, OUTPUTS, ROTORS, STATES, Complexes, Floats, Signal
-from .tables import Shown, Table, conjugates, number, poles
+from .tables import Shown, Table, number, poles
 
 if TYPE_CHECKING:
     import control
@@ -286,7 +287,16 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
             "The method has its own integral action. The PI loops are not used.",
         )
     if not loop.stable and (loop.has_integrators or loop.design.stable):
-        yield _lagging(loop) or _instability(loop)
+        lag = 0.0 if loop.actuators is None else float(loop.actuators.tau.max())
+        closed = [name for name, own in zip(AXES, loop.integral_by_axis, strict=True) if own.any()]
+        if loop.design.integral is not None or not loop.design.stable:
+            closed = []
+        if loop.lag_margin is not None and lag >= loop.lag_margin:
+            yield lag_instability(lag, loop.lag_margin)
+        else:
+            yield loop_instability(
+                loop.connected_poles, closed, aims=loop.design.aims, placed=loop.design.stable
+            )
     if loop.has_integrators and loop.design.integral is None:
         for name, gains, integral in zip(
             AXES, (loop.outer.pitch, loop.outer.yaw), loop.integral_by_axis, strict=True
@@ -312,54 +322,3 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
             f"The whole loop rings: its least damping ratio is {damping:.2f}. Lower the gains or raise the "
             "integral times.",
         )
-
-
-def _lagging(loop: Loop) -> Finding | None:
-    """That the rotors' lag has done it, if it has."""
-    own, limit = loop.actuators, loop.lag_margin
-    if own is None or limit is None or not own.tau.max() >= limit:
-        return None
-    return Finding(
-        "rotors_unstable",
-        "error",
-        f"The rotors' lag of {own.tau.max():.3g} s makes the helicopter unstable: both may need at most {limit:.3g} s "
-        "with this design. Place slower poles or lower the gains, or place the rotors, too.",
-    )
-
-
-def _instability(loop: Loop) -> Finding:
-    """What the connected loops have done."""
-    slowest = loop.connected_poles[0]
-    crosses = slowest.real > sqrt(ROUNDING) * max(abs(loop.connected_poles))
-    where = f"lies at {conjugates(slowest, 3)} rad/s"
-    if not crosses:
-        height = (
-            "0"
-            if abs(slowest) <= sqrt(ROUNDING) * max(abs(loop.connected_poles))
-            else f"±{abs(slowest.imag):.3g}j rad/s"
-        )
-        where = f"lies on the imaginary axis, at {height}"
-    closed = [name for name, integral in zip(AXES, loop.integral_by_axis, strict=True) if integral.any()]
-    if loop.design.integral is not None or not loop.design.stable or not closed:
-        how = "unstable" if crosses else "not stable"
-        if not loop.design.aims:
-            advice = "Change the weights."
-        else:
-            advice = (
-                "Place faster poles." if loop.design.stable else "Place all poles in the left half plane."
-            )
-        return Finding("loop_unstable", "error", f"The whole loop is {how}: a pole of it {where}. {advice}")
-    if len(closed) == 2:
-        loops, advice = (
-            "The PI loops make",
-            "Lower the gains, raise the integral times, or place faster poles.",
-        )
-    else:
-        loops = f"The PI loop of {closed[0]} makes"
-        advice = "Lower its gain, raise its integral time, or place faster poles."
-    return Finding(
-        "pi_unstable",
-        "error",
-        f"{loops} the helicopter unstable: a pole of the whole loop {where}, although the placed poles are stable. "
-        + advice,
-    )

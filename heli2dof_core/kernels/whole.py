@@ -1,10 +1,11 @@
 """The loop as polynomials where rotors take time, their speeds are fed back, or rates and states are estimated.
 
 Motor i's speed v_i, as a voltage, and its command u_i meet in ℓ_i v_i = u_i, ℓ_i = 1 + τ_i s. The rig is D q = B v,
-the law u = −N ξ − K_v v, with ξ = q; or ξ = (q, q̂) where an observer F̂ q̂ − E q = B̂ v̂ is told the command, ℓ̂_i v̂_i = u_i,
-and feeds back its own v̂. Filters of the rates leave q = a(s) ξ, a = s² + 2ζω s + ω², and an integrated error q = s ξ,
-as in `polynomials`. With δ = det B and Y = adj(B) D = δ v/q the motors' rows are H Y + δ N, H = diag(ℓ) + K_v, and
-their determinant is a sum over pairs of the rows y_p, y_y, n_p, n_y, by which one can divide by δ beforehand:
+the law u = −N ξ − K_v v, with ξ = q; or ξ = (q, q̂) where an observer F̂ q̂ − E q = B̂ v̂ is told the command, ℓ̂_i
+v̂_i = u_i, and feeds back its own v̂. Filters of the rates leave q = a(s) ξ, a = s² + 2ζω s + ω², and an integrated
+error q = s ξ, as in `polynomials`. With δ = det B and Y = adj(B) D = δ v/q the motors' rows are H Y + δ N, H =
+diag(ℓ) + K_v, and their determinant is a sum over pairs of the rows y_p, y_y, n_p, n_y, by which one can divide by δ
+beforehand:
 
     det/δ = det H [D] + H_pp [y_p n_y] + H_py [y_y n_y] + H_yp [n_p y_p] + H_yy [n_p y_y] + δ [n_p n_y]
 
