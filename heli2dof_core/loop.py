@@ -287,16 +287,7 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
             "The method has its own integral action. The PI loops are not used.",
         )
     if not loop.stable and (loop.has_integrators or loop.design.stable):
-        lag = 0.0 if loop.actuators is None else float(loop.actuators.tau.max())
-        closed = [name for name, own in zip(AXES, loop.integral_by_axis, strict=True) if own.any()]
-        if loop.design.integral is not None or not loop.design.stable:
-            closed = []
-        if loop.lag_margin is not None and lag >= loop.lag_margin:
-            yield lag_instability(lag, loop.lag_margin)
-        else:
-            yield loop_instability(
-                loop.connected_poles, closed, aims=loop.design.aims, placed=loop.design.stable
-            )
+        yield _instability(loop)
     if loop.has_integrators and loop.design.integral is None:
         for name, gains, integral in zip(
             AXES, (loop.outer.pitch, loop.outer.yaw), loop.integral_by_axis, strict=True
@@ -322,3 +313,15 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
             f"The whole loop rings: its least damping ratio is {damping:.2f}. Lower the gains or raise the "
             "integral times.",
         )
+
+
+def _instability(loop: Loop) -> Finding:
+    """What has done it: the rotors' lag, the PI loops, or the state feedback."""
+    lag, limit = 0.0 if loop.actuators is None else float(loop.actuators.tau.max()), loop.lag_margin
+    if limit is not None and lag >= limit:
+        return lag_instability(lag, limit)
+    placed = loop.design.stable
+    closed = [name for name, own in zip(AXES, loop.integral_by_axis, strict=True) if own.any()]
+    if loop.design.integral is not None or not placed:
+        closed = []
+    return loop_instability(loop.connected_poles, closed, aims=loop.design.aims, placed=placed)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pydantic import Field
 
 from heli2dof_core import Report, Spec
+from heli2dof_core.estimators import observe
 from heli2dof_core.request import (
     LIMITS,
 )
@@ -60,7 +61,11 @@ def report_reply(report: Report, spec: Spec) -> Reply:
     loop, common = report.loop, loop_reply(report.loop)
     return {
         **common,
-        "gains": gains_reply(report.design),
+        "gains": gains_reply(
+            report.design,
+            loop.lag_margin,
+            None if spec.observer is None else observe(report.design, spec.observer),
+        ),
         "open_loop_poles": poles_reply(report.design.plant.poles),
         "rga": rga_reply(report.design, report.interaction),
         "step": {model: step_reply(step, loop, common) for model, step in report.step.items()},
