@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -24,6 +24,8 @@ if TYPE_CHECKING:  # SymPy is imported on the first placement
     from ..symbolic.luenberger import CanonicalForm
 
 MOST_STATES = 6
+LONGEST_FACTORED = 12
+"""Terms of a numerator that is factored."""
 _Parts = list[tuple[Any, "DomainMatrix"]]
 """A sum of matrices over the field, each times an expression in the poles."""
 Poles = Sequence[complex] | Literal["symbols"]
@@ -152,12 +154,14 @@ def _placed(
         "K": parts,
         "closed_loop": closed,
     }
+    conditions = _conditions(read, chains(A, B, indices).det())
+    write = _Writer(read.letters, conditions)
     positive = read.letters.positive
     return SymbolicPlacement(
-        **{name: sp.ImmutableMatrix(_written(matrix, read.letters)) for name, matrix in matrices.items()},
+        **{name: sp.ImmutableMatrix(write.matrix(matrix)) for name, matrix in matrices.items()},
         controllability_indices=indices,
         groups=chosen,
-        holds_unless=tuple(_conditions(read, chains(A, B, indices).det())),
+        holds_unless=_told(conditions, read.letters),
         letters=read.letters.symbols,
         findings=(_positive(positive),) if positive else (),
     )
@@ -192,29 +196,57 @@ def _gain(
     return parts
 
 
-def _written(parts: _Parts, letters: Letters) -> sp.Matrix:
-    """Σ of each part times what stands before it, all entries factored, as a person would write them."""
-    import sympy as sp
+class _Writer:
+    """Writes elements as a person would: factored, denominators by the conditions, of which they are products."""
 
-    def entry(*elements: Any) -> sp.Expr:
-        return sp.Add(
-            *(sp.Mul(_factored(x, letters), of) for x, (of, _) in zip(elements, parts, strict=True) if x)
-        )
+    def __init__(self, letters: Letters, conditions: Sequence[Any]) -> None:
+        self._letters = letters
+        self._conditions = conditions
+        self._sides: dict[Any, tuple[int, sp.Expr]] = {}
 
-    rows = zip(*(matrix.to_list() for _, matrix in parts), strict=True)
-    return sp.Matrix([[entry(*elements) for elements in zip(*row, strict=True)] for row in rows])
+    def matrix(self, parts: _Parts) -> sp.Matrix:
+        """Σ of each part times what stands before it."""
+        import sympy as sp
+
+        def entry(elements: Sequence[Any]) -> sp.Expr:
+            pairs = zip(elements, parts, strict=True)
+            return sp.Add(*(sp.Mul(self._factored(x), of) for x, (of, _) in pairs if x))
+
+        rows = zip(*(matrix.to_list() for _, matrix in parts), strict=True)
+        return sp.Matrix([[entry(elements) for elements in zip(*row, strict=True)] for row in rows])
+
+    def _factored(self, element: Any) -> sp.Expr:
+        import sympy as sp
+
+        (above, first), (below, second) = (self._side(side) for side in (element.numer, element.denom))
+        return sp.Mul(sp.Rational(above, below), first, 1 / second)
+
+    def _side(self, polynomial: Any) -> tuple[int, sp.Expr]:
+        """Its content and the rest, factored; what is long stays one factor, as finding others takes long."""
+        import sympy as sp
+
+        if polynomial in self._sides:
+            return self._sides[polynomial]
+        rest, powers = polynomial, list[tuple[Any, int]]()
+        for factor in self._conditions:
+            power = 0
+            while (divided := rest.div(factor))[1] == 0:
+                rest, power = divided[0], power + 1
+            powers.append((factor, power))
+        number, found = rest.factor_list() if len(rest) <= LONGEST_FACTORED else _monomial_out(rest)
+        written = [self._letters.in_letters(f.as_expr()) ** power for f, power in (*powers, *found)]
+        self._sides[polynomial] = int(number), sp.Mul(*written)
+        return self._sides[polynomial]
 
 
-def _factored(element: Any, letters: Letters) -> sp.Expr:
-    import sympy as sp
-
-    sides = []
-    for side in (element.numer, element.denom):
-        number, factors = side.factor_list()
-        written = [letters.in_letters(f.as_expr()) ** power for f, power in factors]
-        sides.append((int(number), sp.Mul(*written)))
-    (above, first), (below, second) = sides
-    return sp.Mul(sp.Rational(above, below), first, 1 / second)
+def _monomial_out(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
+    """Content, common powers of the letters, and what is left."""
+    content, rest = polynomial.primitive()
+    common = [min(powers) for powers in zip(*rest, strict=True)]
+    found = [(x, power) for x, power in zip(polynomial.ring.gens, common, strict=True) if power]
+    for x, power in found:
+        rest = rest.exquo(x**power)
+    return content, [*found, (rest, 1)]
 
 
 def _coefficient(roots: Sequence[sp.Symbol], k: int) -> sp.Expr:
@@ -227,20 +259,21 @@ def _coefficient(roots: Sequence[sp.Symbol], k: int) -> sp.Expr:
     return sp.Add(*((-1) ** count * sp.Mul(*chosen) for chosen in combinations(roots, count)))
 
 
-def _conditions(read: Entries, determinant: Any) -> Iterator[sp.Expr]:
+def _conditions(read: Entries, determinant: Any) -> list[Any]:
     """What must not be 0: the irreducible factors of all divisors, and of the determinant of the columns kept.
 
     Where the entries exist and det M ≠ 0, the columns kept are independent, and each column left out still depends on
     those kept before it: an identity of rational functions says so. So the indices are these; T and Q exist, and
     nothing else is divided by. Where det M = 0 the scan keeps other columns.
     """
-    letters, found = read.letters, dict[Any, None]()
-    for polynomial in (*read.divisors, determinant.numer):
-        for factor, _ in polynomial.factor_list()[1]:
-            if not letters.never_zero(factor):
-                found[factor] = None
-    written = [letters.condition(factor) for factor in found]
-    yield from sorted(dict.fromkeys(written), key=lambda e: (e.count_ops(), str(e)))
+    factors = (f for x in (*read.divisors, determinant.numer) for f, _ in x.factor_list()[1])
+    return list(dict.fromkeys(factors))
+
+
+def _told(factors: Sequence[Any], letters: Letters) -> tuple[sp.Expr, ...]:
+    """Conditions as expressions, the short ones first, without those that no letters break."""
+    found = dict.fromkeys(letters.condition(f) for f in factors if not letters.never_zero(f))
+    return tuple(sorted(found, key=lambda e: (e.count_ops(), str(e))))
 
 
 def _positive(symbols: Sequence[sp.Symbol]) -> Finding:
