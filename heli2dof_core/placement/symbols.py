@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -24,6 +24,10 @@ if TYPE_CHECKING:  # SymPy is imported on the first placement
     from ..symbolic.luenberger import CanonicalForm
 
 MOST_STATES = 6
+LONGEST_FACTORED = 12
+"""Terms of a numerator that is factored."""
+_Parts = list[tuple[Any, "DomainMatrix"]]
+"""A sum of matrices over the field, each times an expression in the poles."""
 Poles = Sequence[complex] | Literal["symbols"]
 
 
@@ -139,98 +143,110 @@ def _placed(
     dealt = np.arange(A.shape[0]).astype(np.complex128) if numbers is None else numbers
     chosen = require_groups(assign(dealt, indices) if groups is None else groups, dealt, indices)
     form = canonical_form(A, B, indices, leading_rows(A, B, indices))
-    write = _Writer(read.letters, chosen, symbols)
-    K, closed = _feedback(A, B, form, write, numbers)
-    matrices = {"A": A, "B": B, "T": form.T, "Q": form.Q, "K": K, "closed_loop": closed}
+    parts = _gain(form, chosen, numbers, symbols)
+    closed = [(of, -B.matmul(part)) for of, part in parts]
+    closed[0] = (closed[0][0], A + closed[0][1])
+    matrices = {
+        "A": [(1, A)],
+        "B": [(1, B)],
+        "T": [(1, form.T)],
+        "Q": [(1, form.Q)],
+        "K": parts,
+        "closed_loop": closed,
+    }
+    conditions = _conditions(read, chains(A, B, indices).det())
+    write = _Writer(read.letters, conditions)
     positive = read.letters.positive
     return SymbolicPlacement(
         **{name: sp.ImmutableMatrix(write.matrix(matrix)) for name, matrix in matrices.items()},
         controllability_indices=indices,
         groups=chosen,
-        holds_unless=tuple(_conditions(read, chains(A, B, indices).det())),
+        holds_unless=_told(conditions, read.letters),
         letters=read.letters.symbols,
         findings=(_positive(positive),) if positive else (),
     )
 
 
-def _feedback(
-    A: DomainMatrix, B: DomainMatrix, form: CanonicalForm, write: _Writer, numbers: Complexes | None
-) -> tuple[DomainMatrix, DomainMatrix]:
-    """K and A − BK over the field in which the poles' coefficients are."""
-    from dataclasses import replace
+def _gain(
+    form: CanonicalForm, groups: Sequence[Group], numbers: Complexes | None, symbols: Sequence[sp.Symbol]
+) -> _Parts:
+    """K = K₀ + Σ d_k K_k in the coefficients d_k of the groups' polynomials, which poles as numbers have in K₀.
 
+    K is affine in them, since D is: so the field needs no generators for them, which would cost most of the time.
+    """
     from ..symbolic.luenberger import desired_rows, feedback
 
-    domain = write.domain
-    parts = ("T", "last", "A", "B_bar", "Q")
-    form = replace(form, **{name: getattr(form, name).convert_to(domain) for name in parts})
-    blocks = []
-    for k, group in enumerate(write.groups):
-        if numbers is None:
-            coefficients = write.coefficients(k)
-        else:
+    domain = form.T.domain
+    fixed = [(group.inputs, [domain.zero] * len(group.poles)) for group in groups]
+    if numbers is not None:
+        for group, (_, coefficients) in zip(groups, fixed, strict=True):
             own = exact_coefficients(numbers[list(group.poles)], decimal_fraction)
-            coefficients = [domain(int(d.numerator)) / domain(int(d.denominator)) for d in own]
-        blocks.append((group.inputs, coefficients))
-    K = feedback(form, desired_rows(form, blocks))
-    return K, A.convert_to(domain) - B.convert_to(domain).matmul(K)
+            coefficients[:] = [domain(int(d.numerator)) / domain(int(d.denominator)) for d in own]
+    D = desired_rows(form, fixed)
+    parts: _Parts = [(1, feedback(form, D))]
+    if numbers is None:
+        mixing = form.Q.inv()
+        for group, (_, coefficients) in zip(groups, fixed, strict=True):
+            roots = [symbols[i] for i in group.poles]
+            for k in range(len(roots)):
+                coefficients[k] = domain.one
+                step = D - desired_rows(form, fixed)
+                coefficients[k] = domain.zero
+                parts.append((_coefficient(roots, k), mixing.matmul(step).matmul(form.T)))
+    return parts
 
 
 class _Writer:
-    """Elements as a person would write them: factored, and by the coefficients of each group's polynomial."""
+    """Writes elements as a person would: factored, denominators by the conditions, of which they are products."""
 
-    def __init__(self, letters: Letters, groups: Sequence[Group], poles: Sequence[sp.Symbol]) -> None:
+    def __init__(self, letters: Letters, conditions: Sequence[Any]) -> None:
+        self._letters = letters
+        self._conditions = conditions
+        self._sides: dict[Any, tuple[int, sp.Expr]] = {}
+
+    def matrix(self, parts: _Parts) -> sp.Matrix:
+        """Σ of each part times what stands before it."""
         import sympy as sp
 
-        self._letters, self.groups = letters, groups
-        self._of_poles: dict[Any, sp.Expr] = {}
-        self._names: list[Sequence[sp.Symbol]] = []
-        for group in groups if poles else ():
-            roots = [poles[i] for i in group.poles]
-            names = [sp.Dummy(f"d_{k}") for k in range(len(roots))]
-            self._names.append(names)
-            self._of_poles |= {d: _coefficient(roots, k) for k, d in enumerate(names)}
-        self._count = len(self._of_poles)
-        self.domain = letters.extended([*self._of_poles]) if self._count else letters.domain
+        def entry(elements: Sequence[Any]) -> sp.Expr:
+            pairs = zip(elements, parts, strict=True)
+            return sp.Add(*(sp.Mul(self._factored(x), of) for x, (of, _) in pairs if x))
 
-    def coefficients(self, group: int) -> list[Any]:
-        """d₀ … of a group's polynomial as elements of the field."""
-        return [self.domain.from_sympy(name) for name in self._names[group]]
-
-    def matrix(self, matrix: DomainMatrix) -> sp.Matrix:
-        """A matrix over this field, or over that of the letters."""
-        import sympy as sp
-
-        extended = matrix.domain == self.domain and self._count > 0
-        entry = self._entry if extended else self._factored
-        return sp.Matrix([[entry(x) for x in row] for row in matrix.to_list()])
-
-    def _entry(self, element: Any) -> sp.Expr:
-        """What stands before each coefficient by itself, factored."""
-        import sympy as sp
-
-        field, count = self._letters.domain.field, self._count
-        below = field.ring.from_dict({powers[count:]: c for powers, c in element.denom.terms()})
-        above: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
-        for powers, c in element.numer.terms():
-            above.setdefault(powers[:count], {})[powers[count:]] = c
-        terms = []
-        for powers, part in above.items():
-            names = [d**power for d, power in zip(self._of_poles.values(), powers, strict=True)]
-            quotient = field(field.ring.from_dict(part)) / field(below)
-            terms.append(sp.Mul(self._factored(quotient), *names))
-        return sp.Add(*terms)
+        rows = zip(*(matrix.to_list() for _, matrix in parts), strict=True)
+        return sp.Matrix([[entry(elements) for elements in zip(*row, strict=True)] for row in rows])
 
     def _factored(self, element: Any) -> sp.Expr:
         import sympy as sp
 
-        sides = []
-        for side in (element.numer, element.denom):
-            number, factors = side.factor_list()
-            written = [self._letters.in_letters(f.as_expr()) ** power for f, power in factors]
-            sides.append((int(number), sp.Mul(*written)))
-        (above, first), (below, second) = sides
+        (above, first), (below, second) = (self._side(side) for side in (element.numer, element.denom))
         return sp.Mul(sp.Rational(above, below), first, 1 / second)
+
+    def _side(self, polynomial: Any) -> tuple[int, sp.Expr]:
+        """Its content and the rest, factored; what is long stays one factor, as finding others takes long."""
+        import sympy as sp
+
+        if polynomial in self._sides:
+            return self._sides[polynomial]
+        rest, powers = polynomial, list[tuple[Any, int]]()
+        for factor in self._conditions:
+            power = 0
+            while (divided := rest.div(factor))[1] == 0:
+                rest, power = divided[0], power + 1
+            powers.append((factor, power))
+        number, found = rest.factor_list() if len(rest) <= LONGEST_FACTORED else _monomial_out(rest)
+        written = [self._letters.in_letters(f.as_expr()) ** power for f, power in (*powers, *found)]
+        self._sides[polynomial] = int(number), sp.Mul(*written)
+        return self._sides[polynomial]
+
+
+def _monomial_out(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
+    """Content, common powers of the letters, and what is left."""
+    content, rest = polynomial.primitive()
+    common = [min(powers) for powers in zip(*rest, strict=True)]
+    found = [(x, power) for x, power in zip(polynomial.ring.gens, common, strict=True) if power]
+    for x, power in found:
+        rest = rest.exquo(x**power)
+    return content, [*found, (rest, 1)]
 
 
 def _coefficient(roots: Sequence[sp.Symbol], k: int) -> sp.Expr:
@@ -243,20 +259,21 @@ def _coefficient(roots: Sequence[sp.Symbol], k: int) -> sp.Expr:
     return sp.Add(*((-1) ** count * sp.Mul(*chosen) for chosen in combinations(roots, count)))
 
 
-def _conditions(read: Entries, determinant: Any) -> Iterator[sp.Expr]:
+def _conditions(read: Entries, determinant: Any) -> list[Any]:
     """What must not be 0: the irreducible factors of all divisors, and of the determinant of the columns kept.
 
     Where the entries exist and det M ≠ 0, the columns kept are independent, and each column left out still depends on
     those kept before it: an identity of rational functions says so. So the indices are these; T and Q exist, and
     nothing else is divided by. Where det M = 0 the scan keeps other columns.
     """
-    letters, found = read.letters, dict[Any, None]()
-    for polynomial in (*read.divisors, determinant.numer):
-        for factor, _ in polynomial.factor_list()[1]:
-            if not letters.never_zero(factor):
-                found[factor] = None
-    written = [letters.condition(factor) for factor in found]
-    yield from sorted(dict.fromkeys(written), key=lambda e: (e.count_ops(), str(e)))
+    factors = (f for x in (*read.divisors, determinant.numer) for f, _ in x.factor_list()[1])
+    return list(dict.fromkeys(factors))
+
+
+def _told(factors: Sequence[Any], letters: Letters) -> tuple[sp.Expr, ...]:
+    """Conditions as expressions, the short ones first, without those that no letters break."""
+    found = dict.fromkeys(letters.condition(f) for f in factors if not letters.never_zero(f))
+    return tuple(sorted(found, key=lambda e: (e.count_ops(), str(e))))
 
 
 def _positive(symbols: Sequence[sp.Symbol]) -> Finding:

@@ -49,17 +49,11 @@ class Letters:
     _generators: Mapping[str, Any] = field(repr=False, compare=False)
 
     @classmethod
-    def of(
-        cls,
-        names: Sequence[str],
-        roots: Mapping[str, int],
-        own: Mapping[str, sp.Symbol],
-        more: Sequence[sp.Symbol],
-    ) -> Letters:
-        """The field of these letters and of `more` symbols; `own` are symbols that some letters have already."""
+    def of(cls, names: Sequence[str], roots: Mapping[str, int], own: Mapping[str, sp.Symbol]) -> Letters:
+        """The field of these letters; `own` are symbols that some have already."""
         symbols = {name: own.get(name, sp.Symbol(printable(name))) for name in names}
         stand_in = {name: sp.Dummy(f"r_{name}") if roots.get(name) else symbols[name] for name in names}
-        generators = [*more, *stand_in.values()] or [sp.Dummy("nothing")]
+        generators = [*stand_in.values()] or [sp.Dummy("nothing")]
         domain = sp.ZZ.frac_field(*generators)
         found = dict(zip(generators, domain.gens, strict=True))
         return cls(domain, symbols, dict(roots), {name: found[stand_in[name]] for name in names})
@@ -99,10 +93,6 @@ class Letters:
         powers = [i for monomial in factor for i, power in enumerate(monomial) if power]
         signs = {int(c) > 0 for c in factor.values()}
         return len(factor) > 1 and len(signs) == 1 and set(powers) <= rooted
-
-    def extended(self, more: Sequence[sp.Symbol]) -> Any:
-        """The field with more generators."""
-        return sp.ZZ.frac_field(*more, *self.domain.symbols)
 
     def root(self, value: Any, position: int) -> Any:
         """√ of an element.
@@ -162,15 +152,12 @@ class _RootedError(Exception):
         self.names = names
 
 
-def read_matrices(
-    trees: Mapping[str, Tree], own: Mapping[str, sp.Symbol], more: Sequence[sp.Symbol] = ()
-) -> Entries:
+def read_matrices(trees: Mapping[str, Tree], own: Mapping[str, sp.Symbol]) -> Entries:
     """Matrices of expressions, by their fields' names, over one field of rational functions.
 
     Args:
         trees: by field such as ``A`` the matrix.
         own: symbols that letters have already.
-        more: further generators of the field.
 
     Raises:
         InvalidInputError: an entry is beyond a limit, divides by 0, or has a root that is none of its letters';
@@ -189,7 +176,7 @@ def read_matrices(
         )
     roots: dict[str, int] = {}
     while True:
-        known = Letters.of(names, roots, own, more)
+        known = Letters.of(names, roots, own)
         try:
             return _read(trees, known)
         except _RootedError as rooted:
