@@ -24,6 +24,7 @@ from .layout import (
     LADDER,
     LIMIT,
     MODES,
+    MORE_CONSTANTS,
     MOTOR_METRICS,
     REFERENCE,
     SETTINGS,
@@ -56,6 +57,13 @@ def constants() -> Floats:
     """A rig with inertia and limits, and no controller."""
     c = np.zeros(CONSTANTS)
     c[[ALPHA, J_Y, LIMIT, LIMIT + 1]] = 1.0
+    return c
+
+
+def more_constants() -> Floats:
+    """The same with rotors and friction."""
+    c = np.zeros(MORE_CONSTANTS)
+    c[:CONSTANTS] = constants()
     return c
 
 
