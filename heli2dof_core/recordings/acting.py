@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from math import sqrt
 
-import numpy as np
-
 from ..errors import InvalidInputError
 from ..parameters import Parameters
 from ..plant import plant
@@ -38,16 +36,16 @@ def acting_of(
     """
     if all(rotor.plain for rotor in rotors.both) and not any(own.breakaway for own in friction.both):
         return None
-    open_ended = (np.inf, np.inf) if limits is None else limits
-    found = actuators(plant(p, theta_0), rotors, friction, open_ended).constants
-    for i, (rotor, axis) in enumerate(zip(rotors.both, AXES, strict=True)):
-        if rotor.curve == "quadratic" and not found[SQUARE + i] > 0.0:
-            raise InvalidInputError(
-                f"nothing says where the {axis} motor's quadratic curve is matched: it rests at the trim",
-                field=f"rotors.{axis}.matched_at",
-                hint="Say at which voltage it meets the linear one, or give the motors' limits.",
-            )
-    return found
+    own = plant(p, theta_0)
+    if limits is None:
+        for rotor, volts, axis in zip(rotors.both, own.trim.tolist(), AXES, strict=True):
+            if rotor.curve == "quadratic" and rotor.matched_at is None and not abs(volts) > rotor.dead_zone:
+                raise InvalidInputError(
+                    f"nothing says where the {axis} motor's quadratic curve is matched: it rests at the trim",
+                    field=f"rotors.{axis}.matched_at",
+                    hint="Say at which voltage it meets the linear one, or give the motors' limits.",
+                )
+    return actuators(own, rotors, friction, (0.0, 0.0) if limits is None else limits).constants
 
 
 def matched(rotors: Rotors, acting: Floats) -> Rotors:

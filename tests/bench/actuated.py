@@ -1,7 +1,7 @@
 """How often intervals of τ, thrust and friction hold the truth: `python -m tests.bench.actuated [runs [case]]`.
 
-The angles are rounded to encoder counts and noisy, the loop's noise being its own; noise that is correlated in time is
-added to what is recorded. Voltages come from a controller whose rotors lag, or from steps without feedback.
+The angles are rounded to encoder counts and noisy, and the controller sees neither; noise that is correlated in time
+is added to what is recorded. Voltages come from a controller whose rotors lag, or from steps without feedback.
 """
 
 from __future__ import annotations
