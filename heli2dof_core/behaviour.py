@@ -106,9 +106,9 @@ def _on_lag(loop: Loop) -> Iterator[Finding]:
         yield Finding(
             "lives_by_fast_rotors",
             "warning",
-            f"The design lives by rotors that follow at once: if both needed {limit:.3g} s, the loop would not be stable "
-            f"any more, and those of a real Aero need {USUAL_LAG:g} s. Place slower poles, or give the rig its rotors "
-            "and place them, too.",
+            f"The design lives by rotors that follow at once: if both needed {limit:.3g} s, the loop would not be "
+            f"stable any more, and those of a real Aero need {USUAL_LAG:g} s. Place slower poles, or give the rig "
+            "its rotors and place them, too.",
         )
 
 

@@ -33,6 +33,7 @@ from .layout import (
     PLAIN,
     REFERENCE,
     SETTINGS,
+    SIZES,
     START,
     STOP,
     TIME,
@@ -63,6 +64,11 @@ def constants(size: Sequence[int] = PAPER) -> Floats:
     c = np.zeros(CONSTANTS if len(size) == PLAIN else MORE_CONSTANTS)
     c[[ALPHA, J_Y, LIMIT, LIMIT + 1]] = 1.0
     return c
+
+
+def more_constants() -> Floats:
+    """The same with rotors and friction."""
+    return constants(SIZES[1])
 
 
 def modes(size: Sequence[int] = PAPER) -> Any:

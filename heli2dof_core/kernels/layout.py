@@ -129,3 +129,7 @@ SENSITIVITIES = 11
 """Columns of a recorded course's derivatives: by θ, ψ, θ̇, ψ̇ at its start, then by seven parameters."""
 RECORDED_WORKSPACE = (4, SENSITIVITIES + 1, 4)
 """Shape of the scratch array of `kernels.recorded`: state, stage, slope and their sum."""
+ACTUATED_SENSITIVITIES = SENSITIVITIES + 4
+"""Of a course with rotors and friction: then by τ_p, τ_y, and Coulomb friction in pitch and yaw."""
+ACTUATED_WORKSPACE = (6, ACTUATED_SENSITIVITIES + 1, 4)
+"""Shape of the scratch array of `kernels.actuated`: as above, the step's beginning, and thrusts and directions."""

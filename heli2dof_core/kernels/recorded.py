@@ -66,11 +66,7 @@ def run_segments(starts, bounds, t, volts, c, longest_step, w, outputs, slopes):
     state, stage, slope, total = w[0], w[1], w[2], w[3]
     for i in range(len(starts)):
         first, last = bounds[i, 0], bounds[i, 1]
-        for row in range(SENSITIVITIES + 1):
-            for j in range(4):
-                state[row, j] = 1.0 if row == j + 1 else 0.0
-        for j in range(4):
-            state[0, j] = starts[i, j]
+        begin_sensitivities(starts[i], SENSITIVITIES + 1, state)
         for k in range(first, last):
             for axis in range(2):
                 outputs[k, axis] = state[0, axis]
@@ -111,11 +107,26 @@ def run_held(start, t, volts, c, longest_step, w, states):
             h = (t[k + 1] - t[k]) / steps
             for _ in range(steps):
                 runge_kutta_4_step(h, volts[k, 0], volts[k, 1], c, 1, state, stage, slope, total)
-                if abs(state[0, 0]) > c[TRAVEL]:
-                    side = 1.0 if state[0, 0] > 0.0 else -1.0
-                    state[0, 0] = side * c[TRAVEL]
-                    if side * state[0, 2] > 0.0:
-                        state[0, 2] = 0.0
+                bound_travel(state[0], c)
+
+
+@kernel
+def begin_sensitivities(start, rows, state):
+    """The state and its derivatives, by itself first, where a segment begins."""
+    for row in range(rows):
+        for j in range(4):
+            state[row, j] = 1.0 if row == j + 1 else 0.0
+    copy_into(start, state[0])
+
+
+@kernel
+def bound_travel(y, c):
+    """Pitch beyond a stop stands at it, and moves no farther."""
+    if abs(y[0]) > c[TRAVEL]:
+        side = 1.0 if y[0] > 0.0 else -1.0
+        y[0] = side * c[TRAVEL]
+        if side * y[2] > 0.0:
+            y[2] = 0.0
 
 
 @kernel
