@@ -40,8 +40,8 @@ class SymbolicPlaceRequest(Strict):
         default=None, max_length=MOST_STATES, description="by default in the order of the poles"
     )
 
-    def reply(self, wanted: Wanted = nobody_leaves) -> Reply:
-        """Places and renders, `wanted` called now and then.
+    def place(self, wanted: Wanted = nobody_leaves) -> SymbolicPlacement:
+        """Places the poles, `wanted` called now and then.
 
         Raises:
             Heli2DofError: an entry is no expression, the system cannot be placed, or the formulas take too long.
@@ -49,9 +49,7 @@ class SymbolicPlaceRequest(Strict):
         groups = None
         if self.groups is not None:
             groups = [CoreGroup(tuple(g.inputs), tuple(g.poles)) for g in self.groups]
-        return symbolic_placement_reply(
-            symbolic_place(self.A, self.B, self.poles, groups, wanted=wanted), wanted
-        )
+        return symbolic_place(self.A, self.B, self.poles, groups, wanted=wanted)
 
 
 class SymbolicPlacementReply(Model):

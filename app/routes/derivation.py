@@ -10,9 +10,9 @@ from heli2dof_core.couplings import Coupling, Lead
 from ..contract.derivation import Symbolic, Walkthrough, symbolic_reply, walkthrough_reply
 from ..contract.design import DesignRequest
 from ..contract.encoding import json_bytes, json_response
-from ..contract.model import described
+from ..contract.model import Reply, described
 from ..contract.paper import Paper
-from ..contract.symbols import SymbolicPlacementReply, SymbolicPlaceRequest
+from ..contract.symbols import SymbolicPlacementReply, SymbolicPlaceRequest, symbolic_placement_reply
 from ..jobs.compute import Compute, check_cancelled
 
 
@@ -43,7 +43,10 @@ def build_router(compute: Compute) -> APIRouter:
         **described(SymbolicPlacementReply, "State feedback for any controllable (A, B), in formulas"),
     )
     async def symbolic_place(request: SymbolicPlaceRequest) -> Response:
-        return json_response(await compute.run_slow(lambda: request.reply(check_cancelled)))
+        def work() -> Reply:
+            return symbolic_placement_reply(request.place(check_cancelled), check_cancelled)
+
+        return json_response(await compute.run_slow(work))
 
     @router.get("/paper", **described(Paper, "The paper, reproduced, and its errata proved"))
     async def paper() -> Response:
