@@ -1179,6 +1179,40 @@ export interface Symbolic {
   symbols: Symbol[];
 }
 
+/** Any system ẋ = Ax + Bu of up to six states, row by row; nothing in it is ever run as code. */
+export interface SymbolicPlaceRequest {
+  /** n×n, row by row */
+  A: (string | number)[][];
+  /** n×p, row by row */
+  B: (string | number)[][];
+  /** n, complex ones with their conjugates; or symbols: p_1 … p_n */
+  poles?: 'symbols' | (number | { re: number; im: number })[];
+  /** by default in the order of the poles */
+  groups?: PoleGroup[] | null;
+}
+
+/** K of u = −Kx + v in formulas, and where they hold. */
+export interface SymbolicPlacementReply {
+  A: Formula;
+  B: Formula;
+  /** n×n, x̄ = Tx */
+  T: Formula;
+  /** p×p, the nonzero rows of TB */
+  Q: Formula;
+  /** p×n, rows are inputs */
+  K: Formula;
+  /** A − BK */
+  closed_loop: Formula;
+  /** one per input, for letters in general position */
+  controllability_indices: number[];
+  groups: Group[];
+  /** what must not be 0: where it is, an entry divides by 0 or the indices are others */
+  holds_unless: Formula[];
+  /** by its name the letter as the formulas have it: gamma_, where SymPy has a meaning for gamma */
+  letters: Record<string, Formula>;
+  findings: Finding[];
+}
+
 /** Diagonals of Q, R and of the integrals' weight; ones where left out. */
 export interface SystemWeights {
   /** of Q, n */

@@ -62,6 +62,7 @@ NAMES: tuple[Name, ...] = (
     Name("beta_0", r"\beta_0", "effective inertia about yaw, J_y + m l² cos²θ₀", "kg·m²"),
     Name("gamma_", r"\gamma", "K_py K_yp − K_pp K_yy, minus the thrust matrix's determinant", "(N·m/V)²"),
     Name("a", "a", "gravity and stiffness in A₃₁, (m g l sinθ₀ − K_s)/α", "1/s²"),
+    *(Name(f"p_{i}", f"p_{i}", f"desired pole {i}", "rad/s") for i in (1, 2, 3, 4)),
     Name("d_10", "d_{10}", "constant coefficient of d₁(s), p₁p₂", "1/s²"),
     Name("d_11", "d_{11}", "linear coefficient of d₁(s), −p₁ − p₂", "1/s"),
     Name("d_20", "d_{20}", "constant coefficient of d₂(s), p₃p₄", "1/s²"),
