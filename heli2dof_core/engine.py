@@ -40,7 +40,7 @@ def engine() -> Engine:
 
 
 def warm_up(*, compiling: bool = True) -> Engine:
-    """Loads the compiled kernels from Numba's cache, or compiles them, which takes some ten seconds.
+    """Loads the compiled kernels from Numba's cache, or compiles them, which takes some two minutes.
 
     Until it returns, other threads go on with the interpreted ones.
 
