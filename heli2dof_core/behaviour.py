@@ -15,7 +15,6 @@ from .kernels.layout import BAND
 from .loop import Loop
 from .metrics import StepMetrics
 from .remarks import FAR_OUT
-from .rotors import USUAL_LAG
 from .scenario import Digital, Limits, Scenario
 from .signals import AXES, INPUTS, OUTPUTS
 from .simulation.response import Response
@@ -28,8 +27,6 @@ UNLIKE_OVERSHOOT = 10.0
 """The same for overshoot, percentage points."""
 SLOWER = 5.0
 """How many times slower than every placed pole a pole of the whole loop is remarked on."""
-SLOWER_ROTORS = 1.5
-"""Times a real rig's lag that a design should bear, whose rig has none."""
 DEAD_SAMPLES = 1.5
 """Dead time of a digital loop in samples: one to compute, half a sample's hold
 (Åström and Wittenmark, Computer-Controlled Systems, 1997, section 8)."""
@@ -99,17 +96,8 @@ def _on_delay(margins: tuple[Margins, Margins], scenario: Scenario) -> Iterator[
 
 
 def _on_lag(loop: Loop) -> Iterator[Finding]:
-    own, limit = loop.actuators, loop.lag_margin
-    if limit is None:
+    if loop.lag_margin is None:
         yield Finding("lag_unlimited", "info", "The loop stays stable however slow both rotors are.")
-    elif (own is None or not own.lags) and limit < SLOWER_ROTORS * USUAL_LAG:
-        yield Finding(
-            "lives_by_fast_rotors",
-            "warning",
-            f"The design lives by rotors that follow at once: if both needed {limit:.3g} s, the loop would not be "
-            f"stable any more, and those of a real Aero need {USUAL_LAG:g} s. Place slower poles, or give the rig "
-            "its rotors and place them, too.",
-        )
 
 
 def _on_gain(loop: Loop, limits: Limits) -> Iterator[Finding]:

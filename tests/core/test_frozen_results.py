@@ -99,7 +99,9 @@ def recordings(folder: Path) -> Iterator[Any]:
     yield heli.driven_in_segments(SPEC.parameters, recording)
     yield heli.driven_by_references(loop, SPEC.limits, recording)
     yield heli.identify(SPEC.parameters, recording, ("K_pp", "B_p"))
-    yield heli.identify(SPEC.parameters, recording, ("K_pp",), heli.Rotors(heli.Rotor(0.05), heli.Rotor(0.05)))
+    yield heli.identify(
+        SPEC.parameters, recording, ("K_pp",), heli.Rotors(heli.Rotor(0.05), heli.Rotor(0.05))
+    )
 
 
 def synthetic(loop: Loop) -> Recording:
