@@ -59,6 +59,7 @@ from .tuning import Suggestion, suggest_pi
 if TYPE_CHECKING:
     from . import paper as paper
     from . import symbolic as symbolic
+    from .placement.symbols import SymbolicPlacement, symbolic_place
     from .recordings.files.opened import read_recording
     from .recordings.identification import Identification, identify
     from .recordings.overlay import Overlay, driven_by_references, driven_by_voltages, driven_in_segments
@@ -107,6 +108,7 @@ __all__ = [
     "Structure",
     "StructureUnavailableError",
     "Suggestion",
+    "SymbolicPlacement",
     "Uncertainty",
     "UncontrollableError",
     "UnpairedPolesError",
@@ -141,6 +143,7 @@ __all__ = [
     "simulate",
     "spec_of",
     "suggest_pi",
+    "symbolic_place",
     "warm_up",
 ]
 
@@ -152,6 +155,7 @@ _LATE = {
     ),
     **dict.fromkeys(("Columns", "Recording"), ".recordings.recording"),
     "read_recording": ".recordings.files.opened",
+    **dict.fromkeys(("SymbolicPlacement", "symbolic_place"), ".placement.symbols"),
 }
 """Modules of what is not imported before it is asked for."""
 

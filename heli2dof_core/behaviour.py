@@ -67,6 +67,7 @@ def behaviour_remarks(
     return tuple(
         chain(
             _on_delay(margins, scenario),
+            _on_lag(loop),
             _on_gain(loop, limits),
             _on_slow_poles(loop),
             _on_settling(loop, axes),
@@ -92,6 +93,11 @@ def _on_delay(margins: tuple[Margins, Margins], scenario: Scenario) -> Iterator[
             f"time of {_time(sample)} adds up to {_time(DEAD_SAMPLES * sample)} of dead time. Place slower poles "
             "or lower the gains.",
         )
+
+
+def _on_lag(loop: Loop) -> Iterator[Finding]:
+    if loop.lag_margin is None:
+        yield Finding("lag_unlimited", "info", "The loop stays stable however slow both rotors are.")
 
 
 def _on_gain(loop: Loop, limits: Limits) -> Iterator[Finding]:

@@ -16,6 +16,7 @@ from .frozen import Frozen, frozen
 from .gains import full_rank_gain
 from .interop import state_space
 from .kernels.layout import POLYNOMIALS, ROUNDING
+from .loop_polynomials import controller_numbers, whole_polynomials
 from .placement.method import Task, Weights
 from .placement.registry import method as method_named
 from .placement.verdict import Verdict, eigenvector_condition, judge
@@ -190,6 +191,11 @@ class Design(Frozen, Shown):
         """Whether all poles of A − BK lie left of the imaginary axis: those asked for, or the method's own."""
         if self.aims:
             return self.steady_state_determinant != 0 and all(p.real < 0 for p in self.wanted.tolist())
+        if self.rotor_poles is not None and self.actuators is not None:
+            thrust, nothing = self.plant.B * self.actuators.slope, np.zeros((2, 2))
+            law = controller_numbers(self.K, nothing, None)
+            f = whole_polynomials(self.plant.A, thrust, self.actuators.tau, law)
+            return bool(engine().is_stable(f, scratch.stability))
         f = np.empty(POLYNOMIALS)
         engine().polynomial_matrices(self.plant.A, self.plant.B, -self.K, f)
         return bool(engine().is_stable(f, scratch.stability))

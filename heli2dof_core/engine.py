@@ -40,7 +40,7 @@ def engine() -> Engine:
 
 
 def warm_up(*, compiling: bool = True) -> Engine:
-    """Loads the compiled kernels from Numba's cache, or compiles them, which takes some ten seconds.
+    """Loads the compiled kernels from Numba's cache, or compiles them, which takes some two minutes.
 
     Until it returns, other threads go on with the interpreted ones.
 
@@ -86,12 +86,13 @@ def _cache_of(kernels: Engine) -> KernelCache:
 
 
 def _exercise() -> None:
-    """Calls each kernel once with the types that it is for: Numba compiles on the first call.
+    """Calls each kernel once with all types that it is for: Numba compiles on the first call.
 
     Afterwards none compiles again, which would take seconds: a call with other types is an error.
     """
     jit = import_module("heli2dof_core.kernels.jit")
     for name, function in jit.ENTRIES.items():
-        function(*jit.EXAMPLES[name]())
+        for example in jit.EXAMPLES[name]:
+            function(*example())
     for function in jit.ENTRIES.values():
         function.disable_compile()

@@ -8,7 +8,7 @@ IEEE TAC 23 (1978) 756–757).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Literal
 
@@ -73,6 +73,7 @@ class Estimator(Frozen):
         from_angles: x̂ by y, (n, 2).
         L: gain of an observer, (4, 2), 1/s and 1/s²; None of filters.
         wanted: poles asked for, rad/s, (4,); None where nothing is asked for.
+        model: of an observer: A, B and its rotors' time constants, 0 where it knows none.
     """
 
     measured: Measured
@@ -82,7 +83,8 @@ class Estimator(Frozen):
     from_state: Floats
     from_angles: Floats
     L: Floats | None = None
-    wanted: Complexes | None = field(default=None, compare=False)
+    wanted: Complexes | None = None
+    model: tuple[Floats, Floats, Floats] | None = None
 
     @property
     def order(self) -> int:
@@ -122,14 +124,16 @@ def observe(design: Design, observer: Observer) -> Estimator:
     )
     wanted = observer.poles.array if observer.method == "full-rank" else None
     A, B = plant.A - L @ C, _thrust(design)
-    if design.rotor_poles is None or actuators is None:
+    tau = np.zeros(2) if design.rotor_poles is None or actuators is None else actuators.tau
+    if not tau.any():
         parts = (A, L, B, np.eye(4), np.zeros((4, 2)))
     else:
-        lag, rest = np.diag(1.0 / actuators.tau), np.zeros((2, 4))
+        lag, rest = np.diag(1.0 / tau), np.zeros((2, 4))
         F = np.vstack((np.hstack((A, B)), np.hstack((rest, -lag))))
         G, H = np.vstack((L, np.zeros((2, 2)))), np.vstack((rest.T, lag))
         parts = (F, G, H, np.eye(6), np.zeros((6, 2)))
-    return Estimator("observer", *map(fixed, parts), L=L, wanted=wanted)
+    known = plant.A, fixed(B), fixed(tau)
+    return Estimator("observer", *map(fixed, parts), L=L, wanted=wanted, model=known)
 
 
 def _thrust(design: Design) -> Floats:
@@ -139,10 +143,10 @@ def _thrust(design: Design) -> Floats:
 
 
 def _filters() -> Estimator:
-    """Second-order filters on both angles; their states are x₁ = ∫ x₂ and x₂, of which ω² x₂ is the rate."""
+    """Second-order filters on both angles; per axis w = [filtered angle, its rate/ω]."""
     w, zeta = FILTER_FREQUENCY, FILTER_DAMPING
-    one = np.array([[0.0, 1.0], [-(w**2), -2.0 * zeta * w]])
-    F, G = fixed(np.kron(np.eye(2), one)), fixed(np.kron(np.eye(2), np.array([[0.0], [1.0]])))
+    one = w * np.array([[0.0, 1.0], [-1.0, -2.0 * zeta]])
+    F, G = fixed(np.kron(np.eye(2), one)), fixed(np.kron(np.eye(2), np.array([[0.0], [w]])))
     rates = np.zeros((4, 4))
-    rates[2, 1] = rates[3, 3] = w**2
+    rates[2, 1] = rates[3, 3] = w
     return Estimator("filtered", F, G, np.zeros((4, 2)), rates, fixed(np.eye(4, 2)))

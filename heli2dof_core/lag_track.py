@@ -10,12 +10,9 @@ from .augmentation import augmented_loop
 from .frozen import Frozen
 from .loop import Loop
 from .poles import match_poles
-from .rotors import Actuators
+from .rotors import USUAL_LAG, Actuators
 from .signals import Complexes, Floats, fixed
 
-USUAL = 0.16
-"""Time constant of a real rig's rotors, s, taken where a rig has none of its own: of a first-generation Aero's 0.156,
-of an Aero 2's 0.162 to 0.169."""
 STEPS = 60
 
 
@@ -24,8 +21,8 @@ class LagTrack(Frozen):
     """The poles of the whole loop over the rotors' lag.
 
     Attributes:
-        tau: both rotors' time constants at the end, (2,), s: the rig's own, or `USUAL` where it has none.
-        assumed: whether they are `USUAL`.
+        tau: both rotors' time constants at the end, (2,), s: the rig's own, or `rotors.USUAL_LAG` where it has none.
+        assumed: whether they are `rotors.USUAL_LAG`.
         share: of these, (steps,), from nearly 0 to 1, finer where poles move fast.
         poles: rad/s, (steps, n), each column the course of one pole.
     """
@@ -40,7 +37,7 @@ def lag_track(loop: Loop, steps: int = STEPS) -> LagTrack:
     """The track of each pole of the loop; gains and estimator stay as they are."""
     own, design = loop.actuators or Actuators.none(loop.design.plant), loop.design
     assumed = not own.lags
-    tau = fixed(np.full(2, USUAL)) if assumed else own.tau
+    tau = fixed(np.full(2, USUAL_LAG)) if assumed else own.tau
     outer = (loop.proportional, loop.integral, loop.voltage_from_reference)
     _, A, _, places, _ = augmented_loop(design, replace(own, tau=tau), loop.estimator, outer)
     kept = [i for i, place in enumerate(places) if place not in _apart(loop)]

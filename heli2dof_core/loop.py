@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import sqrt
+from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,16 +14,18 @@ from .augmentation import augmented_loop
 from .design import Design
 from .eigenvalues import eigenvalues
 from .engine import engine
-from .estimators import Estimator
+from .estimators import FILTER_DAMPING, FILTER_FREQUENCY, Estimator
 from .findings import Finding
 from .frozen import Frozen, frozen
 from .interop import state_space
-from .kernels.layout import FULL, LAGGED, OWN, PI, PLAIN, POLYNOMIALS, ROUNDING, STATIC
+from .kernels.layout import OWN, PI, PLAIN, POLYNOMIALS, SIZES, STATIC
+from .loop_polynomials import controller_numbers, whole_polynomials
+from .remarks import lag_instability, loop_instability
 from .rotors import Actuators
 from .scenario import OuterLoop
 from .scratch import scratch
 from .signals import AXES, INPUTS, INTEGRALS, OUTPUTS, ROTORS, STATES, Complexes, Floats, Signal
-from .tables import Shown, Table, conjugates, number, poles
+from .tables import Shown, Table, number, poles
 
 if TYPE_CHECKING:
     import control
@@ -73,7 +75,7 @@ class Loop(Frozen, Shown):
         return self.design.actuators
 
     @property
-    def size(self) -> tuple[int, ...]:
+    def size(self) -> Sequence[int]:
         """As many zeros as the kernels' states of this loop: they are compiled for each number of them."""
         if self.estimator is not None:
             return WITH_ESTIMATOR
@@ -118,10 +120,51 @@ class Loop(Frozen, Shown):
 
     @cached_property
     def polynomials(self) -> Floats:
-        """Rig and law as 2×2 matrices of polynomials of s, (2, 2, 20), laid out as `kernels.polynomials` says."""
-        plant, f = self.design.plant, np.empty(POLYNOMIALS)
-        engine().polynomial_matrices(plant.A, plant.B, self.voltage_from_state, f)
-        return frozen(f)
+        """Rig and law as 2×2 matrices of polynomials of s, (2, 2, 20), laid out as `kernels.polynomials` says.
+
+        With rotors that lag or an estimator it is eight polynomials, (8, 2, 16), laid out as `kernels.whole` says.
+        """
+        return self.polynomials_on(self.design.plant.A, self.design.plant.B)
+
+    def polynomials_on(self, A: Floats, B: Floats, tau: Floats | None = None) -> Floats:
+        """The same of another rig, 4×4 and 4×2, and with other time constants of its rotors, under this law."""
+        own, known = self.actuators, self.estimator
+        if own is not None:
+            B, tau = B * own.slope, own.tau if tau is None else tau
+        tau = np.zeros(2) if tau is None else tau
+        if known is None and not tau.any() and self.design.rotor_poles is None:
+            f = np.empty(POLYNOMIALS)
+            engine().polynomial_matrices(
+                A, B, np.ascontiguousarray(self.voltage_from_state[:, : 4 + self._z]), f
+            )
+            return frozen(f)
+        return whole_polynomials(A, B, tau, self.controller)
+
+    @cached_property
+    def controller(self) -> Floats:
+        """The law as `kernels.whole` takes it, (5, 10)."""
+        filters = observer = None
+        if self.estimator is not None:
+            filters = (FILTER_FREQUENCY, FILTER_DAMPING) if self.estimator.model is None else None
+            L, model = self.estimator.L, self.estimator.model
+            observer = None if model is None or L is None else (model[0], model[1], L, model[2])
+        return controller_numbers(self.design.K, self.proportional, self.integral, filters, observer)
+
+    @cached_property
+    def lag_margin(self) -> float | None:
+        """The least time constant of both rotors, s, at which the loop is not stable; None where there is none.
+
+        Where the rotors are placed, it is the least above their own, the larger of both. None, too, where the loop is
+        not stable even there. Found from polynomials, without a grid (`kernels.lag`).
+        """
+        own = self.actuators
+        start = 0.0 if own is None or self.design.rotor_poles is None else float(own.tau.max())
+        found = engine().lag_margin(self.polynomials, start, scratch.lag)
+        return found if start < found < inf else None
+
+    @property
+    def _z(self) -> int:
+        return 0 if self.integral is None else 2
 
     @cached_property
     def connected(self) -> tuple[int, ...]:
@@ -202,7 +245,7 @@ def _slowest_first(pole: complex) -> tuple[float, float]:
     return -pole.real, -pole.imag
 
 
-PAPERS, WITH_ROTORS, WITH_ESTIMATOR = ((0,) * n for n in (PLAIN, LAGGED, FULL))
+PAPERS, WITH_ROTORS, WITH_ESTIMATOR = SIZES
 
 
 def estimated(i: int) -> Signal:
@@ -273,38 +316,12 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
 
 
 def _instability(loop: Loop) -> Finding:
-    """What the connected loops have done."""
-    slowest = loop.connected_poles[0]
-    crosses = slowest.real > sqrt(ROUNDING) * max(abs(loop.connected_poles))
-    where = f"lies at {conjugates(slowest, 3)} rad/s"
-    if not crosses:
-        height = (
-            "0"
-            if abs(slowest) <= sqrt(ROUNDING) * max(abs(loop.connected_poles))
-            else f"±{abs(slowest.imag):.3g}j rad/s"
-        )
-        where = f"lies on the imaginary axis, at {height}"
-    closed = [name for name, integral in zip(AXES, loop.integral_by_axis, strict=True) if integral.any()]
-    if loop.design.integral is not None or not loop.design.stable or not closed:
-        how = "unstable" if crosses else "not stable"
-        if not loop.design.aims:
-            advice = "Change the weights."
-        else:
-            advice = (
-                "Place faster poles." if loop.design.stable else "Place all poles in the left half plane."
-            )
-        return Finding("loop_unstable", "error", f"The whole loop is {how}: a pole of it {where}. {advice}")
-    if len(closed) == 2:
-        loops, advice = (
-            "The PI loops make",
-            "Lower the gains, raise the integral times, or place faster poles.",
-        )
-    else:
-        loops = f"The PI loop of {closed[0]} makes"
-        advice = "Lower its gain, raise its integral time, or place faster poles."
-    return Finding(
-        "pi_unstable",
-        "error",
-        f"{loops} the helicopter unstable: a pole of the whole loop {where}, although the placed poles are stable. "
-        + advice,
-    )
+    """What has done it: the rotors' lag, the PI loops, or the state feedback."""
+    lag, limit = 0.0 if loop.actuators is None else float(loop.actuators.tau.max()), loop.lag_margin
+    if limit is not None and lag >= limit:
+        return lag_instability(lag, limit)
+    placed = loop.design.stable
+    closed = [name for name, own in zip(AXES, loop.integral_by_axis, strict=True) if own.any()]
+    if loop.design.integral is not None or not placed:
+        closed = []
+    return loop_instability(loop.connected_poles, closed, aims=loop.design.aims, placed=placed)

@@ -48,7 +48,7 @@ class Preset(Shown):
     rotors: Rotors = Rotors()
     friction: AxisFriction = AxisFriction()
     place_rotors: bool = False
-    rotor_poles: tuple[float, float] = (-15.0, -15.0)
+    rotor_poles: tuple[float, float] = (-15.0, -16.0)
 
     def __post_init__(self) -> None:
         require_one_of(self.rig, RigName, "rig")

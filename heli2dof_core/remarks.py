@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations
+from math import sqrt
 
 import numpy as np
 
 from .findings import Finding
+from .kernels.layout import ROUNDING
 from .plant import NEARLY_PARALLEL, Plant
-from .signals import Floats
+from .signals import Complexes, Floats
 from .tables import conjugates
 
 COINCIDENT = 1e-6
@@ -118,3 +120,51 @@ def _on_accuracy(poles: Sequence[complex], error: float) -> Iterator[Finding]:
             f"The computed poles miss the requested ones by up to {error:.2g} rad/s: repeated or very fast poles are "
             "sensitive to rounding.",
         )
+
+
+def lag_instability(lag: float, limit: float) -> Finding:
+    """What the rotors' lag has done, s, of which the design bears less than `limit`."""
+    return Finding(
+        "rotors_unstable",
+        "error",
+        f"The rotors' lag of {lag:.3g} s makes the helicopter unstable: with this design both may need less than "
+        f"{limit:.3g} s. Place slower poles or lower the gains, or place the rotors, too.",
+    )
+
+
+def loop_instability(poles: Complexes, closed: Sequence[str], *, aims: bool, placed: bool) -> Finding:
+    """What the connected loops have done.
+
+    Args:
+        poles: of the whole loop, slowest first, rad/s.
+        closed: the axes whose PI loops have done it; empty where the state feedback itself has.
+        aims: whether the method aims at poles.
+        placed: whether the placed poles are stable.
+    """
+    slowest, reach = poles[0], sqrt(ROUNDING) * max(abs(poles))
+    crosses = slowest.real > reach
+    where = f"lies at {conjugates(slowest, 3)} rad/s"
+    if not crosses:
+        height = "0" if abs(slowest) <= reach else f"±{abs(slowest.imag):.3g}j rad/s"
+        where = f"lies on the imaginary axis, at {height}"
+    if not closed:
+        how = "unstable" if crosses else "not stable"
+        if not aims:
+            advice = "Change the weights."
+        else:
+            advice = "Place faster poles." if placed else "Place all poles in the left half plane."
+        return Finding("loop_unstable", "error", f"The whole loop is {how}: a pole of it {where}. {advice}")
+    if len(closed) == 2:
+        loops, advice = (
+            "The PI loops make",
+            "Lower the gains, raise the integral times, or place faster poles.",
+        )
+    else:
+        loops = f"The PI loop of {closed[0]} makes"
+        advice = "Lower its gain, raise its integral time, or place faster poles."
+    return Finding(
+        "pi_unstable",
+        "error",
+        f"{loops} the helicopter unstable: a pole of the whole loop {where}, although the placed poles are stable. "
+        + advice,
+    )

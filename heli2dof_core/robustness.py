@@ -16,11 +16,13 @@ from .engine import engine
 from .errors import InvalidInputError
 from .evaluate import loop_of
 from .frozen import Frozen, read_only
-from .kernels.layout import POLYNOMIAL_WORKSPACE, POLYNOMIALS, WORKSPACE
+from .kernels.layout import PLAIN, POLYNOMIAL_WORKSPACE, POLYNOMIALS, WORKSPACE
 from .loop import Loop
 from .parameters import PARAMETER_INFO, Parameters
 from .plant import rig_constants
 from .quantities import Quantity, documented, require_valid
+from .rotors import Actuators
+from .scratch import scratch
 from .signals import Complexes, Floats
 from .simulation.nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
 from .spec import Spec
@@ -40,6 +42,8 @@ PERCENTILES = (5.0, 50.0, 95.0)
 SMALLEST = 0.02
 """Least share of its nominal value that a parameter keeps, whatever the distribution says."""
 RTOL = 1e-5
+LAGS = ("tau_p", "tau_y")
+"""Time constants of both rotors, whose uncertainty is one of their own."""
 _DEFAULT = MappingProxyType({name: 0.1 for name in PARAMETER_INFO if name != "g"})
 
 
@@ -60,11 +64,11 @@ class Uncertainty:
     def __post_init__(self) -> None:
         require_valid(self)
         for name, share in self.spread.items():
-            if name not in PARAMETER_INFO:
+            if name not in PARAMETER_INFO and name not in LAGS:
                 raise InvalidInputError(
                     f"there is no parameter {name!r}",
                     field=f"spread.{name}",
-                    hint="Known are " + ", ".join(PARAMETER_INFO) + ".",
+                    hint="Known are " + ", ".join((*PARAMETER_INFO, *LAGS)) + ".",
                 )
             require_within(share, f"spread.{name}", "", 0.0, MOST_SPREAD)
 
@@ -152,11 +156,13 @@ def cloud_in_parts(
                 hint="Leave it out.",
             )
     loop = loop_of(spec)
-    rigs = _random_rigs(spec.parameters, uncertainty)
+    rigs, tau = _random_rigs(spec.parameters, uncertainty), _random_lags(loop, uncertainty)
     system = NonlinearLoop.of(loop, spec.limits, spec.scenario)
     t = np.linspace(0.0, spec.scenario.duration, GRID)
     constants = _constants(rigs)
-    stability = _stability(loop, rigs)
+    if len(loop.size) > PLAIN:
+        constants = np.hstack((constants, tau))
+    stability = _stability(loop, rigs, tau)
     angles, within = np.empty((len(rigs), 2, GRID)), np.empty(len(rigs))
     kernels = engine()
 
@@ -164,9 +170,9 @@ def cloud_in_parts(
         part = slice(first, last)
         numbers = (RTOL, ABSOLUTE_TOLERANCE * RTOL, kernels.most_steps)
         own = np.empty_like(system.start), np.empty_like(system.constants), np.empty_like(system.modes)
-        scratch = (np.empty(WORKSPACE), *own, np.empty((GRID, 6)))
-        arguments = (system.start, t, system.constants, system.modes, *numbers, *scratch)
-        kernels.run_cloud(constants[part], *arguments, angles[part], within[part])
+        room = (np.empty(WORKSPACE), *own, np.empty((GRID, len(loop.size))))
+        arguments = (system.start, t, system.constants, system.modes, *numbers, *room)
+        kernels.run_cloud(loop.size, constants[part], *arguments, angles[part], within[part])
 
     with ThreadPoolExecutor(2) as pool:
         begin, size = 0, CHUNK
@@ -205,12 +211,25 @@ def _random_rigs(nominal: Parameters, uncertainty: Uncertainty) -> Floats:
     rng = np.random.default_rng(uncertainty.seed)
     values = nominal.as_dict()
     spread = np.array([uncertainty.spread.get(name, 0.0) for name in values])
-    shape = (uncertainty.samples, len(values))
+    return np.array(list(values.values())) * _factors(rng, spread, uncertainty)
+
+
+def _factors(rng: np.random.Generator, spread: Floats, uncertainty: Uncertainty) -> Floats:
+    """Random factors, (samples, len(spread))."""
+    shape = (uncertainty.samples, len(spread))
     if uncertainty.distribution == "uniform":
         deviations = rng.uniform(-1.0, 1.0, shape)
     else:
         deviations = np.clip(rng.standard_normal(shape), -3.0, 3.0)
-    return np.array(list(values.values())) * np.maximum(1.0 + spread * deviations, SMALLEST)
+    return np.maximum(1.0 + spread * deviations, SMALLEST)
+
+
+def _random_lags(loop: Loop, uncertainty: Uncertainty) -> Floats:
+    """Time constants of both rotors, (samples, 2), s: the rig's own times random factors of their own."""
+    own = np.zeros(2) if loop.actuators is None else loop.actuators.tau
+    spread = np.array([uncertainty.spread.get(name, 0.0) for name in LAGS])
+    rng = np.random.default_rng((uncertainty.seed, 1))
+    return own * _factors(rng, spread, uncertainty)
 
 
 def _constants(rigs: Floats) -> Floats:
@@ -220,15 +239,30 @@ def _constants(rigs: Floats) -> Floats:
     return np.ascontiguousarray(np.column_stack(rig_constants(columns)))
 
 
-def _stability(loop: Loop, rigs: Floats) -> tuple[Complexes, Floats]:
+def _stability(loop: Loop, rigs: Floats, tau: Floats) -> tuple[Complexes, Floats]:
     """Poles of the nominal controller around each rig, linear, about the nominal operating point; 1 where stable."""
     A, B, _ = linear_matrices()(*rigs.T, loop.design.plant.theta_0)  # entries are columns, or plain numbers
     A, B = _stacked(A, len(rigs)), _stacked(B, len(rigs))
     law, connected, stable = loop.voltage_from_state, loop.connected, np.empty(len(rigs))
     whole = np.repeat(loop.A[None], len(rigs), axis=0)
-    whole[:, :4] = B @ law
-    whole[:, :4, :4] += A
-    engine().are_stable(A, B, law, np.empty(POLYNOMIALS), np.empty(POLYNOMIAL_WORKSPACE), stable)
+    if len(loop.size) == PLAIN:
+        whole[:, :4] = B @ law
+        whole[:, :4, :4] += A
+        engine().are_stable(A, B, law, np.empty(POLYNOMIALS), np.empty(POLYNOMIAL_WORKSPACE), stable)
+    else:
+        own = loop.actuators or Actuators.none(loop.design.plant)
+        thrust, lagged = B * own.slope, [loop.places.index(6 + j) if own.tau[j] else None for j in range(2)]
+        whole[:, :4] = 0.0
+        whole[:, :4, :4] = A
+        for j, v in enumerate(lagged):
+            if v is None:
+                whole[:, :4] += thrust[:, :, j, None] * law[j]
+            else:
+                whole[:, :4, v] = thrust[:, :, j]
+                whole[:, v] *= (own.tau[j] / tau[:, j])[:, None]
+        for i in range(len(rigs)):
+            polynomials = loop.polynomials_on(A[i], B[i], tau[i])
+            stable[i] = engine().is_stable(polynomials, scratch.stability)
     poles = np.linalg.eigvals(whole[:, connected][:, :, connected]).astype(np.complex128)
     return poles, stable
 

@@ -20,6 +20,8 @@ from .quantities import Quantity, documented, require_valid
 from .signals import AXES, Floats, fixed
 
 Curve = Literal["linear", "quadratic"]
+USUAL_LAG = 0.16
+"""Time constant of a real rig's rotors, s: of a first-generation Aero's 0.156, of an Aero 2's 0.162 to 0.169."""
 AT_REST = 0.01
 """Share of its limit below which a motor's trim voltage is no measure of the thrust curve."""
 

@@ -60,7 +60,7 @@ class Spec(Shown):
             "the rotors' speeds are states of the model that is placed: full rank on six states, K is 2×6"
         ),
     ] = False
-    rotor_poles: tuple[float, float] = (-15.0, -15.0)
+    rotor_poles: tuple[float, float] = (-15.0, -16.0)
     observer: Observer | None = None
 
     def __post_init__(self) -> None:

@@ -111,6 +111,11 @@ export interface ComparisonRow {
    * too few eigenvectors
    */
   eigenvector_condition?: number;
+  /**
+   * least time constant of both rotors alike at which the loop is no longer stable; where the rotors are placed, above
+   * their own, s; left out where unlimited, and where the loop is not stable
+   */
+  lag_margin?: number;
   method: string;
   /** V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇, then V/V, columns v_p, v_y; rows V_p, V_y */
   K?: number[][];
@@ -324,6 +329,11 @@ export interface EvaluateRequest extends StepRequest {
 
 /** Gains, RGA, responses and margins at once. */
 export interface Evaluation {
+  /**
+   * least time constant of both rotors alike at which the loop is no longer stable; where the rotors are placed, above
+   * their own, s; left out where unlimited, and where the loop is not stable
+   */
+  lag_margin?: number;
   /** the live request's number */
   seq?: number;
   gains: Gains;
@@ -431,6 +441,11 @@ export interface Gains {
    * too few eigenvectors
    */
   eigenvector_condition?: number;
+  /**
+   * least time constant of both rotors alike at which the loop is no longer stable; where the rotors are placed, above
+   * their own, s; left out where unlimited, and where the loop is not stable
+   */
+  lag_margin?: number;
   method: string;
   /** V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇, then V/V, columns v_p, v_y; rows V_p, V_y */
   K: number[][];
@@ -1273,6 +1288,11 @@ export interface States {
  * `states` are there where they are asked for.
  */
 export interface Step {
+  /**
+   * least time constant of both rotors alike at which the loop is no longer stable; where the rotors are placed, above
+   * their own, s; left out where unlimited, and where the loop is not stable
+   */
+  lag_margin?: number;
   /** s */
   t: number[];
   /** pitch, absolute, rad */
@@ -1339,6 +1359,40 @@ export interface Symbolic {
   /** one per input */
   controllability_indices: number[];
   symbols: Symbol[];
+}
+
+/** Any system ẋ = Ax + Bu of up to six states, row by row; nothing in it is ever run as code. */
+export interface SymbolicPlaceRequest {
+  /** n×n, row by row */
+  A: (string | number)[][];
+  /** n×p, row by row */
+  B: (string | number)[][];
+  /** n, complex ones with their conjugates; or symbols: p_1 … p_n */
+  poles?: 'symbols' | (number | { re: number; im: number })[];
+  /** by default in the order of the poles */
+  groups?: PoleGroup[] | null;
+}
+
+/** K of u = −Kx + v in formulas, and where they hold. */
+export interface SymbolicPlacementReply {
+  A: Formula;
+  B: Formula;
+  /** n×n, x̄ = Tx */
+  T: Formula;
+  /** p×p, the nonzero rows of TB */
+  Q: Formula;
+  /** p×n, rows are inputs */
+  K: Formula;
+  /** A − BK */
+  closed_loop: Formula;
+  /** one per input, for letters in general position */
+  controllability_indices: number[];
+  groups: Group[];
+  /** what must not be 0: where it is, an entry divides by 0 or the indices are others */
+  holds_unless: Formula[];
+  /** by its name the letter as the formulas have it: gamma_, where SymPy has a meaning for gamma */
+  letters: Record<string, Formula>;
+  findings: Finding[];
 }
 
 /** Diagonals of Q, R and of the integrals' weight; ones where left out. */

@@ -78,6 +78,9 @@ export interface Design extends Choices {
   method: string;
   loops: Loops;
   scenario: Scenario;
+  rotors?: contract.RotorsChanges;
+  friction?: contract.AxisFrictionChanges;
+  observer?: contract.ObserverChanges;
 }
 
 export type Preset = Except<contract.Preset, 'encoders'> & { encoders: Encoders };

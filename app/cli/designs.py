@@ -16,12 +16,13 @@ def gains(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     """Print K of u = −Kx + v and the poles that it gives."""
     from heli2dof_core import place
 
-    from ..contract.design import DesignRequest, gains_reply
+    from ..contract.design import DesignRequest, gains_of
 
     with refusals(as_json):
-        design = place(DesignRequest.model_validate(body(base, values)).to_spec())
+        spec = DesignRequest.model_validate(body(base, values)).to_spec()
         if as_json:
-            return print_json(gains_reply(design))
+            return print_json(gains_of(spec))
+        design = place(spec)
         show(design.tables(), findings=design.findings)
     return None
 

@@ -13,6 +13,7 @@ COMMANDS = {
     "gains": ("designs", "The gain K and the poles that it gives."),
     "rga": ("designs", "Relative gain array, pairing, Niederlinski index."),
     "step": ("designs", "Step response: metrics, motors, whole loop."),
+    "place": ("systems", "K of any system, in numbers or in formulas."),
     "compare": ("comparisons", "The same poles through several methods."),
     "robustness": ("comparisons", "One controller on many uncertain rigs."),
     "read": ("recordings", "A recording of a rig: columns, units, what is odd."),

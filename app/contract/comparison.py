@@ -96,7 +96,7 @@ def _row(row: Row) -> Reply:
     if report is None:
         return reply
     rga = rga_reply(report.design, report.interaction)
-    gains = gains_reply(report.design)
+    gains = gains_reply(report.design, report.loop.lag_margin)
     return {
         **reply,
         **{key: value for key, value in (gains | rga).items() if key not in _LEFT_OUT},

@@ -16,10 +16,14 @@ from heli2dof_core import (
     Estimator,
     Parameters,
     Spec,
+    loop_of,
+    place,
     plant,
 )
 from heli2dof_core.controllability import controllability_indices
 from heli2dof_core.design import FULL_RANK
+from heli2dof_core.estimators import observe
+from heli2dof_core.figures import LOOP as FIGURES_OF_LOOP
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.presets import DEFAULT
 from heli2dof_core.request import (
@@ -186,7 +190,7 @@ def observer_reply(known: Estimator | None) -> Reply:
     return {"observer": reply_of(ObserverGains, known)}
 
 
-class Gains(told_by(OF_GAINS)):
+class Gains(told_by({**OF_GAINS, **FIGURES_OF_LOOP})):
     """K in V/rad and V·s/rad, columns θ, ψ, θ̇, ψ̇, with rotors placed v_p, v_y in V/V; rows V_p, V_y.
 
     `integral` is a method's own integral action, V/(rad·s); `pole_error` is left out where the method
@@ -245,8 +249,15 @@ def _indices_of(design: Design) -> tuple[int, ...]:
     return own if design.rotor_poles is None else tuple(i + 1 for i in own)
 
 
-def gains_reply(design: Design) -> Reply:
-    """K and what it does to the poles."""
+def gains_of(spec: Spec) -> Reply:
+    """The reply to a design alone: its observer is told where it has one."""
+    placed = place(spec)
+    observer = None if spec.observer is None else observe(placed, spec.observer)
+    return gains_reply(placed, loop_of(spec, placed).lag_margin, observer)
+
+
+def gains_reply(design: Design, lag_margin: float | None = None, observer: Estimator | None = None) -> Reply:
+    """K and what it does to the poles; with the whole loop's lag margin, and an observer."""
     A, B = design.model
     rotors = design.rotor_poles
     return reply_of(
@@ -256,6 +267,8 @@ def gains_reply(design: Design) -> Reply:
         B=B,
         poles=design.poles.values,
         rotor_poles=None if rotors is None else poles_reply(map(complex, rotors)),
+        lag_margin=lag_margin,
+        **observer_reply(observer),
         pole_error_bound=design.pole_error_bound if design.aims else None,
         controllability_indices=_indices_of(design),
     )

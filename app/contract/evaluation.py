@@ -5,12 +5,13 @@ from __future__ import annotations
 from pydantic import Field
 
 from heli2dof_core import Report, Spec
+from heli2dof_core.estimators import observe
 from heli2dof_core.request import (
     LIMITS,
 )
 
 from .design import Gains, ObserverGains, gains_reply
-from .experiment import BothModels, StepRequest, loop_reply, step_reply
+from .experiment import BothModels, OfLoop, StepRequest, loop_reply, step_reply
 from .fields import Whole
 from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, rga_reply, sensitivity_reply
 from .model import Complex, Finding, Model, Reply, Voltages, findings_reply, poles_reply
@@ -36,7 +37,7 @@ class AxisSteps(Model):
     psi: BothModels | None = None
 
 
-class Evaluation(Model):
+class Evaluation(OfLoop):
     """Gains, RGA, responses and margins at once."""
 
     seq: int | None = Field(None, description="the live request's number")
@@ -60,7 +61,11 @@ def report_reply(report: Report, spec: Spec) -> Reply:
     loop, common = report.loop, loop_reply(report.loop)
     return {
         **common,
-        "gains": gains_reply(report.design),
+        "gains": gains_reply(
+            report.design,
+            loop.lag_margin,
+            None if spec.observer is None else observe(report.design, spec.observer),
+        ),
         "open_loop_poles": poles_reply(report.design.plant.poles),
         "rga": rga_reply(report.design, report.interaction),
         "step": {model: step_reply(step, loop, common) for model, step in report.step.items()},

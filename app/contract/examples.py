@@ -73,6 +73,17 @@ EXAMPLES: dict[str, dict[str, tuple[str, Json]]] = {
             },
         ),
     },
+    "SymbolicPlaceRequest": {
+        "spring": ("A mass on a spring", {"A": [["0", "1"], ["-k/m", "-b/m"]], "B": [["0"], ["1/m"]]}),
+        "numbers": (
+            "Two inputs, a complex pair",
+            {
+                "A": [[0, 1, 0], [0, 0, 1], ["a", 0, "sqrt(c)"]],
+                "B": [[0, 0], ["b", 0], [0, 1]],
+                "poles": [*_PAIR, -1.5],
+            },
+        ),
+    },
 }
 """By the name of the request's schema: examples by name, each with its summary."""
 

@@ -7,6 +7,7 @@ from pydantic import Field
 from heli2dof_core import Loop
 from heli2dof_core.evaluate import Step as CoreStep
 from heli2dof_core.figures import AXIS, MOTOR, STEP
+from heli2dof_core.figures import LOOP as FIGURES_OF_LOOP
 from heli2dof_core.metrics import StepMetrics
 from heli2dof_core.request import (
     DIGITAL,
@@ -123,7 +124,11 @@ class Rotors(Model):
     v_y: list[float] = Field(description="yaw motor's rotor, V")
 
 
-class Step(Model):
+class OfLoop(told_by(FIGURES_OF_LOOP)):
+    """Figures of the whole loop; s."""
+
+
+class Step(OfLoop):
     """A step response; s, rad, V. Linear voltages are deviations from the trim.
 
     `states` are there where they are asked for.
@@ -154,7 +159,9 @@ class BothModels(Model):
 
 def loop_reply(loop: Loop) -> Reply:
     """What every response of a loop has in common."""
+    lag = loop.lag_margin
     return {
+        **({} if lag is None else {"lag_margin": lag}),
         "loop_poles": poles_reply(loop.poles),
         "stable": loop.stable,
         "trim": voltages_reply(loop.design.trim),

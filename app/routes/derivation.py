@@ -10,13 +10,14 @@ from heli2dof_core.couplings import Coupling, Lead
 from ..contract.derivation import Symbolic, Walkthrough, symbolic_reply, walkthrough_reply
 from ..contract.design import DesignRequest
 from ..contract.encoding import json_bytes, json_response
-from ..contract.model import described
+from ..contract.model import Reply, described
 from ..contract.paper import Paper
-from ..jobs.compute import Compute
+from ..contract.symbols import SymbolicPlacementReply, SymbolicPlaceRequest, symbolic_placement_reply
+from ..jobs.compute import Compute, check_cancelled
 
 
 def build_router(compute: Compute) -> APIRouter:
-    """The routes symbolic, walkthrough and paper under /api/v1."""
+    """The routes symbolic, symbolic/place, walkthrough and paper under /api/v1."""
     router = APIRouter(prefix="/api/v1", tags=["derivation"])
 
     @router.get("/symbolic", **described(Symbolic, "The formulas, derived"))
@@ -36,6 +37,16 @@ def build_router(compute: Compute) -> APIRouter:
     )
     async def walkthrough(request: DesignRequest) -> Response:
         return json_response(await compute.run_slow(lambda: walkthrough_reply(place(request.to_spec()))))
+
+    @router.post(
+        "/symbolic/place",
+        **described(SymbolicPlacementReply, "State feedback for any controllable (A, B), in formulas"),
+    )
+    async def symbolic_place(request: SymbolicPlaceRequest) -> Response:
+        def work() -> Reply:
+            return symbolic_placement_reply(request.place(check_cancelled), check_cancelled)
+
+        return json_response(await compute.run_slow(work))
 
     @router.get("/paper", **described(Paper, "The paper, reproduced, and its errata proved"))
     async def paper() -> Response:

@@ -5,14 +5,12 @@ from __future__ import annotations
 from fastapi import APIRouter, Response
 
 from heli2dof_core import evaluate, loop_of, place, simulate, suggest_pi
-from heli2dof_core.estimators import observe
 
 from ..contract.design import (
     DesignRequest,
     Gains,
     Suggestion,
-    gains_reply,
-    observer_reply,
+    gains_of,
     suggestion_reply,
 )
 from ..contract.encoding import json_response
@@ -28,13 +26,7 @@ def build_router(compute: Compute) -> APIRouter:
 
     @router.post("/gains", **described(Gains, "K of u = −Kx + v and the poles that it gives"))
     async def gains(request: DesignRequest) -> Response:
-        def work() -> Reply:
-            spec = request.to_spec()
-            placed = place(spec)
-            known = None if spec.observer is None else observe(placed, spec.observer)
-            return gains_reply(placed) | observer_reply(known)
-
-        return json_response(await compute.run(work))
+        return json_response(await compute.run(lambda: gains_of(request.to_spec())))
 
     @router.post("/step", **described(Step, "Step response of the whole loop"))
     async def step(request: ResponseRequest) -> Response:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from math import isfinite
 
+from ..errors import MethodUnavailableError
 from ..evaluate import loop_of
 from ..frozen import Frozen
 from ..kernels.layout import BACK_CALCULATION, CLAMPING, MOTOR_OF, TRACKING, TRAVEL, WINDUP
@@ -37,6 +38,7 @@ class _Controller(Frozen):
     @classmethod
     def of(cls, spec: Spec) -> _Controller:
         loop, scenario = loop_of(spec), spec.scenario
+        _require_measured(spec)
         system = NonlinearLoop.of(loop, spec.limits, scenario)
         V_p, V_y = loop.design.trim.tolist() if scenario.trim_feedforward else (0.0, 0.0)
         return cls(
@@ -52,6 +54,22 @@ class _Controller(Frozen):
     @property
     def limited(self) -> bool:
         return all(map(isfinite, self.limits))
+
+
+def _require_measured(spec: Spec) -> None:
+    """Raises MethodUnavailableError where the feedback acts on what the functions in C are not given."""
+    if spec.place_rotors:
+        raise MethodUnavailableError(
+            "the controller in C does not feed the rotors' speeds back",
+            field="place_rotors",
+            hint="Export the design of four states, or take the matrices from another format.",
+        )
+    if spec.scenario.measured == "observer":
+        raise MethodUnavailableError(
+            "the controller in C has no observer",
+            field="scenario.measured",
+            hint="Export the feedback of filtered rates, or take the matrices from another format.",
+        )
 
 
 def render_header(spec: Spec, link: str = "") -> str:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from .figure import Figure, figures_of
-from .loop import DESIGN, MARGINS, SENSITIVITY, Margins
+from .loop import DESIGN, LOOP, MARGINS, SENSITIVITY, Margins
 from .response import AXIS, AXIS_METRICS, MOTOR, RESPONSE, STEP, AxisMetrics, MotorMetrics
 
 KINDS: Mapping[str, Mapping[str, Figure]] = {
@@ -19,6 +19,7 @@ KINDS: Mapping[str, Mapping[str, Figure]] = {
     "motor": MOTOR,
     "margins": MARGINS,
     "sensitivity": SENSITIVITY,
+    "loop": LOOP,
     "design": DESIGN,
 }
 """All of them: per stepped axis, per step, per motor, per motor's loop, of both loops, of the state feedback."""
@@ -28,6 +29,7 @@ __all__ = [
     "AXIS_METRICS",
     "DESIGN",
     "KINDS",
+    "LOOP",
     "MARGINS",
     "MOTOR",
     "RESPONSE",

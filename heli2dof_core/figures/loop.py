@@ -131,6 +131,23 @@ SENSITIVITY: Mapping[str, Figure] = {
 }
 """What the whole loop bears at both motors at once."""
 
+LOOP: Mapping[str, Figure] = {
+    "lag_margin": Figure(
+        "lag margin",
+        "least time constant of both rotors alike at which the loop is no longer stable; where the rotors are "
+        "placed, above their own",
+        "s",
+        "higher",
+        absent="where unlimited, and where the loop is not stable",
+        notation="seconds",
+        title="Lag margin",
+        short="Lag margin",
+        hint="how slow both rotors may be; an Aero’s need 0.16 s",
+        key="lag",
+    ),
+}
+"""What the whole loop bears of its rotors."""
+
 DESIGN: Mapping[str, Figure] = {
     "norm": Figure(
         "norm of K",

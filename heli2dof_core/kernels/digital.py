@@ -32,19 +32,25 @@ from .layout import (
     DISTURBANCE,
     ENDED,
     FILTERED,
+    FULL,
     GAIN,
     HELD,
     IMPACTS,
+    INNER,
     LIMIT,
+    MORE_GAIN,
     MOTOR_OF,
     OFFSET,
     OUT_OF_BOUNDS,
     OUTCOME,
+    PLAIN,
     RATE,
     REACHED,
     REFERENCE,
+    SIZES,
     START,
     STEP,
+    TAU,
     TIME,
     TRACKING,
     TRAVEL,
@@ -56,12 +62,14 @@ from .layout import (
 
 
 @entry_point(
-    lambda: (
-        examples.zeros(6),
+    lambda size: (
+        size,
+        examples.zeros(len(size)),
         examples.times(),
-        examples.constants(),
-        examples.modes(),
+        examples.constants(size),
+        examples.modes(size),
         examples.settings(),
+        examples.estimated(),
         examples.poles(),
         examples.experiment(),
         examples.given(3, 2),
@@ -69,29 +77,31 @@ from .layout import (
         *examples.NUMBERS,
         examples.trim(),
         examples.zeros(*WORKSPACE),
-        examples.constants(),
-        examples.modes(),
+        examples.constants(size),
+        examples.modes(size),
         examples.zeros(4),
-        examples.zeros(4, 6),
+        examples.zeros(4, len(size)),
         examples.followed(),
-        examples.zeros(2, 6),
+        examples.zeros(2, len(size)),
         examples.zeros(2, 2),
         *examples.figures(),
-    )
+    ),
+    *SIZES,
 )
 def run_digital(
-    y, t, c, m, d, poles, x, noise, disturbed_from, rtol, atol, most_steps, rest, w, plant, free, grid, course, f,
-    states, voltages, axes, motors, known,
+    size, y, t, c, m, d, estimator, poles, x, noise, disturbed_from, rtol, atol, most_steps, rest, w, plant, free,
+    grid, course, f, states, voltages, axes, motors, known,
 ):  # fmt: skip
-    """States (len(t), 6) and held voltages (len(t), 2) at all t, increasing from t[0] = 0, and figures of merit.
+    """States (len(t), n) and held voltages (len(t), 2) at all t, increasing from t[0] = 0, and figures of merit.
 
-    `c`, `m` as for `integrate`, with the controller's gains; `poles` are the linear loop's; `noise`, (samples, 2), is
-    added to the measured angles, rad; the disturbance acts from the first sample at or after `disturbed_from`.
+    n is the size. `c`, `m` as for `integrate`, with the controller's gains; `estimator`, ESTIMATED, is the one within
+    the controller, where there is one; `poles` are the linear loop's; `noise`, (samples, 2), is added to the measured
+    angles, rad; the disturbance acts from the first sample at or after `disturbed_from`.
     With a delay the motors have the voltages d[BEFORE] until the second sample. Figures go into `axes`, `motors` and
     `known`, as `layout` says. Scratch: `w` of zeros, `plant` and `free` like c and m, `grid` (len(t) + 2,), `course`
-    (len(t) + 2, 6), `f`, twice FOLLOWED. What was not reached is held.
+    (len(t) + 2, n), `f`, twice FOLLOWED. What was not reached is held.
     """
-    rig_without_feedback(c, m, plant, free)
+    rig_without_feedback(size, c, m, plant, free)
     filters, measured, held, waiting = w[16:18], w[18], w[19], w[20]
     initialize_controller(y, c, d, filters, held)
     own, ahead, end, samples = f[:4], f[4:], t[-1], len(t)
@@ -101,9 +111,12 @@ def run_digital(
     period, over, until, proven = d[TIME], False, end, True
     while done < samples or now < until:
         sample_sensors(y, d, filters, noise[min(k, len(noise) - 1)], measured)
-        sample_controller(y, c, m, d, measured, w[23], waiting)
+        sample_controller(size, y, c, m, d, measured, w[23], waiting)
         if d[DELAY] == 0.0:
             held[0], held[1] = waiting[0], waiting[1]
+        plant[OFFSET], plant[OFFSET + 1] = held[0], held[1]
+        on = 1.0 if now >= disturbed_from - 1e-12 else 0.0
+        plant[DISTURBANCE], plant[DISTURBANCE + 1] = on * c[DISTURBANCE], on * c[DISTURBANCE + 1]
         following = t[0] + (k + 1) * period
         count = 1
         grid[0] = now
@@ -113,6 +126,7 @@ def run_digital(
                 count += 1
             else:
                 copy_into(y, states[done])
+                held_speeds(size, plant, states[done])
                 voltages[done, 0], voltages[done, 1] = held[0], held[1]
                 done += 1
         ends = not over and done + count - 1 == samples
@@ -122,22 +136,31 @@ def run_digital(
             until = settling_check_end(own, end, min(slowest_period(poles), end))
             if not until > end:
                 break
-        plant[OFFSET], plant[OFFSET + 1] = held[0], held[1]
-        on = 1.0 if now >= disturbed_from - 1e-12 else 0.0
-        plant[DISTURBANCE], plant[DISTURBANCE + 1] = on * c[DISTURBANCE], on * c[DISTURBANCE + 1]
         z0, z1 = y[4], y[5]
         points = count
         if not ends:
             grid[count] = following
             points += 1
         found, filled, _, _, hits, here = integrate_measured(
-            y, grid[:points], plant, free, rtol, atol, most_steps, w, course, ahead if over else own, ANGLES
+            size,
+            y,
+            grid[:points],
+            plant,
+            free,
+            rtol,
+            atol,
+            most_steps,
+            w,
+            course,
+            ahead if over else own,
+            ANGLES,
         )
         y[4], y[5] = z0, z1
         for i in range(1, count):
             if i < filled:
                 copy_into(course[i], states[done])
                 states[done, 4], states[done, 5] = z0, z1
+                held_speeds(size, plant, states[done])
                 voltages[done, 0], voltages[done, 1] = held[0], held[1]
                 done += 1
         if not over:
@@ -152,7 +175,7 @@ def run_digital(
                 break
             grid[0], grid[1] = end, following
             found, _, _, _, _, _ = integrate_measured(
-                y, grid[:2], plant, free, rtol, atol, most_steps, w, course, ahead, ANGLES
+                size, y, grid[:2], plant, free, rtol, atol, most_steps, w, course, ahead, ANGLES
             )
             y[4], y[5] = z0, z1
         if found != ENDED:
@@ -160,6 +183,7 @@ def run_digital(
             if not over:
                 outcome, reached = found, here
             break
+        sample_estimator(size, y, estimator, measured, held)
         held[0], held[1] = waiting[0], waiting[1]
         now = following
         k += 1
@@ -184,7 +208,7 @@ def encoder_reading(angle, axis, d, noise):
 
 
 @kernel
-def rig_without_feedback(c, m, plant, free):
+def rig_without_feedback(size, c, m, plant, free):
     """Constants and modes of the rig alone into `plant` and `free`: held voltages go into its offset."""
     copy_into(c, plant)
     for j in range(12):
@@ -241,13 +265,41 @@ def sample_sensors(y, d, filters, noise, measured):
 
 
 @kernel
-def sample_controller(y, c, m, d, measured, asked, out):
+def held_speeds(size, plant, state):
+    """Speeds of rotors that follow at once: what their motors have."""
+    if len(size) > PLAIN:
+        for motor in range(2):
+            if plant[TAU + motor] == 0.0:
+                state[6 + motor] = plant[OFFSET + motor] + plant[DISTURBANCE + motor]
+
+
+@kernel
+def sample_estimator(size, y, estimator, measured, held):
+    """The estimator's states y[8:] go on by one sample, with the angles measured at its start and held voltages."""
+    if len(size) == FULL:
+        known = estimator.shape[0]
+        for i in range(known):
+            total = estimator[i, 10]
+            for j in range(known):
+                total += estimator[i, j] * y[8 + j]
+            for j in range(2):
+                total += estimator[i, 6 + j] * measured[j] + estimator[i, 8 + j] * held[j]
+            measured[4 + i] = total  # the old state is still needed
+        for i in range(known):
+            y[8 + i] = measured[4 + i]
+
+
+@kernel
+def sample_controller(size, y, c, m, d, measured, asked, out):
     """Voltages as asked, and within their limits into `out`; the integrals y[4:6] go on by one sample (Euler)."""
     for motor in range(2):
         row = GAIN + 6 * motor
         u = c[OFFSET + motor] + c[row + 4] * y[4] + c[row + 5] * y[5]
         for j in range(4):
             u += c[row + j] * measured[j]
+        if len(size) > PLAIN:
+            for j in range(6, len(size)):
+                u += c[MORE_GAIN + INNER * motor - 6 + j] * y[j]
         asked[motor] = u
         out[motor] = min(max(u, -c[LIMIT + motor]), c[LIMIT + motor])
     cut0, cut1 = out[0] - asked[0], out[1] - asked[1]

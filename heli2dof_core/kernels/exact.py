@@ -24,7 +24,6 @@ from .figures import (
 from .jit import kernel
 from .layout import (
     AREA,
-    AUGMENTED,
     BY,
     DIVERGED,
     EFFORT,
@@ -101,12 +100,12 @@ def settling_horizon(poles):
 
 
 @kernel
-def propagate_measured(M, outputs, slopes, poles, t, length, theta_0, most, f, ladder, nodes, w):
+def propagate_measured(size, M, outputs, slopes, poles, t, length, theta_0, most, f, ladder, nodes, w):
     """Follows the course from the state in the first column of `nodes` at t for a time `length`.
 
-    `outputs` and `slopes`, (2, 7): voltages and their rates by state. The state at the end is left in the first
-    column, of a course that leaves ±DIVERGED the angles alone. Given up after `most` groups of intervals. Returns the
-    outcome and the time reached. Scratch: `ladder`, LADDER, and `w`, (42, 7).
+    `outputs` and `slopes`, (2, n), n one more than the size: voltages and their rates by state. The state at the end
+    is left in the first column, of a course that leaves ±DIVERGED the angles alone. Given up after `most` groups of
+    intervals. Returns the outcome and the time reached. Scratch: `ladder` and `w`, (6 n, n).
     """
     end = t + length
     # intervals at this spacing: `parts` times a power of 2
@@ -116,11 +115,11 @@ def propagate_measured(M, outputs, slopes, poles, t, length, theta_0, most, f, l
         level += 1
     parts = max(ceil(wanted / 2.0**level), 1)
     spacing = length / (parts * 2.0**level)
-    deepest = max(squarings_needed(M, length / parts), level + 1)
+    deepest = max(squarings_needed(size, M, length / parts), level + 1)
     at = deepest - level  # the place of the spacing's matrix in the ladder
     if level > 55 or deepest + 10 > len(ladder):
         return OUT_OF_STEPS, t
-    exponential_series(M, length / parts * 0.5**deepest, ladder[0], w)
+    exponential_series(size, M, length / parts * 0.5**deepest, ladder[0], w)
     built, left, groups = 1, parts * 2**level, 0
     while left > 0:
         limit = fastest_pole(poles, t) / SPACING
@@ -137,45 +136,45 @@ def propagate_measured(M, outputs, slopes, poles, t, length, theta_0, most, f, l
         done, power = 1, at
         while done <= count:
             while built <= power:
-                matrix_product(ladder[built - 1], ladder[built - 1], ladder[built])
+                matrix_product(size, ladder[built - 1], ladder[built - 1], ladder[built])
                 built += 1
             more = min(done, count + 1 - done)
-            next_samples(ladder[power], nodes, done, more)
+            next_samples(size, ladder[power], nodes, done, more)
             done += more
             power += 1
         for i in range(2):
-            row_times_samples(outputs[i], nodes, count + 1, nodes[AUGMENTED + i], 0)
-        good = intervals_in_bounds(nodes, theta_0, count)
+            row_times_samples(size, outputs[i], nodes, count + 1, nodes[len(size) + 1 + i], 0)
+        good = intervals_in_bounds(size, nodes, theta_0, count)
         for i in range(2):
-            measure_axis(f[i], nodes, i, good, t, spacing, ladder[at - 1], theta_0 if i == 0 else 0.0)
-            measure_motor(f[2 + i], nodes, i, good, spacing, ladder[at - 1], outputs, slopes)
+            measure_axis(size, f[i], nodes, i, good, t, spacing, ladder[at - 1], theta_0 if i == 0 else 0.0)
+            measure_motor(size, f[2 + i], nodes, i, good, spacing, ladder[at - 1], outputs, slopes)
         if good < count:
             t += good * spacing
             return OUT_OF_BOUNDS, measure_to_divergence(
-                f, nodes, good, t, spacing, ladder[at - 1], theta_0, outputs, slopes
+                size, f, nodes, good, t, spacing, ladder[at - 1], theta_0, outputs, slopes
             )
         left -= count
         t = end - left * spacing
-        for i in range(AUGMENTED):
+        for i in range(len(size) + 1):
             nodes[i, 0] = nodes[i, count]
     return ENDED, end
 
 
 @kernel
-def intervals_in_bounds(nodes, theta_0, count):
+def intervals_in_bounds(size, nodes, theta_0, count):
     """How many intervals begin and end within ±DIVERGED."""
     for k in range(1, count + 1):
         good = abs(nodes[0, k] + theta_0) < DIVERGED and abs(nodes[1, k]) < DIVERGED
-        if not (good and abs(nodes[AUGMENTED, k]) < inf and abs(nodes[AUGMENTED + 1, k]) < inf):
+        if not (good and abs(nodes[len(size) + 1, k]) < inf and abs(nodes[len(size) + 2, k]) < inf):
             return k - 1
     return count
 
 
 @kernel
-def midpoint_state(row, nodes, k):
+def midpoint_state(size, row, nodes, k):
     """An entry of the state half an interval after node k, by the matrix' row."""
-    total = row[AUGMENTED - 1]
-    for i in range(AUGMENTED - 1):
+    total = row[len(size)]
+    for i in range(len(size)):
         total += row[i] * nodes[i, k]
     return total
 
@@ -190,7 +189,7 @@ def quartic_between(y, y1, rate, rate1, half):
 
 
 @kernel
-def measure_axis(a, nodes, axis, count, t, d, half, base):
+def measure_axis(size, a, nodes, axis, count, t, d, half, base):
     """One axis, a row of f, along `count` intervals of length d; its angle is `base` above the state."""
     y, slope = nodes[axis], nodes[2 + axis]
     start, by, stepped = a[FROM] - base, a[BY], a[STEPPED] != 0.0
@@ -211,7 +210,7 @@ def measure_axis(a, nodes, axis, count, t, d, half, base):
             or (stepped and may_cross_level(a, min(before, after), max(before, after)))
         ):
             crosses = measure_axis_by_interval(
-                a, y, slope, first, first + GROUP, t, d, half[axis], nodes, base, False
+                size, a, y, slope, first, first + GROUP, t, d, half[axis], nodes, base, False
             )
         else:
             update_extrema(a, after, t + (first + GROUP) * d)
@@ -223,11 +222,11 @@ def measure_axis(a, nodes, axis, count, t, d, half, base):
             a[AREA] += d * abs(area)
             a[MOMENT] += d * abs((t + first * d) * area + d * moment)
     if full < count:
-        measure_axis_by_interval(a, y, slope, full, count, t, d, half[axis], nodes, base, True)
+        measure_axis_by_interval(size, a, y, slope, full, count, t, d, half[axis], nodes, base, True)
 
 
 @kernel
-def measure_axis_by_interval(a, y, slope, first, last, t, d, half, nodes, base, integrals):
+def measure_axis_by_interval(size, a, y, slope, first, last, t, d, half, nodes, base, integrals):
     """The same from node to node, events located; whether the error changes its sign, whose integrals are done then.
 
     `half` is the matrix' row that leads to the middle of an interval.
@@ -245,7 +244,7 @@ def measure_axis_by_interval(a, y, slope, first, last, t, d, half, nodes, base, 
             or (stepped and may_cross_level(a, min(share, after), max(share, after)))
         ):
             p1, p2, p3, p4 = quartic_between(
-                y[k], y[k + 1], d * slope[k], d * slope[k + 1], midpoint_state(half, nodes, k)
+                y[k], y[k + 1], d * slope[k], d * slope[k + 1], midpoint_state(size, half, nodes, k)
             )
             update_axis(a, y[k] + base, p1, p2, p3, p4, t + k * d, d, 1.0, crossing or integrals)
             crosses = crosses or crossing
@@ -271,9 +270,9 @@ def error_integrals_by_interval(a, y, first, t, d, start, by):
 
 
 @kernel
-def measure_motor(b, nodes, motor, count, d, half, outputs, slopes):
+def measure_motor(size, b, nodes, motor, count, d, half, outputs, slopes):
     """One motor, a row of f, along `count` intervals of length d; at rest its voltage is 0."""
-    u = nodes[AUGMENTED + motor]
+    u = nodes[len(size) + 1 + motor]
     highest, total, full = max(b[PEAK_VOLTAGE], abs(u[0])), 0.0, count - count % GROUP
     for k in range(1, count + 1):
         highest = max(highest, abs(u[k]))
@@ -284,7 +283,7 @@ def measure_motor(b, nodes, motor, count, d, half, outputs, slopes):
         if 0 < k < count and (u[k] - u[k - 1]) * (u[k + 1] - u[k]) > 0.0:
             continue
         for j in range(max(k - 1, 0), min(k + 1, count)):
-            p1, p2, p3, p4 = voltage_quartic(outputs[motor], slopes[motor], half, nodes, u, j, d)
+            p1, p2, p3, p4 = voltage_quartic(size, outputs[motor], slopes[motor], half, nodes, u, j, d)
             peak = max(peak, quartic_peak(u[j], p1, p2, p3, p4, 1.0))
     for first in range(0, full, GROUP):
         for j in range(GROUP + 1):
@@ -292,28 +291,28 @@ def measure_motor(b, nodes, motor, count, d, half, outputs, slopes):
     b[PEAK_VOLTAGE] = peak
     b[EFFORT] += d * total
     for k in range(full, count):
-        p1, p2, p3, p4 = voltage_quartic(outputs[motor], slopes[motor], half, nodes, u, k, d)
+        p1, p2, p3, p4 = voltage_quartic(size, outputs[motor], slopes[motor], half, nodes, u, k, d)
         update_motor(b, u[k], p1, p2, p3, p4, d, 1.0)
 
 
 @kernel
-def voltage_quartic(output, slope, half, nodes, u, k, d):
+def voltage_quartic(size, output, slope, half, nodes, u, k, d):
     """The same of a voltage between the nodes k and k + 1, by the rows that make it and its rate of the state."""
-    between, first, last = output[AUGMENTED - 1], slope[AUGMENTED - 1], slope[AUGMENTED - 1]
-    for i in range(AUGMENTED - 1):
-        between += output[i] * midpoint_state(half[i], nodes, k)
+    between, first, last = output[len(size)], slope[len(size)], slope[len(size)]
+    for i in range(len(size)):
+        between += output[i] * midpoint_state(size, half[i], nodes, k)
         first += slope[i] * nodes[i, k]
         last += slope[i] * nodes[i, k + 1]
     return quartic_between(u[k], u[k + 1], d * first, d * last, between)
 
 
 @kernel
-def measure_to_divergence(f, nodes, k, t, d, half, theta_0, outputs, slopes):
+def measure_to_divergence(size, f, nodes, k, t, d, half, theta_0, outputs, slopes):
     """The last interval of a course, on which an angle leaves ±DIVERGED; until when.
 
     Where the angles are then stands in the first column.
     """
-    for i in range(AUGMENTED + 2):
+    for i in range(len(size) + 3):
         if not abs(nodes[i, k + 1]) < inf:
             nodes[0, 0], nodes[1, 0] = nodes[0, k], nodes[1, k]
             return t
@@ -323,7 +322,7 @@ def measure_to_divergence(f, nodes, k, t, d, half, theta_0, outputs, slopes):
         y, slope = nodes[i], nodes[2 + i]
         if abs(y[k + 1] + base) >= DIVERGED:
             p1, p2, p3, p4 = quartic_between(
-                y[k], y[k + 1], d * slope[k], d * slope[k + 1], midpoint_state(half[i], nodes, k)
+                y[k], y[k + 1], d * slope[k], d * slope[k + 1], midpoint_state(size, half[i], nodes, k)
             )
             level = DIVERGED if y[k + 1] > 0.0 else -DIVERGED
             x = min(x, level_crossing(y[k] + base, p1, p2, p3, p4, level, 0.0, 1.0))
@@ -332,15 +331,15 @@ def measure_to_divergence(f, nodes, k, t, d, half, theta_0, outputs, slopes):
         base = theta_0 if i == 0 else 0.0
         y, slope = nodes[i], nodes[2 + i]
         p1, p2, p3, p4 = quartic_between(
-            y[k], y[k + 1], d * slope[k], d * slope[k + 1], midpoint_state(half[i], nodes, k)
+            y[k], y[k + 1], d * slope[k], d * slope[k + 1], midpoint_state(size, half[i], nodes, k)
         )
         update_axis(f[i], y[k] + base, p1, p2, p3, p4, t, d, x, True)
         if i == 0:
             pitch = quartic(y[k], p1, p2, p3, p4, x)
         else:
             yaw = quartic(y[k], p1, p2, p3, p4, x)
-        u = nodes[AUGMENTED + i]
-        p1, p2, p3, p4 = voltage_quartic(outputs[i], slopes[i], half, nodes, u, k, d)
+        u = nodes[len(size) + 1 + i]
+        p1, p2, p3, p4 = voltage_quartic(size, outputs[i], slopes[i], half, nodes, u, k, d)
         update_motor(f[2 + i], u[k], p1, p2, p3, p4, d, x)
     nodes[0, 0], nodes[1, 0] = pitch, yaw
     return t + d * x

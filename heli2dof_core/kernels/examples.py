@@ -5,6 +5,7 @@ A kernel that `engine` hands out names its own beside its definition (`jit.entry
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -17,20 +18,26 @@ from .layout import (
     BOUND,
     CONSTANTS,
     COURSE,
+    ESTIMATED,
     EXPERIMENT,
     FOLLOWED,
     GAIN,
+    INNER,
     J_Y,
-    LADDER,
     LIMIT,
     MODES,
+    MORE_CONSTANTS,
+    MORE_MODES,
     MOTOR_METRICS,
+    PAPER,
+    PLAIN,
     REFERENCE,
     SETTINGS,
+    SIZES,
     START,
     STOP,
-    STRETCH,
     TIME,
+    exact_shapes,
 )
 
 NUMBERS = (1e-3, 1e-3, 10)
@@ -52,16 +59,21 @@ def times() -> Floats:
     return fixed([0.0, 1e-3])
 
 
-def constants() -> Floats:
+def constants(size: Sequence[int] = PAPER) -> Floats:
     """A rig with inertia and limits, and no controller."""
-    c = np.zeros(CONSTANTS)
+    c = np.zeros(CONSTANTS if len(size) == PLAIN else MORE_CONSTANTS)
     c[[ALPHA, J_Y, LIMIT, LIMIT + 1]] = 1.0
     return c
 
 
-def modes() -> Any:
+def more_constants() -> Floats:
+    """The same with rotors and friction."""
+    return constants(SIZES[1])
+
+
+def modes(size: Sequence[int] = PAPER) -> Any:
     """All switches as they are at first."""
-    return np.zeros(MODES, dtype=np.int64)
+    return np.zeros(MODES if len(size) == PLAIN else MORE_MODES, dtype=np.int64)
 
 
 def rig() -> Floats:
@@ -91,9 +103,25 @@ def poles() -> Any:
     return frozen(np.array([-1 + 0j]))
 
 
-def search() -> tuple[Floats, Floats, Floats]:
-    """Scratch of the exact response: powers of the step, nodes, and what is followed."""
-    return zeros(*LADDER), zeros(*STRETCH), followed()
+def more() -> Floats:
+    """What the constants go on with for rotors, friction and estimator, which nobody may change."""
+    return fixed(np.zeros(MORE_CONSTANTS - CONSTANTS))
+
+
+def inner(*leading: int) -> Floats:
+    """States behind the sixth at the start, which nobody may change."""
+    return given(*leading, INNER)
+
+
+def estimated() -> Floats:
+    """An estimator from sample to sample, which nobody may change."""
+    return given(*ESTIMATED)
+
+
+def search(size: tuple[int, ...]) -> tuple[Floats, Floats, Floats, Floats]:
+    """Scratch of the exact response: matrices, powers of the step, nodes, and what is followed."""
+    matrices, ladder, nodes = exact_shapes(len(size))
+    return zeros(*matrices), zeros(*ladder), zeros(*nodes), followed()
 
 
 def followed() -> Floats:

@@ -10,24 +10,23 @@ from .exact import propagate_measured, settling_horizon, slowest_period
 from .figures import confirm_settling, copy_figures, figures_of_merit, settling_check_end, start_figures
 from .jit import copy_into, entry_point, kernel
 from .layout import (
-    AUGMENTED,
     DISTURBANCE,
     DIVERGED,
     ENDED,
     HELD,
     IMPACTS,
-    LINEAR_WORKSPACE,
     OUT_OF_BOUNDS,
     OUTCOME,
     REACHED,
     REFERENCE,
+    SIZES,
     START,
     TRAVEL,
     WORKSPACE,
 )
 from .linear import exact_response
 from .loop import augmented_system, nonlinear_loop
-from .measures import hold_after_divergence, trajectories
+from .measures import hold_after_divergence, speeds_at_once, trajectories
 
 ROUNDING = 1e-6
 """An overshoot of the exact response below this share of the step is none: with poles at −10⁵, it may be rounding."""
@@ -36,36 +35,39 @@ SEEN = 1e-4
 
 
 @entry_point(
-    lambda: (
+    lambda size: (
+        size,
         0.0,
-        examples.given(2, 6),
+        examples.given(2, len(size)),
         examples.given(2, 2),
-        examples.given(6, 6),
-        examples.given(6, 2),
+        examples.given(len(size), len(size)),
+        examples.given(len(size), 2),
         examples.poles(),
         examples.experiment(),
+        examples.inner(),
         examples.times(),
         10,
         examples.trim(),
-        examples.zeros(*LINEAR_WORKSPACE),
-        *examples.search(),
-        examples.zeros(AUGMENTED, 2),
+        *examples.search(size),
+        examples.zeros(len(size) + 1, 2),
         examples.zeros(2, 2),
         *examples.figures(),
-    )
+    ),
+    *SIZES,
 )
 def run_linear(
-    theta_0, law, by_reference, whole, driven, poles, x, t, most_steps, rest, w, ladder, nodes, f,
+    size, theta_0, law, by_reference, whole, driven, poles, x, inner, t, most_steps, rest, w, ladder, nodes, f,
     states, voltages, axes, motors, course,
 ):  # fmt: skip
-    """The loop without limits, exact: absolute states, (7, samples), voltages and figures of merit, as `layout` says.
+    """The loop without limits, exact: absolute states, (n, samples), voltages and figures of merit, as `layout` says.
 
-    `poles` are those of `whole`. Scratch: `w`, LINEAR_WORKSPACE, `ladder`, LADDER, `nodes`, STRETCH, and `f`, twice
-    FOLLOWED.
+    n is one more than the size; the last state is 1, those behind the sixth are deviations, from `inner` on. `whole`
+    and `law` are of the size's order, or of 4 or 6 where that is PLAIN. `poles` are those of `whole`. Scratch: `w`,
+    `ladder` and `nodes`, `layout.exact_shapes`, and `f`, twice FOLLOWED.
     """
-    n = AUGMENTED
+    n = len(size) + 1
     M, outputs, slopes, scratch = w[:n], w[n : n + 2], w[n + 2 : n + 4], w[n + 4 :]
-    augmented_system(theta_0, law, by_reference, whole, driven, x, M, outputs, states)
+    augmented_system(size, theta_0, law, by_reference, whole, driven, x, inner, M, outputs, states)
     for i in range(n):
         nodes[i, 0] = states[i, 0]
         for j in range(2):
@@ -73,14 +75,14 @@ def run_linear(
             for k in range(n):
                 total += outputs[j, k] * M[k, i]
             slopes[j, i] = total
-    exact_response(M, t[1], outputs, scratch, states, voltages)
+    exact_response(size, M, t[1], outputs, scratch, states, voltages)
     for k in range(len(t)):
         states[0, k] += theta_0
     own, ahead, end = f[:4], f[4:], t[-1]
     start, reference = (x[START], x[START + 1]), (x[REFERENCE], x[REFERENCE + 1])
     start_figures(own, start, reference, rest, x[START], x[START + 1], 0.0)
     outcome, reached = propagate_measured(
-        M, outputs, slopes, poles, 0.0, end, theta_0, most_steps, own, ladder, nodes, scratch
+        size, M, outputs, slopes, poles, 0.0, end, theta_0, most_steps, own, ladder, nodes, scratch
     )
     proven, pitch, yaw = outcome == ENDED, nodes[0, 0] + theta_0, nodes[1, 0]
     until = settling_check_end(own, end, settling_horizon(poles))
@@ -89,6 +91,7 @@ def run_linear(
         proven = False
         if until < inf:
             found, _ = propagate_measured(
+                size,
                 M,
                 outputs,
                 slopes,
@@ -110,35 +113,40 @@ def run_linear(
 
 
 @entry_point(
-    lambda: (
-        examples.constants(),
-        examples.modes(),
+    lambda size: (
+        size,
+        examples.constants(size),
+        examples.modes(size),
         examples.poles(),
         examples.experiment(),
+        examples.inner(),
         examples.times(),
         inf,
         *examples.NUMBERS,
         examples.trim(),
         examples.zeros(*WORKSPACE),
-        examples.zeros(3, 6),
+        examples.zeros(3, len(size)),
         examples.zeros(3),
         examples.followed(),
-        examples.zeros(6, 2),
+        examples.zeros(len(size), 2),
         examples.zeros(2, 2),
         *examples.figures(),
-    )
+    ),
+    *SIZES,
 )
 def run_nonlinear(
-    c, m, poles, x, t, since, rtol, atol, most_steps, rest, w, raw, grid, f, states, voltages, axes, motors, course
+    size, c, m, poles, x, inner, t, since, rtol, atol, most_steps, rest, w, raw, grid, f,
+    states, voltages, axes, motors, course,
 ):  # fmt: skip
-    """The rig within its limits: states, (6, samples), voltages and figures of merit, as `layout` says.
+    """The rig within its limits: states, (n, samples), voltages and figures of merit, as `layout` says.
 
-    `poles` are the linear loop's; the disturbance within c sets in at `since`. Scratch: `w`, WORKSPACE, `raw`,
-    (samples + 1, 6), `grid`, (samples + 1,), and `f`, twice FOLLOWED.
+    n is the size; the states behind the sixth start as `inner`. `poles` are the linear loop's; the disturbance within
+    c sets in at `since`. Scratch: `w`, WORKSPACE, `raw`, (samples + 1, n), `grid`, (samples + 1,), and `f`, twice
+    FOLLOWED.
     """
-    own, ahead, y, end, samples = f[:4], f[4:], w[16, :6], t[-1], len(t)
-    for i in range(6):
-        y[i] = x[START + i] if i < 4 else 0.0
+    own, ahead, y, end, samples = f[:4], f[4:], w[16, : len(size)], t[-1], len(t)
+    for i in range(len(size)):
+        y[i] = x[START + i] if i < 4 else inner[i - 6] if i >= 6 else 0.0
     start, reference = (x[START], x[START + 1]), (x[REFERENCE], x[REFERENCE + 1])
     start_figures(own, start, reference, rest, min(max(y[0], -c[TRAVEL]), c[TRAVEL]), y[1], 0.0)
     volts = (c[DISTURBANCE], c[DISTURBANCE + 1])
@@ -152,7 +160,7 @@ def run_nonlinear(
         grid[before] = since
         count = before + 1 if before < samples else before
         outcome, done, _, _, impacts, reached = integrate_measured(
-            y, grid[:count], c, m, rtol, atol, most_steps, w, raw[:count], own, EVERYTHING
+            size, y, grid[:count], c, m, rtol, atol, most_steps, w, raw[:count], own, EVERYTHING
         )
         done = min(done, before)
     c[DISTURBANCE], c[DISTURBANCE + 1] = volts[0], volts[1]
@@ -162,17 +170,18 @@ def run_nonlinear(
         for k in range(before, samples):
             grid[k - before + 1] = t[k]
         outcome, more, _, _, hits, reached = integrate_measured(
-            y, grid[:count], c, m, rtol, atol, most_steps, w, raw[before:], own, EVERYTHING
+            size, y, grid[:count], c, m, rtol, atol, most_steps, w, raw[before:], own, EVERYTHING
         )
         impacts += hits
         for k in range(before, before + more - 1):
             copy_into(raw[k + 1], raw[k])
         done = before + more - 1
-    trajectories(raw, done, c, states, voltages)
+    trajectories(size, raw, done, c, states, voltages)
+    speeds_at_once(size, voltages, before, c, states)
     pitch, yaw = y[0], y[1]
     turn = min(slowest_period(poles), end)
     check_settling(
-        own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, most_steps, w, raw[:2], grid[:2]
+        size, own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, most_steps, w, raw[:2], grid[:2]
     )
     course[HELD] = done if outcome == OUT_OF_BOUNDS else samples
     course[OUTCOME], course[IMPACTS], course[REACHED] = outcome, impacts, reached
@@ -181,7 +190,9 @@ def run_nonlinear(
 
 
 @kernel
-def check_settling(own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, most_steps, w, raw, grid):
+def check_settling(
+    size, own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, most_steps, w, raw, grid
+):
     """Looks beyond the end, until an axis has been within its settling band for a time `turn`.
 
     The disturbance within c sets in at `since` there, too.
@@ -195,7 +206,7 @@ def check_settling(own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, m
             c[DISTURBANCE], c[DISTURBANCE + 1] = disturbed * volts[0], disturbed * volts[1]
             grid[0], grid[1] = now, to
             found, _, _, _, _, _ = integrate_measured(
-                y, grid, c, m, rtol, atol, most_steps, w, raw, ahead, EVERYTHING
+                size, y, grid, c, m, rtol, atol, most_steps, w, raw, ahead, EVERYTHING
             )
             proven, now = found == ENDED, to
     c[DISTURBANCE], c[DISTURBANCE + 1] = volts[0], volts[1]
@@ -203,52 +214,56 @@ def check_settling(own, ahead, y, end, outcome, c, m, since, turn, rtol, atol, m
 
 
 @entry_point(
-    lambda: (
+    lambda size: (
+        size,
         examples.rig(),
         examples.trim(),
         0.0,
-        examples.given(2, 6),
+        examples.given(2, len(size)),
         examples.given(2, 2),
         examples.given(2, 2),
-        examples.given(6, 6),
-        examples.given(6, 2),
+        examples.given(len(size), len(size)),
+        examples.given(len(size), 2),
         examples.poles(),
         examples.experiment()[None],
+        examples.more(),
+        examples.inner(1, 2),
         examples.times(),
         *examples.NUMBERS,
         examples.zeros(*WORKSPACE),
-        examples.zeros(*LINEAR_WORKSPACE),
-        *examples.search(),
-        examples.constants(),
-        examples.modes(),
-        examples.zeros(3, 6),
+        *examples.search(size),
+        examples.constants(size),
+        examples.modes(size),
+        examples.zeros(3, len(size)),
         examples.zeros(3),
         examples.trim(),
-        examples.zeros(1, AUGMENTED, 2),
-        examples.zeros(1, 6, 2),
+        examples.zeros(1, len(size) + 1, 2),
+        examples.zeros(1, len(size), 2),
         examples.zeros(1, 2, 2, 2),
         *examples.figures(1, 2),
-    )
+    ),
+    *SIZES,
 )
 def run_experiments(
-    rig, trim, theta_0, law, by_reference, integral, whole, driven, poles,
-    experiments, t, rtol, atol, most_steps, w, v, ladder, nodes, f, c, m, raw, grid, zeros,
+    size, rig, trim, theta_0, law, by_reference, integral, whole, driven, poles,
+    experiments, more, inner, t, rtol, atol, most_steps, w, v, ladder, nodes, f, c, m, raw, grid, zeros,
     linear, nonlinear, voltages, axes, motors, courses,
 ):  # fmt: skip
     """Both responses to each row of `experiments`, (n, EXPERIMENT), and their figures, without disturbances.
 
-    Filled, with n in front: states `linear` (7, samples) and `nonlinear` (6, samples); and by model `voltages`
-    (2, 2, samples), `axes` (2, 2, AXIS_METRICS), `motors` (2, 2, MOTOR_METRICS), `courses` (2, COURSE).
+    `more` is `nonlinear_loop`'s; `inner`, (n, 2, INNER), is where the states behind the sixth start in each model.
+    Filled, with n in front: states `linear` and `nonlinear` as `run_linear` and `run_nonlinear` say; and by model
+    `voltages` (2, 2, samples), `axes` (2, 2, AXIS_METRICS), `motors` (2, 2, MOTOR_METRICS), `courses` (2, COURSE).
     """
     for n in range(len(experiments)):
         x = experiments[n]
         run_linear(
-            theta_0, law, by_reference, whole, driven, poles, x, t, most_steps, zeros, v, ladder, nodes, f,
-            linear[n], voltages[n, 0], axes[n, 0], motors[n, 0], courses[n, 0],
+            size, theta_0, law, by_reference, whole, driven, poles, x, inner[n, 0], t, most_steps, zeros,
+            v, ladder, nodes, f, linear[n], voltages[n, 0], axes[n, 0], motors[n, 0], courses[n, 0],
         )  # fmt: skip
-        nonlinear_loop(rig, trim, theta_0, law, by_reference, integral, x, c, m)
+        nonlinear_loop(size, rig, trim, theta_0, law, by_reference, integral, x, more, c, m)
         c[DISTURBANCE] = c[DISTURBANCE + 1] = 0.0
         run_nonlinear(
-            c, m, poles, x, t, inf, rtol, atol, most_steps, trim, w, raw, grid, f,
+            size, c, m, poles, x, inner[n, 1], t, inf, rtol, atol, most_steps, trim, w, raw, grid, f,
             nonlinear[n], voltages[n, 1], axes[n, 1], motors[n, 1], courses[n, 1],
         )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 if __name__.startswith("heli2dof_core.interpreted"):
@@ -23,15 +24,21 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
 
 ENTRIES: dict[str, Callable[..., Any]] = {}
 """The kernels that `engine` hands out, by name."""
-EXAMPLES: dict[str, Callable[[], tuple[Any, ...]]] = {}
+EXAMPLES: dict[str, tuple[Callable[[], tuple[Any, ...]], ...]] = {}
 """For each, arguments of the only types that it takes."""
 
 
-def entry_point(example: Callable[[], tuple[Any, ...]]) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Marks a kernel that `engine` hands out, with an example of its arguments: it is compiled for no others."""
+def entry_point(
+    example: Callable[..., tuple[Any, ...]], *sizes: Any
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Marks a kernel that `engine` hands out, with an example of its arguments: it is compiled for no others.
+
+    With `sizes` there is one for each of them, made by `example` of the size.
+    """
 
     def marked(function: Callable[..., Any]) -> Callable[..., Any]:
-        EXAMPLES[function.__name__] = example
+        made = tuple(partial(example, size) for size in sizes) if sizes else (example,)
+        EXAMPLES[function.__name__] = made
         ENTRIES[function.__name__] = kernel(function)
         return ENTRIES[function.__name__]
 

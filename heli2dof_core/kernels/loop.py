@@ -6,18 +6,23 @@ from . import examples
 from .jit import entry_point, kernel
 from .layout import (
     ANTI_WINDUP,
-    AUGMENTED,
     BACK,
     BOUND,
+    CONSTANTS,
     DISTURBANCE,
     FED,
     GAIN,
+    INNER,
     LIMIT,
+    MORE_GAIN,
     MOTOR_OF,
     OFFSET,
     PI,
+    PLAIN,
     REFERENCE,
     SIDE,
+    SIZES,
+    SLIP,
     START,
     STATIC,
     STOP,
@@ -26,6 +31,7 @@ from .layout import (
     VOLTS,
     WANTED,
     WINDUP,
+    ZONE,
 )
 
 
@@ -125,20 +131,27 @@ def pi_gains(inverse, determinant, thrust, gains, cross, decoupler, proportional
 
 
 @entry_point(
-    lambda: (
+    lambda size: (
+        size,
         examples.rig(),
         examples.trim(),
         0.0,
-        examples.given(2, 6),
+        examples.given(2, len(size)),
         examples.given(2, 2),
         examples.given(2, 2),
         examples.experiment(),
-        examples.constants(),
-        examples.modes(),
-    )
+        examples.more(),
+        examples.constants(size),
+        examples.modes(size),
+    ),
+    *SIZES,
 )
-def nonlinear_loop(rig, trim, theta_0, law, by_reference, integral, x, c, m):
-    """Constants c and modes m of the loop around the nonlinear rig; its deviations become absolute angles."""
+def nonlinear_loop(size, rig, trim, theta_0, law, by_reference, integral, x, more, c, m):
+    """Constants c and modes m of the loop around the nonlinear rig; its deviations become absolute angles and speeds.
+
+    `trim` are the motors' voltages at rest. Where the size is not PLAIN, `more` is what c goes on with, but for the
+    gains on the states behind the sixth, which are the law's, (2, len(size)).
+    """
     order = law.shape[1]
     for k in range(len(rig)):
         c[k] = rig[k]
@@ -159,21 +172,29 @@ def nonlinear_loop(rig, trim, theta_0, law, by_reference, integral, x, c, m):
     c[TRAVEL] = x[STOP]
     m[SIDE + 2] = 0
     m[WINDUP] = int(x[ANTI_WINDUP])
+    if len(size) > PLAIN:
+        for k in range(len(more)):
+            c[CONSTANTS + k] = more[k]
+        for i in range(2):
+            m[ZONE + i] = m[SLIP + i] = 1
+            for j in range(INNER):
+                c[MORE_GAIN + INNER * i + j] = law[i, 6 + j] if 6 + j < order else 0.0
+            c[OFFSET + i] -= law[i, 6] * trim[0] + law[i, 7] * trim[1]
 
 
 @kernel
-def augmented_system(theta_0, law, by_reference, whole, driven, x, M, outputs, states):
-    """The linear loop with the constant 1 as seventh state, in deviations from (θ₀, 0): M, voltages' rows, start."""
-    order, reference = len(whole), (x[REFERENCE] - theta_0, x[REFERENCE + 1])
-    for i in range(AUGMENTED):
-        for j in range(AUGMENTED):
+def augmented_system(size, theta_0, law, by_reference, whole, driven, x, inner, M, outputs, states):
+    """The linear loop with the constant 1 as last state, in deviations from (θ₀, 0): M, voltages' rows, start."""
+    order, last, reference = len(whole), len(size), (x[REFERENCE] - theta_0, x[REFERENCE + 1])
+    for i in range(last + 1):
+        for j in range(last + 1):
             M[i, j] = whole[i, j] if i < order and j < order else 0.0
         if i < order:
-            M[i, AUGMENTED - 1] = driven[i, 0] * reference[0] + driven[i, 1] * reference[1]
-        states[i, 0] = x[START + i] if i < 4 else 0.0
+            M[i, last] = driven[i, 0] * reference[0] + driven[i, 1] * reference[1]
+        states[i, 0] = x[START + i] if i < 4 else inner[i - 6] if 6 <= i < last else 0.0
     for i in range(2):
-        for j in range(AUGMENTED):
+        for j in range(last + 1):
             outputs[i, j] = law[i, j] if j < order else 0.0
-        outputs[i, AUGMENTED - 1] = by_reference[i, 0] * reference[0] + by_reference[i, 1] * reference[1]
+        outputs[i, last] = by_reference[i, 0] * reference[0] + by_reference[i, 1] * reference[1]
     states[0, 0] -= theta_0
-    states[AUGMENTED - 1, 0] = 1.0
+    states[last, 0] = 1.0

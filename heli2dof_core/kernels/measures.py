@@ -5,17 +5,17 @@ from __future__ import annotations
 from math import inf
 
 from .jit import kernel
-from .layout import GAIN, LIMIT, OFFSET
+from .layout import DISTURBANCE, GAIN, INNER, LIMIT, MORE_GAIN, OFFSET, PLAIN, TAU
 
 
 @kernel
-def trajectories(states, done, c, course, voltages):
-    """The first `done` states, (samples, 6), by rows, (6, samples), and what the motors get in them, (2, samples).
+def trajectories(size, states, done, c, course, voltages):
+    """The first `done` states, (samples, n), by rows, (n, samples), and what the motors get in them, (2, samples).
 
     What follows is held at the last of them.
     """
     samples = course.shape[1]
-    for i in range(6):
+    for i in range(len(size)):
         row = course[i]
         for k in range(done):
             row[k] = states[k, i]
@@ -28,7 +28,24 @@ def trajectories(states, done, c, course, voltages):
         offset = c[OFFSET + motor]
         for k in range(samples):
             asked = offset + p * a[k] + q * b[k] + r * d[k] + s * e[k] + t * f[k] + u * g[k]
+            if len(size) > PLAIN:
+                for i in range(6, len(size)):
+                    asked += c[MORE_GAIN + INNER * motor - 6 + i] * course[i, k]
             row[k] = min(max(asked, -limit), limit)
+
+
+@kernel
+def speeds_at_once(size, voltages, first, c, course):
+    """Speeds of rotors that follow at once, rows 6 and 7 of a course: what their motors have.
+
+    `voltages`, (2, samples), is what the controller gives; the disturbance within c acts from the sample `first` on.
+    """
+    if len(size) > PLAIN:
+        for motor in range(2):
+            if c[TAU + motor] == 0.0:
+                for k in range(course.shape[1]):
+                    volts = c[DISTURBANCE + motor] if k >= first else 0.0
+                    course[6 + motor, k] = voltages[motor, k] + volts
 
 
 @kernel

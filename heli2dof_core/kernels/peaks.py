@@ -20,17 +20,23 @@ from .layout import (
     ROUNDING,
     SENSITIVITY,
     SENSITIVITY_PEAK,
+    VALUE,
+    WHOLE_ACROSS,
+    WHOLE_CLOSED,
+    WHOLE_OPENED,
 )
-from .polynomials import B, M, N
+from .polynomials import WHOLE_HALF, B, M, N
 
 GOLDEN = (sqrt(5.0) - 1.0) / 2.0
 STEP = 0.3
 """Of the distance from the nearest pole."""
+WHOLE_STEP = STEP * 6 / 14
+"""The same where the denominator has degree 14."""
 REACH = 30.0
 """Times the fastest pole: beyond, S differs from I by the first terms of a series in 1/ω alone."""
 WITHIN = 0.6
 """Least share of the largest value on the grid that a maximum must have there to be refined: between two frequencies
-the size of S, whose denominator has degree 6, cannot grow by as much as this allows."""
+the size of S, whose denominator has degree 6 (or 14), cannot grow by as much as this allows."""
 PRECISION = 1e-6
 """Of a maximum's place, as a share of its two steps; its height is then known to the square of that."""
 ANGLES, DISKS = 1, 2  # rows of the grid, beside the frequencies
@@ -43,8 +49,31 @@ def polynomial_entry(f, i, j, first, w, x):
 
 
 @kernel
+def value_at(f, row, w):
+    """A polynomial of `kernels.whole` at s = jω."""
+    even = odd = 0.0
+    for k in range(len(WHOLE_HALF) - 1, -1, -1):
+        even = f[row, VALUE, 2 * k] - w * w * even
+        odd = f[row, VALUE, 2 * k + 1] - w * w * odd
+    return complex(even, w * odd)
+
+
+@kernel
+def whole_sensitivity(f, w):
+    """The same of a loop as `kernels.whole` makes it."""
+    det = value_at(f, WHOLE_CLOSED, w)
+    scale = 1.0 / (abs(det.real) + abs(det.imag))  # powers of ω are large, and squares of them larger
+    det = det * scale
+    by = det.conjugate() * (scale / squared(det))
+    a, d = value_at(f, WHOLE_OPENED, w) * by, value_at(f, WHOLE_OPENED + 1, w) * by
+    return a, value_at(f, WHOLE_ACROSS, w) * by, value_at(f, WHOLE_ACROSS + 1, w) * by, d
+
+
+@kernel
 def sensitivity(f, w):
     """The four entries of S(jω), row by row; the loop has no pole at jω."""
+    if len(f) != POLYNOMIALS[0]:
+        return whole_sensitivity(f, w)
     x = w * w
     m00, m01 = polynomial_entry(f, 0, 0, M, w, x), polynomial_entry(f, 0, 1, M, w, x)
     m10, m11 = polynomial_entry(f, 1, 0, M, w, x), polynomial_entry(f, 1, 1, M, w, x)
@@ -123,6 +152,7 @@ def sample_frequencies(f, poles, grid):
     for pole in poles:
         fastest = max(fastest, squared(pole))
     end = REACH * sqrt(fastest)
+    share = STEP if len(f) == POLYNOMIALS[0] else WHOLE_STEP
     w, count = 0.0, 0
     while count < FREQUENCIES - 1:
         a, b, c, d = sensitivity(f, w)
@@ -136,7 +166,7 @@ def sample_frequencies(f, poles, grid):
         for pole in poles:
             away = w - abs(pole.imag)
             nearest = min(nearest, pole.real * pole.real + away * away)
-        w += STEP * sqrt(nearest) + ROUNDING * end
+        w += share * sqrt(nearest) + ROUNDING * end
     grid[0, count], grid[ANGLES, count], grid[DISKS, count] = inf, 1.0, 0.5
     return count + 1
 

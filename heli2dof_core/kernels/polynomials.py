@@ -22,8 +22,9 @@ from .layout import (
 M, N, D, B, SIZE = 0, 4, 8, 12, 16
 TOLERANCE = 1e-15
 """Relative width at which a root counts as found."""
-HALF = 4
-"""Coefficients of the even, or odd, half of a polynomial of degree 6."""
+HALF = (0,) * 4
+"""As long as the even, or odd, half of a polynomial of degree 6; `WHOLE_HALF` of degree 14 (`kernels.whole`)."""
+WHOLE_HALF = (0,) * 8
 
 
 @entry_point(lambda: (*examples.plant(), examples.given(2, 6), examples.zeros(*POLYNOMIALS)))
@@ -79,30 +80,32 @@ def determinant(f, r, sizes):
 
 
 @kernel
-def even_and_odd_part(p, row, even, odd):
-    """p(jω) = E(ω²) + jω O(ω²): the coefficients of E and O."""
-    for k in range(2 * HALF):
-        sign = 1.0 if k % 4 < 2 else -1.0
-        p[even if k % 2 == 0 else odd, k // 2] = sign * p[row, k]
+def even_and_odd_part(span, p, row, sizes, first):
+    """p(jω) = E(ω²) + jω O(ω²): from row `first` of p on, the coefficients of E, O and the sizes of both.
 
-
-@kernel
-def on_imaginary_axis(p, even, odd, x):
-    """p(jω) from its halves, x = ω²."""
-    return complex(horner(p[even], HALF - 1, x), sqrt(x) * horner(p[odd], HALF - 1, x))
-
-
-@kernel
-def add_product(p, sizes_p, q, sizes_q, first_p, first_q, factor, shift, r, sizes):
-    """R += factor xˢʰⁱᶠᵗ p q of two halves; `sizes` gathers what the rounding of either makes of each coefficient.
-
-    The sizes of a half are every second of its polynomial's, from `first` on.
+    `span` is a tuple as long as a half: a loop over it is unrolled.
     """
-    for i in range(HALF):
-        own = sizes_p[2 * i + first_p]
+    for k in range(2 * len(span)):
+        sign = 1.0 if k % 4 < 2 else -1.0
+        p[first + k % 2, k // 2] = sign * p[row, k]
+        p[first + 2 + k % 2, k // 2] = p[sizes, k]
+
+
+@kernel
+def on_imaginary_axis(span, p, first, x):
+    """p(jω) from its halves, x = ω²."""
+    top = len(span) - 1
+    return complex(horner(p[first], top, x), sqrt(x) * horner(p[first + 1], top, x))
+
+
+@kernel
+def add_product(span, p, sizes_p, q, sizes_q, factor, shift, r, sizes):
+    """R += factor xˢʰⁱᶠᵗ p q; `sizes` gathers what the rounding of either makes of each coefficient."""
+    for i in range(len(span)):
+        own = sizes_p[i]
         if own != 0.0:
-            for j in range(HALF):
-                other = sizes_q[2 * j + first_q]
+            for j in range(len(span)):
+                other = sizes_q[j]
                 if other != 0.0:
                     r[i + j + shift] += factor * p[i] * q[j]
                     sizes[i + j + shift] += abs(factor) * (abs(p[i]) * other + own * abs(q[j]))
@@ -135,6 +138,41 @@ def positive_roots(p, sizes, chain, roots, before):
     that. It may touch 0 where an extremum is nothing but rounding, as `sizes` tell it; where its own coefficients
     change their sign once, it has one simple root and touches nowhere. Scratch: `chain` and `before`, as long as p.
     """
+    bottom, top, first = to_be_searched(p)
+    if first < 0:
+        return 0, 0
+    # Cauchy's bounds; a root of a derivative that lies outside separates nothing
+    largest = smallest = 0.0
+    for k in range(bottom, top + 1):
+        if k < top:
+            largest = max(largest, abs(p[k] / p[top]))
+        if k > bottom:
+            smallest = max(smallest, abs(p[k] / p[bottom]))
+    low, high = 1.0 / (1.0 + smallest), 1.0 + largest
+    return roots_within(p, sizes, low, high, top, first, chain, roots, before)
+
+
+@kernel
+def far_roots(p, sizes, chain, roots, before):
+    """The same for degrees at which Cauchy's bounds would overflow; those are Fujiwara's, Tohoku 10 (1916) 167."""
+    bottom, top, first = to_be_searched(p)
+    if first < 0:
+        return 0, 0
+    largest = smallest = 0.0
+    for k in range(bottom, top + 1):
+        if k < top and p[k] != 0.0:
+            largest = max(largest, abs(p[k] / p[top]) ** (1.0 / (top - k)))
+        if k > bottom and p[k] != 0.0:
+            smallest = max(smallest, abs(p[k] / p[bottom]) ** (1.0 / (k - bottom)))
+    return roots_within(p, sizes, 0.5 / smallest, 2.0 * largest, top, first, chain, roots, before)
+
+
+@kernel
+def to_be_searched(p):
+    """The lowest and the highest power in p, and how often to derive it until its signs change once at most.
+
+    The last is below 0 where no sign changes, and no root is positive.
+    """
     top = len(p) - 1
     while top > 0 and p[top] == 0.0:
         top -= 1
@@ -148,16 +186,12 @@ def positive_roots(p, sizes, chain, roots, before):
                 break
             changes, sign = 1, p[first - 1]
         first -= 1
-    if changes == 0:
-        return 0, 0
-    # Cauchy's bounds; a root of a derivative that lies outside separates nothing
-    largest = smallest = 0.0
-    for k in range(bottom, top + 1):
-        if k < top:
-            largest = max(largest, abs(p[k] / p[top]))
-        if k > bottom:
-            smallest = max(smallest, abs(p[k] / p[bottom]))
-    low, high = 1.0 / (1.0 + smallest), 1.0 + largest
+    return bottom, top, first if changes else -1
+
+
+@kernel
+def roots_within(p, sizes, low, high, top, first, chain, roots, before):
+    """The roots of `positive_roots` between two bounds, beginning with the derivative of order `first`."""
     found = extrema = 0
     for order in range(first, -1, -1):
         degree = top - order
@@ -180,7 +214,8 @@ def positive_roots(p, sizes, chain, roots, before):
         found = count
     touched = 0
     for i in range(extrema):
-        if abs(horner(p, top, before[i])) <= ROUNDING * horner(sizes, top, before[i]):
+        settled = abs(horner(p, top, before[i])) <= ROUNDING * horner(sizes, top, before[i])
+        if settled and found + touched < len(roots):
             roots[found + touched] = before[i]
             touched += 1
     return found, touched

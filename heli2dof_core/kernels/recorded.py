@@ -33,6 +33,7 @@ from .layout import (
     MGL,
     ML2,
     OFFSET,
+    PAPER,
     RECORDED_WORKSPACE,
     SENSITIVITIES,
     TIME,
@@ -65,11 +66,7 @@ def run_segments(starts, bounds, t, volts, c, longest_step, w, outputs, slopes):
     state, stage, slope, total = w[0], w[1], w[2], w[3]
     for i in range(len(starts)):
         first, last = bounds[i, 0], bounds[i, 1]
-        for row in range(SENSITIVITIES + 1):
-            for j in range(4):
-                state[row, j] = 1.0 if row == j + 1 else 0.0
-        for j in range(4):
-            state[0, j] = starts[i, j]
+        begin_sensitivities(starts[i], SENSITIVITIES + 1, state)
         for k in range(first, last):
             for axis in range(2):
                 outputs[k, axis] = state[0, axis]
@@ -110,11 +107,26 @@ def run_held(start, t, volts, c, longest_step, w, states):
             h = (t[k + 1] - t[k]) / steps
             for _ in range(steps):
                 runge_kutta_4_step(h, volts[k, 0], volts[k, 1], c, 1, state, stage, slope, total)
-                if abs(state[0, 0]) > c[TRAVEL]:
-                    side = 1.0 if state[0, 0] > 0.0 else -1.0
-                    state[0, 0] = side * c[TRAVEL]
-                    if side * state[0, 2] > 0.0:
-                        state[0, 2] = 0.0
+                bound_travel(state[0], c)
+
+
+@kernel
+def begin_sensitivities(start, rows, state):
+    """The state and its derivatives, by itself first, where a segment begins."""
+    for row in range(rows):
+        for j in range(4):
+            state[row, j] = 1.0 if row == j + 1 else 0.0
+    copy_into(start, state[0])
+
+
+@kernel
+def bound_travel(y, c):
+    """Pitch beyond a stop stands at it, and moves no farther."""
+    if abs(y[0]) > c[TRAVEL]:
+        side = 1.0 if y[0] > 0.0 else -1.0
+        y[0] = side * c[TRAVEL]
+        if side * y[2] > 0.0:
+            y[2] = 0.0
 
 
 @kernel
@@ -200,7 +212,7 @@ def run_recorder(
     `free` like m, `grid` (2,), `course` (2, 6). Returns the outcome, the samples filled and the impacts.
     """
     copy_into(c, own)
-    rig_without_feedback(c, m, plant, free)
+    rig_without_feedback(PAPER, c, m, plant, free)
     filters, seen, held, waiting = w[16:18], w[18], w[19], w[20]
     initialize_controller(y, c, d, filters, held)
     impacts = 0
@@ -209,7 +221,7 @@ def run_recorder(
             own[WANTED + i], own[OFFSET + i] = references[k, i], offsets[k, i]
         copy_into(y, states[k])
         sample_sensors(y, d, filters, noise[k], seen)
-        sample_controller(y, own, m, d, seen, w[21], waiting)
+        sample_controller(PAPER, y, own, m, d, seen, w[21], waiting)
         if d[DELAY] == 0.0:
             held[0], held[1] = waiting[0], waiting[1]
         for i in range(2):
@@ -217,7 +229,7 @@ def run_recorder(
             plant[OFFSET + i] = held[i]
         z0, z1 = y[4], y[5]
         grid[0], grid[1] = k * d[TIME], (k + 1) * d[TIME]
-        outcome, _, _, _, hits = integrate(y, grid, plant, free, rtol, atol, most_steps, w, course)
+        outcome, _, _, _, hits = integrate(PAPER, y, grid, plant, free, rtol, atol, most_steps, w, course)
         y[4], y[5] = z0, z1
         impacts += hits
         if outcome != 0:

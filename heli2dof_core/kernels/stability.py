@@ -10,22 +10,29 @@ from __future__ import annotations
 import numpy as np
 
 from . import examples
-from .jit import entry_point, kernel
+from .jit import copy_into, entry_point, kernel
 from .layout import (
     POLYNOMIAL_WORKSPACE,
     POLYNOMIALS,
     ROUNDING,
+    TERMS,
+    VALUE,
+    WHOLE_CLOSED,
 )
 from .polynomials import determinant, polynomial_matrices
 
-# Rows of the scratch array, (13, 16), that are used here
+# Rows of the scratch array, (17, 16), that are used here
 TOTAL, SIZES, UPPER, LOWER = 0, 1, 2, 3
 
 
 @entry_point(lambda: (examples.given(*POLYNOMIALS), examples.zeros(*POLYNOMIAL_WORKSPACE)))
 def is_stable(f, p):
     """Whether every pole of the loop lies left of the imaginary axis, and not by rounding."""
-    determinant(f, p[TOTAL], p[SIZES])
+    if len(f) == POLYNOMIALS[0]:
+        determinant(f, p[TOTAL], p[SIZES])
+    else:
+        copy_into(f[WHOLE_CLOSED, VALUE], p[TOTAL])
+        copy_into(f[WHOLE_CLOSED, TERMS], p[SIZES])
     return hurwitz(p[TOTAL], p[SIZES], p[UPPER], p[LOWER])
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -26,7 +26,7 @@ def exact_matrix(matrix: Floats) -> DomainMatrix:
     from sympy import QQ
     from sympy.polys.matrices import DomainMatrix
 
-    entries = [[QQ(*float(x).as_integer_ratio()) for x in row] for row in matrix]
+    entries = [[exact_fraction(x) for x in row] for row in matrix]
     return DomainMatrix(entries, matrix.shape, QQ)
 
 
@@ -36,7 +36,24 @@ def float_matrix(matrix: DomainMatrix) -> Floats:
     return np.array([[float(Fraction(int(x.numerator), int(x.denominator))) for x in row] for row in rows])
 
 
-def exact_coefficients(poles: Iterable[complex]) -> list[Any]:
+def exact_fraction(number: float) -> Any:
+    """The same number as a fraction."""
+    from sympy import QQ
+
+    return QQ(*float(number).as_integer_ratio())
+
+
+def decimal_fraction(number: float) -> Any:
+    """The shortest decimal number that is read as this float, as a fraction: 0.1 is 1/10."""
+    from sympy import QQ
+
+    written = Fraction(repr(float(number)))
+    return QQ(written.numerator, written.denominator)
+
+
+def exact_coefficients(
+    poles: Iterable[complex], fraction: Callable[[float], Any] = exact_fraction
+) -> list[Any]:
     """d₀ … of Π (s − p), exactly, the leading 1 left out; complex poles count once per pair."""
     from sympy import QQ
 
@@ -44,7 +61,7 @@ def exact_coefficients(poles: Iterable[complex]) -> list[Any]:
     for p in poles:
         if p.imag < 0:
             continue
-        re, im = (QQ(*float(part).as_integer_ratio()) for part in (p.real, p.imag))
+        re, im = (fraction(part) for part in (p.real, p.imag))
         factor = [re * re + im * im, -2 * re, QQ.one] if p.imag else [-re, QQ.one]
         product = [QQ.zero] * (len(polynomial) + len(factor) - 1)
         for i, a in enumerate(polynomial):

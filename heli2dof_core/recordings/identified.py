@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 
 from ..findings import Finding
 from ..frozen import Frozen
-from ..parameters import PARAMETER_INFO, Parameters
+from ..parameters import Parameters
+from ..rotors import AxisFriction, Rotors
 from ..signals import Floats
+from .unknowns import info
 
 
 @dataclass(frozen=True)
@@ -18,7 +20,7 @@ class Estimate:
     """One parameter.
 
     Attributes:
-        name, unit: of the parameter.
+        name, unit: of the parameter; of rotors and friction its place in a design (``rotors.pitch.tau``).
         before, value: as it was, and as found.
         low, high: its 95 % interval, correlated residuals considered.
         plain: half width of the interval that takes the residuals for white.
@@ -35,7 +37,7 @@ class Estimate:
     @property
     def allowed(self) -> float:
         """The value within the range that the parameter may have."""
-        return PARAMETER_INFO[self.name].nearest(self.value)
+        return info(self.name).nearest(self.value)
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,7 @@ class Identification(Frozen):
     Attributes:
         estimates: of the free parameters.
         parameters: the rig with them, each within its range.
+        rotors, friction: likewise; quadratic curves say where they are matched, as the rig's trim may have moved.
         rms_before, rms: of the residuals of θ and ψ, rad; starting states are fitted in both. Before: None where
             the rig as it was thought to be runs away.
         residuals: measured minus simulated, (n, 2), rad; 0 where nothing was simulated.
@@ -65,6 +68,8 @@ class Identification(Frozen):
 
     estimates: tuple[Estimate, ...]
     parameters: Parameters
+    rotors: Rotors
+    friction: AxisFriction
     rms_before: tuple[float, float] | None
     rms: tuple[float, float]
     residuals: Floats

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from ..errors import Wanted
 from ..findings import Finding
 from ..signals import Floats
-from ..simulation.recorded import run_segments
+from ..simulation.recorded import run_segments, turning
 from .recording import Recording
+from .time_axis import stretches
 from .whiteness import autoregression, correlations
 
 DEAD_BAND = 0.5
@@ -42,6 +43,7 @@ def unmodelled(
     names: Sequence[str],
     weights: Floats,
     step: float,
+    acting: Floats | None = None,
     wanted: Wanted,
 ) -> list[Finding]:
     """What the residuals follow beyond chance; or else, which dead band they would not show though it matters.
@@ -61,15 +63,21 @@ def unmodelled(
         names: of the free parameters.
         weights: of θ and ψ, 1/rad.
         step: longest one of the integration, s.
+        acting: rotors and friction as they were found, `rotors.Actuators.constants`; None: there are none.
         wanted: called now and then.
     """
     t, volts = recording.t, recording.voltages
-    base, slopes = run_segments(p, starts, bounds, t, volts, step=step, wanted=wanted)
+
+    def simulated(volts: Floats) -> tuple[Floats, Floats]:
+        rotors = None if acting is None else turning(acting, stretches(t), t, volts)
+        return run_segments(p, starts, bounds, t, volts, step=step, rotors=rotors, wanted=wanted)
+
+    base, slopes = simulated(volts)
     whitened = _Whitened(bounds, r, slopes[:, :, :4] * weights[:, None])
     shapes = list(_shapes(p, t, volts, base, bounds))
     columns = [J, r[:, :, None]]
     for _, added in shapes:
-        out, _ = run_segments(p, starts, bounds, t, volts + _SMALL * added, step=step, wanted=wanted)
+        out, _ = simulated(volts + _SMALL * added)
         columns.append(((out - base) / _SMALL * weights)[:, :, None])
     left = whitened.free_of_starts(np.concatenate(columns, axis=2))
     k = J.shape[-1]

@@ -12,11 +12,13 @@ from ..findings import Finding
 from ..frozen import Frozen
 from ..loop import Loop
 from ..parameters import Parameters
+from ..rotors import AxisFriction, Rotors
 from ..scenario import MOST_SAMPLE_TIMES, Digital, Limits
 from ..signals import Floats
-from ..simulation.recorded import exact, run_held, run_recorder
+from ..simulation.recorded import exact, run_held, run_recorder, turning
+from .acting import acting_of
 from .recording import Recording
-from .segments import SHORTEST, bridged, cut, divergence_told, fit_of, rough_starts, segment_length
+from .segments import RUN_UP, SHORTEST, bridged, cut, divergence_told, fit_of, rough_starts, segment_length
 from .time_axis import stretches
 
 USUAL_SAMPLE_TIME = 0.002
@@ -56,16 +58,31 @@ def nrmse_fit(measured: Floats, simulated: Floats) -> float | None:
 
 
 def driven_by_voltages(
-    p: Parameters, recording: Recording, travel: float | None = None, wanted: Wanted = nobody_leaves
+    p: Parameters,
+    recording: Recording,
+    travel: float | None = None,
+    wanted: Wanted = nobody_leaves,
+    *,
+    rotors: Rotors = Rotors(),
+    friction: AxisFriction = AxisFriction(),
+    theta_0: float = 0.0,
+    limits: tuple[float, float] | None = None,
 ) -> Overlay:
-    """The rig under the recorded voltages from the recorded initial state, in one run; after a gap it begins anew."""
+    """The rig under the recorded voltages from the recorded initial state, in one run; after a gap it begins anew.
+
+    Rotors begin settled at the first voltages, there and after a gap; `theta_0` (rad) and `limits` (V) match thrust
+    curves that do not say it themselves.
+    """
     recording, bounds = bridged(recording), stretches(recording.t)
+    acting = acting_of(p, rotors, friction, theta_0, limits)
+    turned = None if acting is None else turning(acting, bounds, recording.t, recording.voltages)
     angles = np.full_like(recording.angles, np.nan)
     with divergence_told():
         starts = rough_starts(recording, bounds)
         for start, (first, end) in zip(starts, bounds.tolist(), strict=True):
             own = slice(first, end)
-            states = run_held(p, start, recording.t[own], recording.voltages[own], travel, wanted=wanted)
+            t, volts, part = recording.t[own], recording.voltages[own], turned and turned.part(own)
+            states = run_held(p, start, t, volts, travel, rotors=part, wanted=wanted)
             angles[own] = states[:, :2]
         return _overlay(recording, angles, recording.voltages, bounds)
 
@@ -76,6 +93,11 @@ def driven_in_segments(
     length: float | None = None,
     travel: float | None = None,
     wanted: Wanted = nobody_leaves,
+    *,
+    rotors: Rotors = Rotors(),
+    friction: AxisFriction = AxisFriction(),
+    theta_0: float = 0.0,
+    limits: tuple[float, float] | None = None,
 ) -> Overlay:
     """As `driven_by_voltages`, but begun anew every `length` s from the state that fits the recording best.
 
@@ -88,8 +110,9 @@ def driven_in_segments(
     if length is None:
         longest = segment_length(p, recording)
         length = longest if longest >= recording.t[-1] else SHORTEST
-    bounds = cut(recording, length, travel)
-    fitted = fit_of(p, recording, bounds, wanted)
+    acting = acting_of(p, rotors, friction, theta_0, limits)
+    bounds = cut(recording, length, travel, 0.0 if acting is None else RUN_UP * float(max(acting[:2])))
+    fitted = fit_of(p, recording, bounds, wanted, acting)
     angles = np.full_like(recording.angles, np.nan)
     for first, end in bounds.tolist():
         angles[first:end] = recording.angles[first:end] - fitted.residuals[first:end]

@@ -13,7 +13,7 @@ from ..parameters import Parameters
 from ..scenario import MOST_SAMPLE_TIMES, Digital, Limits
 from ..signals import Floats
 from ..simulation.recorded import Recorded, run_recorder
-from .identification import default_free
+from .unknowns import default_free
 
 MOST_DEVIATION = 0.5
 

@@ -21,7 +21,7 @@ from ..errors import RecordingError, Wanted, nobody_leaves
 from ..frozen import Frozen
 from ..parameters import Parameters
 from ..signals import Floats
-from ..simulation.recorded import longest_step, run_segments
+from ..simulation.recorded import Turning, longest_step, run_segments, turning
 from .recording import Recording
 from .time_axis import missing_rows, stretches
 
@@ -35,9 +35,13 @@ STOP_MARGIN = 0.01
 """Distance from a stop of the pitch travel below which pitch may rest on it, rad."""
 LEAP, LEAST_LEAP = 4.0, 0.02
 """A change of a voltage that is many times its usual one from row to row, and the least that counts as usual, V."""
+RUN_UP, LONGEST_RUN_UP = 8.0, 0.25
+"""Time constants until rotors have forgotten their unknown speeds where a stretch begins, to 3e-4, and the share of a
+stretch that may pass so."""
 _START = 0.06
 _TOLERANCE = 1e-9
-_MOST_STEPS = 8
+_MOST_STEPS, _MOST_GUARDED = 8, 20
+_SHORTER = 0.25
 
 
 @contextmanager
@@ -91,8 +95,8 @@ class Fitted(Frozen):
     Attributes:
         starts: (segments, 4).
         residuals: measured minus simulated angles, (n, 2), rad; 0 outside the segments.
-        slopes: derivatives of the simulated angles by the seven parameters, (n, 2, 7), with whatever the starting
-            states can make up for taken out; 0 outside.
+        slopes: derivatives of the simulated angles by the seven parameters, (n, 2, 7), with rotors by four more,
+            with whatever the starting states can make up for taken out; 0 outside.
         basis: of what its starting state can do, weighted, orthonormal in each segment, (n, 2, 4); 0 outside.
     """
 
@@ -112,10 +116,11 @@ def segment_length(p: Parameters, recording: Recording) -> float:
     return whole if growth <= 0 else min(whole, max(SHORTEST, GROWTH / growth))
 
 
-def cut(recording: Recording, length: float, travel: float | None) -> NDArray[np.int64]:
+def cut(recording: Recording, length: float, travel: float | None, run_up: float = 0.0) -> NDArray[np.int64]:
     """First and last + 1 of each segment, (segments, 2).
 
-    They last at most `length` s; none crosses a gap of the recording, and none lies where pitch is on a stop.
+    They last at most `length` s; none crosses a gap of the recording, none lies where pitch is on a stop, and none
+    within `run_up` s, but at most `LONGEST_RUN_UP`, from where a stretch begins.
 
     Raises:
         RecordingError: nothing is left.
@@ -123,6 +128,10 @@ def cut(recording: Recording, length: float, travel: float | None) -> NDArray[np
     free = np.ones(len(recording.t), dtype=bool)
     if travel is not None:
         free = np.abs(recording.angles[:, 0]) < travel - STOP_MARGIN
+    if run_up > 0.0:
+        for first, end in stretches(recording.t).tolist():
+            since = recording.t[first:end] - recording.t[first]
+            free[first:end] &= since >= min(run_up, LONGEST_RUN_UP * float(since[-1]))
     bounds, short = [], False
     for first, end in _runs(free, recording):
         if end - first < FEWEST:
@@ -176,9 +185,13 @@ def fit_starts(
     *,
     weights: Floats,
     step: float,
+    acting: Floats | None = None,
     wanted: Wanted = nobody_leaves,
 ) -> Fitted:
     """Gauss and Newton's method on each segment's starting state, from `starts`; p stays.
+
+    Where an axis sticks, its starting rate hardly matters and the next step leads far astray: with friction, a step
+    that makes a segment's residuals larger is shortened.
 
     Args:
         p: has Parameters' fields, of any value.
@@ -187,13 +200,17 @@ def fit_starts(
         starts: where to begin, (segments, 4).
         weights: of the residuals of θ and ψ, 1/rad.
         step: longest one of the integration, s.
+        acting: rotors and friction, `rotors.Actuators.constants`; None for the paper's rig.
         wanted: called now and then; what it raises ends the fit.
 
     Raises:
         FloatingPointError: the simulation diverges.
     """
     t, angles, volts = recording.t, recording.angles, recording.voltages
+    rotors = None if acting is None else turning(acting, stretches(t), t, volts)
     starts = starts.copy()
+    if rotors is not None:
+        return _fit_guarded(p, recording, bounds, starts, rotors, weights=weights, step=step, wanted=wanted)
     last = starts, np.empty(0), np.empty(0)
     for _ in range(_MOST_STEPS):
         outputs, slopes = run_segments(p, starts, bounds, t, volts, step=step, wanted=wanted)
@@ -201,16 +218,63 @@ def fit_starts(
         slopes *= weights[:, None]
         last = starts.copy(), slopes, residuals
         for i, (first, end) in enumerate(bounds.tolist()):
-            r, own = residuals[first:end].ravel(), slopes[first:end, :, :4].reshape(-1, 4)
-            if not (np.all(np.isfinite(own)) and np.all(np.isfinite(r))):
-                raise FloatingPointError("the simulation diverges")
-            Q, R = np.linalg.qr(own)
-            shown = Q.T @ r
-            starts[i] += np.linalg.lstsq(R, shown, rcond=1e-12)[0]
-            largest = max(largest, float(shown @ shown) / (1e-300 + float(r @ r)))
+            change, share = _change(residuals[first:end], slopes[first:end])
+            starts[i] += change
+            largest = max(largest, share)
         if largest < _TOLERANCE:  # the last step is below what the residuals show
             break
     return _projected(bounds, weights, *last)
+
+
+def _change(residuals: Floats, slopes: Floats) -> tuple[Floats, float]:
+    """Gauss and Newton's step of a segment's starting state, (4,), and its share of the squares.
+
+    Raises:
+        FloatingPointError: the simulation diverges.
+    """
+    r, own = residuals.ravel(), slopes[:, :, :4].reshape(-1, 4)
+    if not (np.all(np.isfinite(own)) and np.all(np.isfinite(r))):
+        raise FloatingPointError("the simulation diverges")
+    Q, R = np.linalg.qr(own)
+    shown = Q.T @ r
+    change = np.asarray(np.linalg.lstsq(R, shown, rcond=1e-12)[0], dtype=np.float64)
+    return change, float(shown @ shown) / (1e-300 + float(r @ r))
+
+
+def _fit_guarded(
+    p: Any,
+    recording: Recording,
+    bounds: NDArray[np.int64],
+    starts: Floats,
+    rotors: Turning,
+    *,
+    weights: Floats,
+    step: float,
+    wanted: Wanted,
+) -> Fitted:
+    """The same where no step may make a segment's residuals larger; each segment keeps its best."""
+    t, angles, volts = recording.t, recording.angles, recording.voltages
+    best, squares = starts.copy(), np.full(len(bounds), np.inf)
+    changes, shares = np.zeros_like(starts), np.ones(len(bounds))
+    slopes, residuals = np.empty(0), np.empty(0)
+    for _ in range(_MOST_GUARDED):
+        outputs, found = run_segments(p, starts, bounds, t, volts, step=step, rotors=rotors, wanted=wanted)
+        left, found = (angles - outputs) * weights, found * weights[:, None]
+        if not slopes.size:
+            slopes, residuals = found.copy(), left.copy()
+        for i, (first, end) in enumerate(bounds.tolist()):
+            own = float(np.sum(left[first:end] ** 2))
+            if own < squares[i] or not np.isfinite(squares[i]):
+                best[i], squares[i] = starts[i], own
+                slopes[first:end], residuals[first:end] = found[first:end], left[first:end]
+                changes[i], shares[i] = _change(left[first:end], found[first:end])
+            else:
+                changes[i] *= _SHORTER
+                shares[i] *= _SHORTER
+        if np.max(shares) < _TOLERANCE:
+            break
+        starts = best + changes
+    return _projected(bounds, weights, best, slopes, residuals)
 
 
 def _projected(
@@ -229,7 +293,11 @@ def _projected(
 
 
 def fit_of(
-    p: Parameters, recording: Recording, bounds: NDArray[np.int64], wanted: Wanted = nobody_leaves
+    p: Parameters,
+    recording: Recording,
+    bounds: NDArray[np.int64],
+    wanted: Wanted = nobody_leaves,
+    acting: Floats | None = None,
 ) -> Fitted:
     """The segments under a rig's parameters, both axes weighted alike.
 
@@ -238,4 +306,6 @@ def fit_of(
     """
     starts, step = rough_starts(recording, bounds), longest_step(p)
     with divergence_told():
-        return fit_starts(p, recording, bounds, starts, weights=np.ones(2), step=step, wanted=wanted)
+        return fit_starts(
+            p, recording, bounds, starts, weights=np.ones(2), step=step, acting=acting, wanted=wanted
+        )

@@ -9,11 +9,12 @@ import numpy as np
 
 from ..engine import engine
 from ..figures import AXIS_METRICS
-from ..kernels.layout import AUGMENTED, COURSE, MOTOR_METRICS
+from ..kernels.layout import COURSE, MOTOR_METRICS
 from ..loop import Loop
 from ..scenario import Limits, Model, Scenario
 from ..scratch import scratch
 from ..signals import Floats
+from .augmented import inner_starts, more_constants
 from .experiment import NOTHING, numbers
 from .linear import AT_REST, linear_response
 from .nonlinear import ABSOLUTE_TOLERANCE, limited_response
@@ -26,8 +27,8 @@ _MODELS: tuple[Model, ...] = ("linear", "nonlinear")
 class Courses:
     """What the kernel `run_experiments` has filled for n experiments, laid out as it says."""
 
+    loop: Loop
     t: Floats
-    order: int
     experiments: Floats
     linear: Floats
     nonlinear: Floats
@@ -41,8 +42,8 @@ class Courses:
         i, x = _MODELS.index(model), self.experiments[n]
         found = Measured(self.axes[n, i], self.motors[n, i], self.courses[n, i])
         if model == "linear":
-            return linear_response(x, self.t, self.linear[n, : self.order], self.voltages[n, 0], found)
-        return limited_response(x, self.t, self.nonlinear[n, : self.order], self.voltages[n, 1], found)
+            return linear_response(self.loop, x, self.t, (self.linear[n], self.voltages[n, 0]), found)
+        return limited_response(self.loop, x, self.t, (self.nonlinear[n], self.voltages[n, 1]), found)
 
 
 def run_experiments(
@@ -52,36 +53,40 @@ def run_experiments(
 
     The same numbers as `simulate_linear` and `simulate_nonlinear` give; disturbances are left out.
     """
-    first, plant, kernels = scenarios[0], loop.design.plant, engine()
+    first, plant, kernels, size = scenarios[0], loop.design.plant, engine(), loop.size
     t, n = first.times, len(scenarios)
     experiments = np.array([numbers(loop, limits, scenario) for scenario in scenarios])
     filled = (
-        np.empty((n, AUGMENTED, len(t))),
-        np.empty((n, 6, len(t))),
+        np.empty((n, len(size) + 1, len(t))),
+        np.empty((n, len(size), len(t))),
         np.empty((n, 2, 2, len(t))),
         np.empty((n, 2, 2, AXIS_METRICS)),
         np.empty((n, 2, 2, MOTOR_METRICS)),
         np.empty((n, 2, COURSE)),
     )
+    law, A, B = loop.padded
     kernels.run_experiments(
+        size,
         plant.constants,
-        plant.trim,
+        loop.design.trim,
         plant.theta_0,
-        loop.voltage_from_state,
+        law,
         loop.voltage_from_reference,
         NOTHING if loop.integral is None else loop.integral,
-        loop.A,
-        loop.B,
+        A,
+        B,
         loop.poles,
         experiments,
+        more_constants(loop),
+        inner_starts(loop, experiments),
         t,
         first.rtol,
         ABSOLUTE_TOLERANCE * first.rtol,
         most_steps or kernels.most_steps,
-        *scratch.experiments,
-        np.empty((len(t) + 1, 6)),
+        *scratch.experiments(len(size)),
+        np.empty((len(t) + 1, len(size))),
         np.empty(len(t) + 1),
         AT_REST,
         *filled,
     )
-    return Courses(t, len(loop.A), experiments, *filled)
+    return Courses(loop, t, experiments, *filled)

@@ -9,11 +9,12 @@ import numpy as np
 
 from ..engine import engine
 from ..findings import Finding
-from ..kernels.layout import FED, WORKSPACE
+from ..kernels.layout import FED, PLAIN, STEP, WORKSPACE
 from ..loop import Loop
 from ..scenario import Digital, Limits, Scenario
 from ..scratch import FOLLOWED_TWICE
 from ..signals import Floats
+from .augmented import inner_start, sampled_estimator
 from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop, limited_response
 from .response import Measured, Response, room
 
@@ -36,18 +37,26 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
     """
     system = NonlinearLoop.of(loop, limits, scenario)
     t = scenario.times
-    states, held, found = np.empty((scenario.samples, 6)), np.empty((scenario.samples, 2)), room()
+    size, start = loop.size, system.start.copy()
+    settings = settings_of(digital, standing_voltages(loop, system))
+    start[PLAIN:] = inner_start(loop, system.experiment, (settings[STEP], settings[STEP + 1]))[
+        1, : len(size) - PLAIN
+    ]
+    states, held, found = np.empty((len(t), len(size))), np.empty((len(t), 2)), room()
     count = 1
-    if digital.noise:  # for twice the window: settling is looked at beyond its end
+    noises = np.hypot(scenario.noise, digital.noise)
+    if noises.any():  # for twice the window: settling is looked at beyond its end
         count = int(np.ceil(2 * scenario.duration / digital.sample_time)) + 2
-    noise = digital.noise * np.random.default_rng(digital.seed).standard_normal((count, 2))
+    noise = noises * np.random.default_rng(digital.seed).standard_normal((count, 2))
     kernels = engine()
     kernels.run_digital(
-        system.start.copy(),
+        size,
+        start,
         t,
         system.constants,
         system.modes.copy(),
-        settings_of(digital, standing_voltages(loop, system)),
+        settings,
+        sampled_estimator(loop, digital.sample_time),
         loop.poles,
         system.experiment,
         noise,
@@ -60,14 +69,14 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
         np.empty_like(system.constants),
         np.empty_like(system.modes),
         np.empty(len(t) + 2),
-        np.empty((len(t) + 2, 6)),
+        np.empty((len(t) + 2, len(size))),
         np.empty(FOLLOWED_TWICE),
         states,
         held,
         *found,
     )
     course, voltages = np.ascontiguousarray(states.T), np.ascontiguousarray(held.T)
-    response = limited_response(system.experiment, t, course[: system.order], voltages, Measured(*found))
+    response = limited_response(loop, system.experiment, t, (course, voltages), Measured(*found))
     return replace(response, findings=(*response.findings, *_remarks(loop, scenario, digital)))
 
 

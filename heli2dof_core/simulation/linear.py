@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from ..engine import engine
-from ..kernels.layout import AUGMENTED, LADDER, LINEAR_WORKSPACE, STRETCH
+from ..kernels.layout import exact_shapes
 from ..loop import Loop
 from ..scenario import Scenario
 from ..scratch import FOLLOWED_TWICE
 from ..signals import Floats, fixed
+from .augmented import inner_start, own_states
 from .experiment import experiment
 from .response import Measured, Response, course_response, room
 
@@ -20,36 +21,44 @@ AT_REST = fixed(np.zeros(2))
 def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = None) -> Response:
     """Step response of the loop without limits, exact at every sample.
 
-    Ignores saturation, anti-windup, travel stops and feed-forward. The states are augmented by a
-    constant 1 that carries the references, so that one exponential holds the whole step. Its figures are
-    given up after `most_steps` groups of steps, by default a tenth of a second's work.
+    Ignores saturation, anti-windup, travel stops, friction and feed-forward; thrust curves are straight. The states
+    are augmented by a constant 1 that carries the references, so that one exponential holds the whole step. Its
+    figures are given up after `most_steps` groups of steps, by default a tenth of a second's work.
     """
-    x, t = experiment(loop, None, scenario), scenario.times
+    x, t, size = experiment(loop, None, scenario), scenario.times, loop.size
+    law, A, B = loop.padded
     states, voltages, found, kernels = (
-        np.empty((AUGMENTED, len(t))),
+        np.empty((len(size) + 1, len(t))),
         np.empty((2, len(t))),
         room(),
         engine(),
     )
-    matrices = (loop.voltage_from_state, loop.voltage_from_reference, loop.A, loop.B, loop.poles)
     kernels.run_linear(
+        size,
         loop.design.plant.theta_0,
-        *matrices,
+        law,
+        loop.voltage_from_reference,
+        A,
+        B,
+        loop.poles,
         x,
+        inner_start(loop, x)[0],
         t,
         most_steps or kernels.most_steps,
         AT_REST,
-        np.empty(LINEAR_WORKSPACE),
-        np.empty(LADDER),
-        np.empty(STRETCH),
+        *map(np.empty, exact_shapes(len(size))),
         np.empty(FOLLOWED_TWICE),
         states,
         voltages,
         *found,
     )
-    return linear_response(x, t, states[: len(loop.A)], voltages, Measured(*found))
+    return linear_response(loop, x, t, (states, voltages), Measured(*found))
 
 
-def linear_response(x: Floats, t: Floats, states: Floats, voltages: Floats, found: Measured) -> Response:
-    """The course of an experiment with its remarks."""
-    return course_response("linear", x.tolist(), t, found, states=states, voltages=voltages)
+def linear_response(
+    loop: Loop, x: Floats, t: Floats, course: tuple[Floats, Floats], found: Measured
+) -> Response:
+    """The course of an experiment with its remarks: states as the kernel has filled them, and voltages."""
+    states, voltages = course
+    own = own_states(loop, states)
+    return course_response("linear", x.tolist(), t, found, states=own, signals=loop.states, voltages=voltages)

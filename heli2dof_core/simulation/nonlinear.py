@@ -17,7 +17,10 @@ from ..kernels.layout import (
     GAIN,
     LIMIT,
     MODES,
+    MORE_CONSTANTS,
+    MORE_MODES,
     OFFSET,
+    PLAIN,
     REFERENCE,
     SHARE,
     START,
@@ -30,6 +33,7 @@ from ..loop import Loop
 from ..scenario import Limits, Scenario
 from ..scratch import FOLLOWED_TWICE
 from ..signals import INPUTS, Floats
+from .augmented import inner_start, more_constants, own_states
 from .experiment import NOTHING, experiment
 from .response import Measured, Response, course_response, room
 
@@ -44,9 +48,8 @@ class NonlinearLoop:
     Attributes:
         experiment: laid out as `layout` says.
         constants, modes: laid out as `kernels.rig` says.
-        start: θ, ψ, θ̇, ψ̇, z_p, z_y at t = 0.
+        start: θ, ψ, θ̇, ψ̇, z_p, z_y at t = 0, and what the loop's size has behind them.
         disturbed_from: when the disturbance within `constants` sets in, s; infinite without one.
-        order: how many of the states mean anything: 6, or 4 where nothing integrates.
     """
 
     experiment: Floats
@@ -54,28 +57,32 @@ class NonlinearLoop:
     modes: NDArray[np.int64]
     start: Floats
     disturbed_from: float
-    order: int
 
     @classmethod
     def of(cls, loop: Loop, limits: Limits, scenario: Scenario) -> NonlinearLoop:
         """The loop, limits and scenario as numbers; the loop's deviations become absolute."""
         plant, x = loop.design.plant, experiment(loop, limits, scenario)
-        constants, modes, start = np.empty(CONSTANTS), np.empty(MODES, dtype=np.int64), np.zeros(6)
+        size, plain = loop.size, len(loop.size) == PLAIN
+        constants = np.empty(CONSTANTS if plain else MORE_CONSTANTS)
+        modes, start = np.empty(MODES if plain else MORE_MODES, dtype=np.int64), np.zeros(len(size))
         integral = NOTHING if loop.integral is None else loop.integral
         engine().nonlinear_loop(
+            size,
             plant.constants,
-            plant.trim,
+            loop.design.trim,
             plant.theta_0,
-            loop.voltage_from_state,
+            loop.padded[0],
             loop.voltage_from_reference,
             integral,
             x,
+            more_constants(loop),
             constants,
             modes,
         )
         start[:4] = x[START:BOUND]
+        start[PLAIN:] = inner_start(loop, x)[1, : len(size) - PLAIN]
         since = np.inf if scenario.disturbance is None else scenario.disturbance.time
-        return cls(x, constants, modes, start, since, len(loop.A))
+        return cls(x, constants, modes, start, since)
 
     @property
     def gain(self) -> Floats:
@@ -105,17 +112,20 @@ def simulate_nonlinear(
 
     The rig starts at rest at its operating point unless `scenario.initial` says otherwise. Whatever
     changes the rates abruptly is located: a voltage that reaches or leaves its limit, an integrator
-    that clamping stops or lets go, pitch that meets its stop (without rebound) or leaves it. After
-    `most_steps`, by default half a second's work or two, it is given up and a finding says so.
+    that clamping stops or lets go, pitch that meets its stop (without rebound) or leaves it, a rotor that enters
+    or leaves its dead zone, an axis that friction holds or lets go. After `most_steps`, by default half a second's
+    work or two, it is given up and a finding says so.
     """
-    system, kernels = NonlinearLoop.of(loop, limits, scenario), engine()
+    system, kernels, size = NonlinearLoop.of(loop, limits, scenario), engine(), loop.size
     t, found = scenario.times, room()
-    states, voltages = np.empty((6, len(t))), np.empty((2, len(t)))
+    states, voltages = np.empty((len(size), len(t))), np.empty((2, len(t)))
     kernels.run_nonlinear(
+        size,
         system.constants,
         system.modes,
         loop.poles,
         system.experiment,
+        inner_start(loop, system.experiment)[1],
         t,
         system.disturbed_from,
         scenario.rtol,
@@ -123,18 +133,21 @@ def simulate_nonlinear(
         most_steps or kernels.most_steps,
         loop.design.trim,
         np.empty(WORKSPACE),
-        np.empty((len(t) + 1, 6)),
+        np.empty((len(t) + 1, len(size))),
         np.empty(len(t) + 1),
         np.empty(FOLLOWED_TWICE),
         states,
         voltages,
         *found,
     )
-    return limited_response(system.experiment, t, states[: system.order], voltages, Measured(*found))
+    return limited_response(loop, system.experiment, t, (states, voltages), Measured(*found))
 
 
-def limited_response(x: Floats, t: Floats, states: Floats, voltages: Floats, found: Measured) -> Response:
-    """The course of an experiment with its remarks."""
+def limited_response(
+    loop: Loop, x: Floats, t: Floats, course: tuple[Floats, Floats], found: Measured
+) -> Response:
+    """The course of an experiment with its remarks: states as the kernel has filled them, and voltages."""
+    states, voltages = course
     numbers: list[float] = x.tolist()
     pitch, yaw, _, _, impacts, *_ = found.course[SHARE:].tolist()
     remarks = tuple(_remarks(numbers, (pitch, yaw), impacts))
@@ -143,7 +156,8 @@ def limited_response(x: Floats, t: Floats, states: Floats, voltages: Floats, fou
         numbers,
         t,
         found,
-        states=states,
+        states=own_states(loop, states),
+        signals=loop.states,
         voltages=voltages,
         saturated=(pitch, yaw),
         remarks=remarks,

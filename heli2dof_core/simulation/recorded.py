@@ -12,7 +12,18 @@ from numpy.typing import NDArray
 from ..engine import engine
 from ..errors import RecordingError, Wanted, nobody_leaves
 from ..frozen import Frozen
-from ..kernels.layout import GAIN, RECORDED_WORKSPACE, SENSITIVITIES, TRAVEL, WORKSPACE
+from ..kernels.layout import (
+    ACTUATED_SENSITIVITIES,
+    ACTUATED_WORKSPACE,
+    GAIN,
+    MORE_CONSTANTS,
+    MORE_GAIN,
+    RECORDED_WORKSPACE,
+    SENSITIVITIES,
+    TAU,
+    TRAVEL,
+    WORKSPACE,
+)
 from ..loop import Loop
 from ..parameters import Parameters
 from ..plant import rig_constants
@@ -23,6 +34,8 @@ from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
 
 SHARE_OF_TIME_CONSTANT = 0.05
 """Longest step of the Runge–Kutta method in the rig's shortest time constants: an error below 1e-8 per step."""
+SHARE_OF_ROTORS = 0.2
+"""Likewise in the rotors': their speeds are known, and only their effect is summed up, to 1e-6."""
 RTOL = 1e-6
 MOST_STEPS = 30_000_000
 """Steps of the Runge–Kutta method that one simulation of a recording may take: half a minute's work."""
@@ -51,6 +64,49 @@ class Recorded(Frozen):
     done: int
 
 
+@dataclass(frozen=True)
+class Turning(Frozen):
+    """Rotors under recorded voltages, and the friction of the axes that they drive.
+
+    Attributes:
+        constants: of `rotors.Actuators`, (10,).
+        speeds: v_p, v_y at each sample, (n, 2), V.
+        by_tau: their derivatives by their own time constants, (n, 2), V/s.
+    """
+
+    constants: Floats
+    speeds: Floats
+    by_tau: Floats
+
+    def of_rig(self, p: Any, travel: float | None = None) -> Floats:
+        """The kernels' constants."""
+        c = np.zeros(MORE_CONSTANTS)
+        c[:GAIN] = rig_constants(p)
+        c[TRAVEL] = np.inf if travel is None else travel
+        c[TAU:MORE_GAIN] = self.constants
+        return c
+
+    def short(self, step: float) -> float:
+        """A step that is short for the rotors, too, s."""
+        return min([step, *(SHARE_OF_ROTORS * tau for tau in self.constants[:2].tolist() if tau > 0)])
+
+    def part(self, rows: slice) -> Turning:
+        """Some rows."""
+        return Turning(self.constants, self.speeds[rows], self.by_tau[rows])
+
+
+def turning(constants: Floats, bounds: NDArray[np.int64], t: Floats, volts: Floats) -> Turning:
+    """Rotor speeds under held voltages (n, 2) at all t.
+
+    In each stretch, `bounds` (stretches, 2), first and last + 1, they begin settled at its first voltages. They
+    depend on nothing but τ and V: what is wrong with that decays with τ, and no segment has unknown speeds.
+    """
+    speeds, by_tau, c = np.zeros(volts.shape), np.zeros(volts.shape), np.zeros(MORE_CONSTANTS)
+    c[TAU:MORE_GAIN] = constants
+    engine().run_rotors(bounds, t, volts, c, speeds, by_tau)
+    return Turning(constants, speeds, by_tau)
+
+
 def longest_step(p: Parameters) -> float:
     """A step of the Runge–Kutta method that is short for this rig, s."""
     rates = p.B_p / p.alpha, p.B_y / p.J_y, np.sqrt(p.m * p.g * p.l / p.alpha), np.sqrt(abs(p.K_s) / p.alpha)
@@ -64,9 +120,12 @@ def run_held(
     volts: Floats,
     travel: float | None,
     *,
+    rotors: Turning | None = None,
     wanted: Wanted = nobody_leaves,
 ) -> Floats:
     """States (n, 4) at all t under held voltages (n, 2) from `start`; pitch is stopped at ±`travel` (rad).
+
+    With `rotors` their thrust drives the axes, and these rub and stick.
 
     Raises:
         RecordingError: it takes more than `MOST_STEPS`.
@@ -75,13 +134,19 @@ def run_held(
     constants[:GAIN] = rig_constants(p)
     constants[TRAVEL] = np.inf if travel is None else travel
     step, y = longest_step(p), np.array(start, dtype=float)
+    if rotors is not None:
+        constants, step = rotors.of_rig(p, travel), rotors.short(step)
     marks = np.arange(len(t))
     for first, end in _parts(np.column_stack([marks[:-1], marks[1:]]), t, step):
         wanted()
         rows = slice(first, end + 1)  # the last row of one part is the first of the next
         own = states[rows]
-        scratch = np.zeros(RECORDED_WORKSPACE)
-        engine().run_held(y, t[rows], volts[rows], constants, step, scratch, own)
+        if rotors is None:
+            scratch = np.zeros(RECORDED_WORKSPACE)
+            engine().run_held(y, t[rows], volts[rows], constants, step, scratch, own)
+        else:
+            scratch, speeds = np.zeros(ACTUATED_WORKSPACE), rotors.speeds[rows]
+            engine().run_actuated_held(y, t[rows], volts[rows], speeds, constants, step, scratch, own)
         y = own[-1].copy()
     return states
 
@@ -94,16 +159,20 @@ def run_segments(
     volts: Floats,
     *,
     step: float,
+    rotors: Turning | None = None,
     wanted: Wanted = nobody_leaves,
 ) -> tuple[Floats, Floats]:
     """Angles (n, 2) of each segment from its own start, and their derivatives (n, 2, SENSITIVITIES).
 
     `p` has Parameters' fields, of any value; `bounds`, (segments, 2), are first and last + 1; samples outside are 0.
-    The derivatives are by θ, ψ, θ̇, ψ̇ at the segment's start, then by K_pp, K_py, K_yp, K_yy, B_p, B_y, K_s.
+    The derivatives are by θ, ψ, θ̇, ψ̇ at the segment's start, then by K_pp, K_py, K_yp, K_yy, B_p, B_y, K_s; with
+    `rotors`, (n, 2, ACTUATED_SENSITIVITIES), then by τ_p, τ_y and by Coulomb friction in pitch and yaw.
 
     Raises:
         RecordingError: it takes more than `MOST_STEPS`.
     """
+    if rotors is not None:
+        return _actuated_segments(p, starts, bounds, t, volts, step=step, rotors=rotors, wanted=wanted)
     constants = np.array(rig_constants(p), dtype=float)
     outputs, slopes = np.zeros((len(t), 2)), np.zeros((len(t), 2, SENSITIVITIES))
     scratch = np.zeros(RECORDED_WORKSPACE)
@@ -111,6 +180,29 @@ def run_segments(
         wanted()
         own = slice(first, end)
         engine().run_segments(starts[own], bounds[own], t, volts, constants, step, scratch, outputs, slopes)
+    return outputs, slopes
+
+
+def _actuated_segments(
+    p: Any,
+    starts: Floats,
+    bounds: NDArray[np.int64],
+    t: Floats,
+    volts: Floats,
+    *,
+    step: float,
+    rotors: Turning,
+    wanted: Wanted,
+) -> tuple[Floats, Floats]:
+    c, step, speeds, by_tau = rotors.of_rig(p), rotors.short(step), rotors.speeds, rotors.by_tau
+    outputs, slopes = np.zeros((len(t), 2)), np.zeros((len(t), 2, ACTUATED_SENSITIVITIES))
+    scratch = np.zeros(ACTUATED_WORKSPACE)
+    for first, end in _parts(bounds, t, step):
+        wanted()
+        own = slice(first, end)
+        engine().run_actuated_segments(
+            starts[own], bounds[own], t, volts, speeds, by_tau, c, step, scratch, outputs, slopes
+        )
     return outputs, slopes
 
 
@@ -123,8 +215,8 @@ def _parts(bounds: NDArray[np.int64], t: Floats, step: float) -> Iterator[tuple[
         raise RecordingError(
             f"the simulation of this recording takes {total[-1]:.2g} steps",
             field="parameters",
-            hint=f"At most {MOST_STEPS:.0e} are made: a rig as stiff as this one (damping over inertia) needs a "
-            "shorter recording.",
+            hint=f"At most {MOST_STEPS:.0e} are made: a rig as stiff as this one (damping over inertia, a rotor's "
+            "short time constant) needs a shorter recording.",
         )
     edges = np.flatnonzero(np.diff(total // _AT_A_STRETCH, prepend=-1.0) > 0).tolist()
     yield from zip(edges, [*edges[1:], len(bounds)], strict=True)
@@ -156,7 +248,7 @@ def run_recorder(
     theta, psi, theta_dot, psi_dot = (theta_0, 0.0, 0.0, 0.0) if start is None else start.tolist()
     first = (theta, psi, theta_dot, psi_dot)
     system = NonlinearLoop.of(loop, limits, Scenario(initial=first, samples=2))
-    c, y = system.constants.copy(), system.start.copy()
+    c, y = system.constants.copy(), system.start[:6].copy()
     at_zero = NonlinearLoop.of(loop, limits, Scenario(theta=0.0, psi=0.0, initial=first, samples=2)).offset
     references = np.ascontiguousarray(references, dtype=float)
     offsets = np.ascontiguousarray(at_zero + references @ loop.voltage_from_reference.T)

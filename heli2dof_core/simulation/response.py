@@ -136,6 +136,7 @@ def course_response(
     found: Measured,
     *,
     states: Floats,
+    signals: tuple[Signal, ...],
     voltages: Floats,
     saturated: tuple[float, float] = (0.0, 0.0),
     remarks: tuple[Finding, ...] = (),
@@ -144,7 +145,7 @@ def course_response(
     theta, psi, *start = x[: START + 2]
     remarks = (*_end_of(model, t, found), *remarks)
     ends = (theta, psi), (start[0], start[1])
-    return Response(model, t, states[:2], voltages, *ends, saturated, remarks, states, found)
+    return Response(model, t, states[:2], voltages, *ends, saturated, remarks, states, found, signals)
 
 
 def _end_of(model: Literal["linear", "nonlinear"], t: Floats, found: Measured) -> Iterator[Finding]:

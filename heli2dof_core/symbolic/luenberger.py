@@ -72,23 +72,43 @@ def controllability_indices(A: DomainMatrix, B: DomainMatrix) -> tuple[int, ...]
         UncontrollableError: fewer than n columns are independent.
     """
     n, p = B.shape
-    _, pivots = controllability_matrix(A, B).rref()
-    if len(pivots) < n:
-        raise UncontrollableError("the pair (A, B) is not controllable", field="parameters")
-    return tuple(sum(1 for column in pivots if column % p == i) for i in range(p))
+    kept: list[tuple[int, list[Any]]] = []  # what each column added, with the row that it is reduced to 1 in
+    columns = {i: _column(B, i) for i in range(p)}
+    indices = [0] * p
+    while columns and len(kept) < n:
+        for i, column in list(columns.items()):
+            added = column.to_list_flat()
+            for row, earlier in kept:
+                if factor := added[row]:
+                    added = [x - factor * y for x, y in zip(added, earlier, strict=True)]
+            row = next((k for k, x in enumerate(added) if x), None)
+            if row is None:
+                del columns[i]  # all later powers of this input depend, too
+                continue
+            kept.append((row, [x / added[row] for x in added]))
+            indices[i] += 1
+            columns[i] = A.matmul(column)
+            if len(kept) == n:
+                return tuple(indices)
+    raise UncontrollableError("the pair (A, B) is not controllable", field="parameters")
 
 
-def leading_rows(A: DomainMatrix, B: DomainMatrix, indices: tuple[int, ...]) -> list[DomainMatrix]:
-    """q_i = row σ₁ + … + σ_i of [b₁ … A^(σ₁−1) b₁ | b₂ …]⁻¹, each 1×n."""
+def chains(A: DomainMatrix, B: DomainMatrix, indices: tuple[int, ...]) -> DomainMatrix:
+    """M = [b₁ … A^(σ₁−1) b₁ | b₂ …], n×n: the columns that the scan kept."""
     columns = []
     for i, index in enumerate(indices):
         column = _column(B, i)
         for _ in range(index):
             columns.append(column)
             column = A.matmul(column)
+    return columns[0].hstack(*columns[1:])
+
+
+def leading_rows(A: DomainMatrix, B: DomainMatrix, indices: tuple[int, ...]) -> list[DomainMatrix]:
+    """q_i = row σ₁ + … + σ_i of [b₁ … A^(σ₁−1) b₁ | b₂ …]⁻¹, each 1×n."""
     n = A.shape[0]
     units = DomainMatrix.eye(n, A.domain).to_dense().extract(list(range(n)), list(_ends(indices)))
-    rows = columns[0].hstack(*columns[1:]).transpose().lu_solve(units).transpose()
+    rows = chains(A, B, indices).transpose().lu_solve(units).transpose()
     return [_row(rows, i) for i in range(len(indices))]
 
 

@@ -62,12 +62,7 @@ NAMES: tuple[Name, ...] = (
     Name("beta_0", r"\beta_0", "effective inertia about yaw, J_y + m l² cos²θ₀", "kg·m²"),
     Name("gamma_", r"\gamma", "K_py K_yp − K_pp K_yy, minus the thrust matrix's determinant", "(N·m/V)²"),
     Name("a", "a", "gravity and stiffness in A₃₁, (m g l sinθ₀ − K_s)/α", "1/s²"),
-    Name("tau_p", r"\tau_p", "time constant of the pitch motor's rotor", "s"),
-    Name("tau_y", r"\tau_y", "time constant of the yaw motor's rotor", "s"),
     *(Name(f"p_{i}", f"p_{i}", f"desired pole {i}", "rad/s") for i in (1, 2, 3, 4)),
-    Name("p_5", "p_5", "desired pole 5, pitch's third where the rotors are placed", "rad/s"),
-    Name("p_6", "p_6", "desired pole 6, yaw's third where the rotors are placed", "rad/s"),
-    *(Name(f"q_{i}", f"q_{i}", f"desired pole {i} of the observer", "rad/s") for i in (1, 2, 3, 4)),
     Name("d_10", "d_{10}", "constant coefficient of d₁(s), p₁p₂", "1/s²"),
     Name("d_11", "d_{11}", "linear coefficient of d₁(s), −p₁ − p₂", "1/s"),
     Name("d_20", "d_{20}", "constant coefficient of d₂(s), p₃p₄", "1/s²"),
@@ -76,7 +71,22 @@ NAMES: tuple[Name, ...] = (
     Name("s", "s", "Laplace variable", "1/s"),
 )
 
-LATEX: dict[sp.Symbol, str] = {sp.Symbol(n.name): n.latex for n in NAMES}
+ROTOR_NAMES: tuple[Name, ...] = (
+    Name("tau_p", r"\tau_p", "time constant of the pitch motor's rotor", "s"),
+    Name("tau_y", r"\tau_y", "time constant of the yaw motor's rotor", "s"),
+    Name("p_5", "p_5", "desired pole 5, pitch's third", "rad/s"),
+    Name("p_6", "p_6", "desired pole 6, yaw's third", "rad/s"),
+    Name("d_12", "d_{12}", "quadratic coefficient of d₁(s), a cubic where the rotors are placed", "1/s"),
+    Name("d_22", "d_{22}", "quadratic coefficient of d₂(s), a cubic where the rotors are placed", "1/s"),
+)
+"""What the six-state derivation has besides (`rotors`); d₁₀ … d₂₁ are those of cubics there."""
+
+OBSERVER_NAMES: tuple[Name, ...] = tuple(
+    Name(f"q_{i}", f"q_{i}", f"desired pole {i} of the observer", "rad/s") for i in (1, 2, 3, 4)
+)
+"""What the observer's derivation has besides (`observer`)."""
+
+LATEX: dict[sp.Symbol, str] = {sp.Symbol(n.name): n.latex for n in (*NAMES, *ROTOR_NAMES, *OBSERVER_NAMES)}
 """Symbol → LaTeX, for SymPy's printer."""
 
 COEFFICIENTS_OF_POLES: dict[sp.Symbol, sp.Expr] = {

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 
@@ -83,6 +84,13 @@ def symbolic_report(structure: Structure, *, shifted: bool = False) -> SymbolicR
         symbols=symbols,
         notation={name.name: formula(sp.Symbol(name.name)) for name in symbols},
     )
+
+
+def formula_of_letters(expression: sp.Expr | sp.Matrix, letters: Mapping[str, sp.Symbol]) -> Formula:
+    """An expression in somebody's own letters; those renamed for SymPy are written by the names that were given."""
+    own = {symbol: sp.latex(sp.Symbol(name)) for name, symbol in letters.items() if symbol.name != name}
+    text = sp.latex(expression, symbol_names=own, mat_delim="[")
+    return Formula(str(expression), text, convert(text))
 
 
 def formula(expression: sp.Expr | sp.Matrix) -> Formula:

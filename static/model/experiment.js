@@ -156,7 +156,7 @@ function disturbanceWords({ disturbance }) {
  * @returns {string[]}
  */
 export function experimentWords(scenario) {
-  const { saturation, anti_windup, travel_stops, trim_feedforward } = { ...STANDARD, ...scenario };
+  const { saturation, anti_windup, travel_stops, trim_feedforward, measured } = { ...STANDARD, ...scenario };
   const { initial = {}, tracking_time, rtol } = scenario;
   const from = [
     initial.theta !== undefined && `θ ${fixed(initial.theta * DEGREE, 1)}°`,
@@ -168,6 +168,8 @@ export function experimentWords(scenario) {
       : `back-calculation${tracking_time === undefined ? '' : `, ${time(tracking_time)}`}`;
   return [
     ...digitalWords(scenario),
+    measured === 'filtered' && 'filtered rates',
+    measured === 'observer' && 'an observer',
     ...disturbanceWords(scenario),
     !saturation && 'no voltage limits',
     saturation && anti_windup !== 'clamping' && windup,

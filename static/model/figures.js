@@ -278,6 +278,22 @@ export const SENSITIVITY = {
   },
 };
 
+/** @type {Record<'lag', Figure>} */
+export const LOOP = {
+  lag: {
+    name: 'lag_margin',
+    head: 'Lag margin',
+    short: 'Lag margin',
+    hint: 'how slow both rotors may be; an Aero’s need 0.16 s',
+    meaning:
+      'Least time constant of both rotors alike at which the loop is no longer stable; where the rotors are placed, ' +
+      'above their own',
+    notation: 'seconds',
+    digits: 2,
+    better: 'higher',
+  },
+};
+
 /** @type {Record<'norm' | 'spectral' | 'error' | 'pole_error_bound' | 'kappa' | 'lambda', Figure>} */
 export const DESIGN = {
   norm: {

@@ -10,14 +10,14 @@ import { OUTER, STRUCTURE } from './quantities.js';
 export const LOCKS = {
   preset: {
     name: 'rig',
-    keys: ['preset', 'parameters', 'limits'],
+    keys: ['preset', 'parameters', 'limits', 'rotors', 'friction'],
     controls: '[data-testid=preset], #header :is([data-field], [data-testid^=rig-reset])',
   },
   point: { name: 'operating point', keys: ['theta0'], controls: '[data-field^="operating_point"]' },
   poles: { name: 'poles', keys: ['poles'], controls: '.pole, #poles input, [data-testid^="use-split"]' },
   method: {
     name: 'method',
-    keys: ['method', ...STRUCTURE],
+    keys: ['method', ...STRUCTURE, 'place_rotors', 'observer'],
     controls: '[data-field=method], [data-testid^="use-"]',
   },
   loops: {

@@ -316,3 +316,18 @@ def test_tables_are_not_markup():
     with runner.isolation() as (out, *_):
         output.show((Table.of("[b]", ("[red]x",), [("[/]",)]),))
         assert b"[b]" in out.getvalue() and b"[red]x" in out.getvalue() and b"[/]" in out.getvalue()
+
+
+def test_any_system_is_placed_in_numbers_and_in_formulas(client):
+    numbers = ("place", "-A", "0,1; 2,3", "-B", "0;1", "--poles", "-2±1j", "--json")
+    body = {"A": [[0, 1], [2, 3]], "B": [[0], [1]], "poles": [{"re": -2, "im": 1}, {"re": -2, "im": -1}]}
+    assert json.loads(run(*numbers).stdout) == client.post("/api/v1/place", json=body).json()
+    letters = ("place", "-A", "0,1; -k/m,−b/m", "-B", "0;1/m")
+    body = {"A": [["0", "1"], ["-k/m", "-b/m"]], "B": [["0"], ["1/m"]]}
+    assert (
+        json.loads(run(*letters, "--json").stdout) == client.post("/api/v1/symbolic/place", json=body).json()
+    )
+    shown = run(*letters).stdout
+    assert "holds where m ≠ 0" in shown and "K = Matrix([[" in shown
+    refused = run("place", "-A", "a*", "-B", "1", status=2)
+    assert "A.0.0" in refused.stderr and "position 3" in refused.stderr

@@ -16,6 +16,7 @@ from app.contract.frequency import Rga
 from app.contract.paper import Paper
 from app.contract.placement import Method, Placement
 from app.contract.problems import Problem
+from app.contract.symbols import SymbolicPlacementReply
 from heli2dof_core import METHODS, PRESETS, pole_error
 from tests.app.test_rest import COMPLEX, PAPER, poles, post
 
@@ -250,3 +251,42 @@ def test_components_are_open(client):
         "printed": "R_m,p",
     }
     assert presets["quanser-aero"]["components"] == {}
+
+
+SPRING = {"A": [["0", "1"], ["-k/m", "-b/m"]], "B": [["0"], ["1/m"]]}
+
+
+def test_any_plant_is_placed_in_symbols(client):
+    reply = post(client, "symbolic/place", SPRING)
+    SymbolicPlacementReply.model_validate(reply)
+    assert reply["controllability_indices"] == [2]
+    assert [condition["sympy"] for condition in reply["holds_unless"]] == ["m"]
+    k, m, b, p_1, p_2 = sp.symbols("k m b p_1 p_2")
+    K = sp.Matrix(sp.sympify(reply["K"]["sympy"]))
+    assert (K - sp.Matrix([[m * p_1 * p_2 - k, -m * (p_1 + p_2) - b]])).expand() == sp.zeros(1, 2)
+    assert all(reply[name]["mathml"].startswith("<math") for name in ("A", "B", "T", "Q", "K", "closed_loop"))
+    numbers = post(client, "symbolic/place", {**SPRING, "poles": WANTED[1:]})
+    closed = sp.Matrix(sp.sympify(numbers["closed_loop"]["sympy"]))
+    assert closed.charpoly().all_coeffs() == [1, 4, 5]
+    greek = post(client, "symbolic/place", {"A": [["β"]], "B": [["lambda"]]})
+    assert greek["letters"]["beta"]["sympy"] == "beta_" and greek["A"]["latex"].count(r"\beta") == 1
+    assert greek["holds_unless"][0]["latex"] == r"\lambda"
+
+
+SYMBOLIC_PROBLEMS = [
+    ({"A": [["0", "1"], ["a*", "0"]]}, "invalid_input", "A.1.0"),
+    ({"B": [["0"], ["import os"]]}, "invalid_input", "B.1.0"),
+    ({"A": [["0", "1"], [None, "0"]]}, "invalid_input", "A.1.0"),
+    ({"A": [["0", "1"], ["0"]]}, "invalid_input", "A"),
+    ({"A": [["a", "0"], ["0", "a"]], "B": [["1"], ["1"]]}, "uncontrollable", "B"),
+    ({"poles": [-1]}, "invalid_input", "poles"),
+    ({"poles": [-1, {"re": -2, "im": 1}]}, "unpaired_poles", "poles.1"),
+    ({"C": [[1]]}, "unknown_field", "C"),
+]
+
+
+@pytest.mark.parametrize(("change", "code", "field"), SYMBOLIC_PROBLEMS, ids=lambda x: json.dumps(x)[:40])
+def test_bad_plants_in_symbols_are_problems_that_name_their_field(client, change, code, field):
+    reply = post(client, "symbolic/place", {**SPRING, **change}, status=422)
+    assert (reply["code"], reply["field"].removesuffix(".str").removesuffix(".float")) == (code, field)
+    Problem.model_validate(reply)

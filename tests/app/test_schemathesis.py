@@ -85,6 +85,12 @@ RULES: dict[str, dict[str, str]] = {
         "invalid_input (A|B|C|poles|shift|groups|input_order|weights).*": "the shapes of matrices must agree",
         "invalid_input (groups|input_order|triangle|shift)": "belong to full-rank placement alone",
     },
+    "POST /api/v1/symbolic/place": {
+        "unpaired_poles": "each complex pole needs its conjugate",
+        "uncontrollable": "the rank of [B, AB, …]",
+        "invalid_input (A|B).*": "the grammar of expressions, the shapes of matrices, and time",
+        "invalid_input (poles|groups).*": "as many poles as states, dealt by the indices",
+    },
     "POST /api/v1/recordings": {"unusable_recording file": "a table in the file's bytes"},
     "POST /api/v1/recordings/join": {"unusable_recording recording": "the keys of recordings that are there"},
     "POST /api/v1/recordings/{key}/overlay": EXPERIMENT

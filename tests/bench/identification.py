@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import sys
 from collections import Counter
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from statistics import median
+from typing import Any
 
 import numpy as np
 
@@ -88,33 +90,36 @@ def autoregressive(rho: float, count: int, seed: int) -> Floats:
     return noise
 
 
+def tell(
+    case: object, done: Sequence[tuple[Any, Identification]], truth: Callable[[Any, str], float]
+) -> None:
+    """Prints a case's table: how often each interval held the truth of its rig, by name."""
+    runs = len(done)
+    print(f"{case}, {runs} runs")
+    together = hits = plain = 0
+    for i, first in enumerate(done[0][1].estimates):
+        right = [truth(rig, first.name) for rig, _ in done]
+        own = [result.estimates[i] for _, result in done]
+        inside = sum(e.low <= true <= e.high for e, true in zip(own, right, strict=True))
+        white = sum(abs(e.value - true) <= e.plain for e, true in zip(own, right, strict=True))
+        hits, plain = hits + inside, plain + white
+        width = median((e.high - e.low) / 2 / abs(true) for e, true in zip(own, right, strict=True))
+        print(f"  {first.name:5} inside {inside} of {runs}, taken for white {white}; ± {100 * width:.3g} %")
+    for rig, result in done:
+        together += all(e.low <= truth(rig, e.name) <= e.high for e in result.estimates)
+    each, times = runs * len(done[0][1].estimates) / 100, [result.seconds for _, result in done]
+    told = Counter(finding.code for _, result in done for finding in result.findings)
+    print(
+        f"  {hits / each:.1f} % of all intervals, taken for white {plain / each:.1f} %; all at once {together}"
+    )
+    print(f"  findings {dict(told)}; median {median(times):.2f} s, longest {max(times):.2f} s", flush=True)
+
+
 def main(runs: int) -> None:
     """Prints a table per case."""
     warm_up()
     for case in CASES:
-        done = [run(case, seed) for seed in range(runs)]
-        print(f"{case}, {runs} runs")
-        together = hits = plain = 0
-        for i, first in enumerate(done[0][1].estimates):
-            truth = [getattr(rig, first.name) for rig, _ in done]
-            own = [result.estimates[i] for _, result in done]
-            inside = sum(e.low <= true <= e.high for e, true in zip(own, truth, strict=True))
-            white = sum(abs(e.value - true) <= e.plain for e, true in zip(own, truth, strict=True))
-            hits, plain = hits + inside, plain + white
-            width = median((e.high - e.low) / 2 / abs(true) for e, true in zip(own, truth, strict=True))
-            print(
-                f"  {first.name:5} inside {inside} of {runs}, taken for white {white}; ± {100 * width:.3g} %"
-            )
-        for rig, result in done:
-            together += all(e.low <= getattr(rig, e.name) <= e.high for e in result.estimates)
-        each, times = runs * len(done[0][1].estimates) / 100, [result.seconds for _, result in done]
-        told = Counter(finding.code for _, result in done for finding in result.findings)
-        print(
-            f"  {hits / each:.1f} % of all intervals, taken for white {plain / each:.1f} %; all at once {together}"
-        )
-        print(
-            f"  findings {dict(told)}; median {median(times):.2f} s, longest {max(times):.2f} s", flush=True
-        )
+        tell(case, [run(case, seed) for seed in range(runs)], getattr)
 
 
 if __name__ == "__main__":

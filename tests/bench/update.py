@@ -21,7 +21,7 @@ from threadpoolctl import ThreadpoolController, threadpool_limits
 
 from heli2dof_core import Scenario, Spec, Uncertainty, close_loop, cloud, evaluate, place, preset
 from heli2dof_core.engine import engine, warm_up
-from heli2dof_core.kernels.layout import WORKSPACE
+from heli2dof_core.kernels.layout import PAPER, WORKSPACE
 from heli2dof_core.scenario import Digital
 from heli2dof_core.simulation.digital import simulate_digital
 from heli2dof_core.simulation.linear import simulate_linear
@@ -54,7 +54,7 @@ def jobs() -> dict[str, dict[str, Callable[[], object]]]:
 
     def kernel() -> object:
         y, modes = system.start.copy(), system.modes.copy()
-        return engine().integrate(y, t, system.constants, modes, *tolerances, 400_000, w, states)
+        return engine().integrate(PAPER, y, t, system.constants, modes, *tolerances, 400_000, w, states)
 
     def scaled(**change: float) -> Callable[[], object]:
         scenario = replace(spec.scenario, **change)

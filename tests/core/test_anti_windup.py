@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from heli2dof_core import InvalidInputError, OuterLoop, PIGains, Scenario, close_loop, design, plant, preset
 from heli2dof_core.kernels import rig as kernel
+from heli2dof_core.kernels.layout import PAPER
 from heli2dof_core.scenario import Digital
 from heli2dof_core.simulation.digital import simulate_digital
 from heli2dof_core.simulation.nonlinear import NonlinearLoop, simulate_nonlinear
@@ -41,7 +42,7 @@ def test_the_integrals_voltage_follows_the_limits_with_the_tracking_time(rig, po
     modes = system.modes.copy()
     modes[:2] = np.where(limited == asked, kernel.INSIDE, kernel.BEYOND)
     modes[2:4] = np.sign(asked)
-    kernel.state_derivative(y, system.constants, modes, slopes, 0)
+    kernel.state_derivative(PAPER, y, system.constants, modes, slopes, 0)
     followed = loop.integral @ (slopes[0, 4:6] - (system.reference - y[:2]))
     scale = np.max(np.abs(asked)) / tracking
     np.testing.assert_allclose(followed, (limited - asked) / tracking, atol=1e-9 * scale, rtol=1e-7)

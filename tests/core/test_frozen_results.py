@@ -24,6 +24,7 @@ from heli2dof_core import Digital, Disturbance, Loop, OuterLoop, Spec, Uncertain
 from heli2dof_core.engine import engine
 from heli2dof_core.export import FORMATS
 from heli2dof_core.frozen import Frozen, frozen, read_only
+from heli2dof_core.kernels.jit import EXAMPLES
 from heli2dof_core.lag_track import lag_track
 from heli2dof_core.paper.consequence import consequence
 from heli2dof_core.paper.figures import figures
@@ -98,6 +99,9 @@ def recordings(folder: Path) -> Iterator[Any]:
     yield heli.driven_in_segments(SPEC.parameters, recording)
     yield heli.driven_by_references(loop, SPEC.limits, recording)
     yield heli.identify(SPEC.parameters, recording, ("K_pp", "B_p"))
+    yield heli.identify(
+        SPEC.parameters, recording, ("K_pp",), heli.Rotors(heli.Rotor(0.05), heli.Rotor(0.05))
+    )
 
 
 def synthetic(loop: Loop) -> Recording:
@@ -211,7 +215,8 @@ def test_nothing_compiles_while_results_are_made(tmp_path: Path):
     with event.install_listener("numba:compile", Noting()):
         assert list(evaluations()) and list(recordings(tmp_path))
     assert compiled == []
-    assert {len(kernel.signatures) for kernel in kernels} == {1}
+    made = {name: len(examples) for name, examples in EXAMPLES.items()}
+    assert {k.__name__: len(k.signatures) for k in kernels} == made
 
 
 def test_a_callers_own_arrays_stay_writable():

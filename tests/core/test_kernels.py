@@ -12,7 +12,7 @@ from numba.core.runtime import _nrt_python, rtsys
 
 from heli2dof_core import Spec, Uncertainty, evaluate, preset
 from heli2dof_core.engine import engine, interpreted
-from heli2dof_core.kernels.layout import WORKSPACE
+from heli2dof_core.kernels.layout import PAPER, WORKSPACE
 from heli2dof_core.metrics import step_metrics
 from heli2dof_core.robustness import cloud
 from heli2dof_core.scenario import Digital
@@ -89,7 +89,7 @@ def test_c_gives_the_same_numbers():
         own, other = np.empty((501, 6)), np.empty((501, 6))
         y, modes = system.start.copy(), system.modes.copy()
         _, _, steps, _, _ = engine().integrate(
-            y, t, system.constants, modes, 1e-6, 1e-7, 400_000, np.empty(WORKSPACE), own
+            PAPER, y, t, system.constants, modes, 1e-6, 1e-7, 400_000, np.empty(WORKSPACE), own
         )
         assert floor.call(function, system, t, other, 1e-6, 1e-7)() == steps
         np.testing.assert_allclose(other, own, atol=1e-8)

@@ -15,7 +15,7 @@ from heli2dof_core import Limits, OuterLoop, PIGains, PoleSet, Scenario, close_l
 from heli2dof_core.compiled import accelerations
 from heli2dof_core.engine import engine
 from heli2dof_core.kernels import rig as kernel
-from heli2dof_core.kernels.layout import WORKSPACE
+from heli2dof_core.kernels.layout import PAPER, WORKSPACE
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.simulation.nonlinear import NonlinearLoop, simulate_nonlinear
 from tests.reference import Reference
@@ -242,10 +242,10 @@ def test_a_later_start_of_the_grid_shifts_nothing(design):
     t = np.linspace(0, 2, 201)
     whole, first, second = (np.empty((n, 6)) for n in (201, 101, 101))
     numbers = (1e-10, 1e-11, 100_000, np.empty(WORKSPACE))
-    engine().integrate(system.start.copy(), t, system.constants, system.modes.copy(), *numbers, whole)
+    engine().integrate(PAPER, system.start.copy(), t, system.constants, system.modes.copy(), *numbers, whole)
     y, modes = system.start.copy(), system.modes.copy()
-    engine().integrate(y, t[:101], system.constants, modes, *numbers, first)
-    engine().integrate(y, t[100:], system.constants, modes, *numbers, second)
+    engine().integrate(PAPER, y, t[:101], system.constants, modes, *numbers, first)
+    engine().integrate(PAPER, y, t[100:], system.constants, modes, *numbers, second)
     np.testing.assert_allclose(np.vstack([first, second[1:]])[:, :4], whole[:, :4], atol=1e-8)
 
 
@@ -255,6 +255,7 @@ def test_clamping_slides_along_the_limit_instead_of_chattering(design):
     states = np.empty((2001, 6))
     t = np.linspace(0, 2, 2001)
     outcome, _, _, switches, _ = engine().integrate(
+        PAPER,
         system.start.copy(),
         t,
         system.constants,
@@ -297,7 +298,7 @@ def test_interpreted_and_compiled_kernels_agree_to_the_last_digit(design):
         for integrate in (engine().integrate, twin.integrate):
             states, t = np.empty((101, 6)), np.linspace(0, 3, 101)
             numbers = (1e-6, 1e-7, 10_000, np.empty(WORKSPACE))
-            integrate(system.start.copy(), t, system.constants, system.modes.copy(), *numbers, states)
+            integrate(PAPER, system.start.copy(), t, system.constants, system.modes.copy(), *numbers, states)
             courses.append(states)
         np.testing.assert_array_equal(*courses)
 

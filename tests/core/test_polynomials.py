@@ -100,17 +100,13 @@ def test_sums_that_are_nothing_but_rounding_are_dropped():
     rng = np.random.default_rng(6)
     for _ in range(50):
         p, q = rng.normal(size=4) * 10.0 ** rng.integers(-6, 6, 4), rng.normal(size=4)
-        own, other = (
-            np.zeros(8),
-            np.zeros(8),
-        )  # sizes of polynomials of which p is the odd half, q the even one
-        own[1::2], other[::2] = 2 * abs(p), abs(q)
+        own, other, span = 2 * abs(p), abs(q), (0,) * len(p)
         r, sizes = np.zeros(8), np.zeros(8)
-        plain.add_product(p, own, q, other, 1, 0, 3.0, 1, r, sizes)
+        plain.add_product(span, p, own, q, other, 3.0, 1, r, sizes)
         np.testing.assert_allclose(r, [0, *(3 * polynomial.polymul(p, q))], atol=1e-12 * max(sizes))
         bound = polynomial.polymul(abs(p), abs(q))
         np.testing.assert_allclose(sizes, [0, *(3 * 3 * bound)])
-        plain.add_product(-1.5 * p, own, q, other, 1, 0, 2.0, 1, r, sizes)
+        plain.add_product(span, -1.5 * p, own, q, other, 2.0, 1, r, sizes)
         r[1] += 1e-11 * sizes[1]
         plain.drop_rounding(r, sizes)
         assert r[1] != 0 and not r[2:].any()

@@ -205,5 +205,5 @@ def test_rendered_formulas_parse_back_to_what_was_derived(structure):
 
 
 def test_every_name_parses_as_a_plain_symbol():
-    for name in n.NAMES:
+    for name in (*n.NAMES, *n.ROTOR_NAMES, *n.OBSERVER_NAMES):
         assert sp.sympify(name.name) == sp.Symbol(name.name)
