@@ -2,179 +2,216 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import partial
-from math import isfinite
 
-from ..errors import MethodUnavailableError
-from ..evaluate import loop_of
-from ..frozen import Frozen
-from ..kernels.layout import BACK_CALCULATION, CLAMPING, MOTOR_OF, TRACKING, TRAVEL, WINDUP
-from ..loop import Loop
-from ..scenario import Digital
-from ..signals import Floats
-from ..simulation.digital import FILTER_DAMPING, FILTER_FREQUENCY, rate_filter
-from ..simulation.nonlinear import NonlinearLoop
+from ..estimators import FILTER_DAMPING, FILTER_FREQUENCY
+from ..simulation.digital import rate_filter
 from ..spec import Spec
+from . import c_text
+from .c_design import Controller
+from .c_text import LARGEST_READING, matrix, number, vector
 from .format import Format
+from .machine import estimator_in_words, poles_in_words
 from .origin import origin
 
 _STEM = "heli2dof_controller"
 
 
-@dataclass(frozen=True)
-class _Controller(Frozen):
-    """The design as the digital rig runs it."""
-
-    loop: Loop
-    sample_time: float
-    trim: tuple[float, float]
-    limits: Floats
-    windup: int
-    motor_of: Sequence[int]
-    tracking: Floats
-
-    @classmethod
-    def of(cls, spec: Spec) -> _Controller:
-        loop, scenario = loop_of(spec), spec.scenario
-        _require_measured(spec)
-        system = NonlinearLoop.of(loop, spec.limits, scenario)
-        V_p, V_y = loop.design.trim.tolist() if scenario.trim_feedforward else (0.0, 0.0)
-        return cls(
-            loop,
-            (scenario.digital or Digital()).sample_time,
-            (V_p, V_y),
-            system.limits,
-            int(system.modes[WINDUP]),
-            system.modes[MOTOR_OF:WINDUP].tolist(),
-            system.constants[TRACKING:TRAVEL].reshape(2, 2),
-        )
-
-    @property
-    def limited(self) -> bool:
-        return all(map(isfinite, self.limits))
-
-
-def _require_measured(spec: Spec) -> None:
-    """Raises MethodUnavailableError where the feedback acts on what the functions in C are not given."""
-    if spec.place_rotors:
-        raise MethodUnavailableError(
-            "the controller in C does not feed the rotors' speeds back",
-            field="place_rotors",
-            hint="Export the design of four states, or take the matrices from another format.",
-        )
-    if spec.scenario.measured == "observer":
-        raise MethodUnavailableError(
-            "the controller in C has no observer",
-            field="scenario.measured",
-            hint="Export the feedback of filtered rates, or take the matrices from another format.",
-        )
-
-
 def render_header(spec: Spec, link: str = "") -> str:
     """Types and prototypes, with what a caller must know."""
-    controller = _Controller.of(spec)
+    controller = Controller.of(spec)
+    prototypes = {name: "\n".join(lines) + ";" for name, lines in c_text.prototypes(controller).items()}
+    rates = _RATES.format(prototype=prototypes["rates"]) if controller.sampled is None else ""
     return _HEADER.format(
         head=_head(spec, "c-header", link),
-        discretization=_discretization(controller),
+        discretization=_comment(_discretization(spec, controller)),
+        use=_comment(_use(controller)),
         sample_time=repr(controller.sample_time),
-        integrals=_INTEGRALS if controller.loop.has_integrators else "",
-        largest=LARGEST_READING,
+        members="\n".join(f"    heli2dof_real {member}" for member in _members(controller)),
+        start=prototypes["start"],
+        rates=rates,
+        inputs=_inputs(controller),
+        step=prototypes["step"],
     )
 
 
 def render_source(spec: Spec, link: str = "") -> str:
     """The constants and the functions."""
-    controller = _Controller.of(spec)
-    loop, integrates = controller.loop, controller.loop.has_integrators
-    F, b = rate_filter(controller.sample_time)
+    controller = Controller.of(spec)
     parts = [
         f"/*\n{_head(spec, 'c-source', link)}\n */",
         f'#include "{_STEM}.h"',
         "#define R(x) ((heli2dof_real)(x))",
         "\n".join(_constants(controller)),
-        _FILTER.format(
-            filter=_matrix("FILTER", F),
-            gain=_vector("FILTER_GAIN", b),
-            rate=f"R({FILTER_FREQUENCY**2!r})",
-            largest=_number(LARGEST_READING),
-            integrals="        state->integral[i] = R(0.0);\n" if integrates else "",
-        ),
-        _step(
-            controller, proportional=bool(loop.proportional.any()), feedforward=bool(loop.feedforward.any())
-        ),
+        "\n".join([*_inner_constants(controller), _LARGEST]),
+        c_text.HOLD.rstrip(),
     ]
-    return "\n\n".join(parts) + "\n"
+    functions = [c_text.start(controller)]
+    if controller.sampled is None:
+        functions += [c_text.rates(controller)]
+    else:
+        functions += [c_text.observe(len(controller.sampled[0]))]
+    functions += [c_text.step(controller)]
+    return "\n\n".join([*parts, *map("\n".join, functions)]) + "\n"
 
 
 def _head(spec: Spec, name: str, link: str) -> str:
     safe = link.replace("*", "%2A")  # nothing in a link may end the comment
-    return "\n".join(f" * {line}" for line in origin(spec, name, safe))
+    return _comment(origin(spec, name, safe))
 
 
-def _discretization(controller: _Controller) -> str:
+def _comment(lines: list[str]) -> str:
+    return "\n".join(f" * {line}".rstrip() for line in lines)
+
+
+def _discretization(spec: Spec, controller: Controller) -> list[str]:
     ms = 1e3 * controller.sample_time
     lines = [
         f"Discretization: sample time {ms:g} ms, voltages held between samples (zero-order hold).",
-        "The state feedback and the PI loops' proportional part act on the sample itself;",
+        "The state feedback and the PI loops' proportional part act on the sample itself;"
+        if controller.sampled is None
+        else "The PI loops' proportional part acts on the sample itself, the state feedback on the estimate;",
     ]
-    if controller.loop.has_integrators:
+    if controller.integrates:
         lines += [
             "the integrals are sums, z += Ts * error (forward Euler), updated after the voltages,",
             "so that a sample's voltages hold the errors before it. Anti-windup:",
-            f"{_WINDUP_WORDS[controller.windup]}.",
+            f"{_windup_in_words(controller)}.",
         ]
     else:
         lines += ["nothing integrates."]
-    lines += [
-        f"The rate filters, 2nd order, {FILTER_FREQUENCY:.6g} rad/s, damping {FILTER_DAMPING:g}, are exact for",
-        "held angles.",
+    if controller.sampled is None:
+        lines += [
+            f"The rate filters, 2nd order, {FILTER_FREQUENCY:.6g} rad/s, damping {FILTER_DAMPING:g}, are exact for",
+            "held angles.",
+        ]
+    return lines + _observer_in_words(spec, controller)
+
+
+def _observer_in_words(spec: Spec, controller: Controller) -> list[str]:
+    observer, states = controller.observer, controller.loop.design.states
+    if observer is None:
+        return []
+    names = [state.name for state in states[: observer.order]]
+    late = (
+        "those that the motors have during this sample, computed one sample before, the trim before the first"
+        if controller.delay
+        else "those of this sample"
+    )
+    rotors = "The rotors' speeds v_p, v_y, as the voltages that would hold them, follow the voltages alone."
+    return [
+        "",
+        f"The states are not measured. The feedback acts on {estimator_in_words(spec)}:",
+        "x' = A x + B u + L (y - C x), y the angles, u the voltages, all in deviations from the trim;",
+        f"poles of A - LC {poles_in_words(observer.poles.tolist())} rad/s. State: {', '.join(names)}.",
+        *[rotors] * (observer.order > 4),
+        "From sample to sample it is exact for angles and voltages that are held between them. It predicts:",
+        "a sample's voltages use the estimate from the samples before it, and then the estimate goes on by this",
+        f"sample's angles and by the voltages, after the limits: {late}.",
     ]
-    return "\n".join(f" * {line}" for line in lines)
 
 
-_WINDUP_WORDS = {
-    0: "none",
-    CLAMPING: "clamping (an integral that drives its motor farther beyond its limit stands still)",
-    BACK_CALCULATION: "back-calculation (the integrals follow what the limits leave)",
-}
+def _windup_in_words(controller: Controller) -> str:
+    if controller.clamps:
+        return "clamping (an integral that drives its motor farther beyond its limit stands still)"
+    if controller.tracks:
+        return "back-calculation (the integrals follow what the limits leave)"
+    return "none"
 
 
-def _number(value: float) -> str:
-    return f"R({float(value)!r})"
+def _use(controller: Controller) -> list[str]:
+    """What the caller does at every sample, and what becomes of bad readings."""
+    if controller.sampled is not None:
+        calls = [
+            "At every sample: read the angles, call heli2dof_step, and give the voltages to the motors, every time:",
+            "the estimate relies on it. Angles in rad, absolute; voltages in V, as the motors",
+        ]
+        read, spoilt = "An angle or reference", "the estimate nor integrals"
+    elif controller.rotors_measured:
+        unless = "" if controller.measured == "filtered" else " (unless the rates are measured)"
+        calls = [
+            f"At every sample: read the angles and the rotors' speeds, call heli2dof_rates{unless}, then",
+            "heli2dof_step, and give the voltages to the motors. A rotor's speed is told by the voltage that",
+            "would hold it, in V, absolute. Angles in rad, absolute; rates in rad/s; voltages in V, as the motors",
+        ]
+        read, spoilt = "An angle, rate, rotor's speed or reference", "filters nor integrals"
+    else:
+        unless = "" if controller.measured == "filtered" else " (unless the rates are measured)"
+        calls = [
+            f"At every sample: read the angles, call heli2dof_rates{unless}, then heli2dof_step,",
+            "and give the voltages to the motors. Angles in rad, absolute; rates in rad/s; voltages in V, "
+            "as the motors",
+        ]
+        read, spoilt = "An angle, rate or reference", "filters nor integrals"
+    return [
+        *calls,
+        "get them, trim included. Order: pitch, yaw. No allocation, no library, no global state.",
+        "Where the voltages reach the motors one sample late, they have the trim until the first ones arrive.",
+        "",
+        f"{read} that is NaN, infinite or beyond +-{LARGEST_READING:g} counts as not read: in its place stands",
+        f"the last good one, for each axis by itself, so that neither {spoilt} are spoilt and the controller",
+        "goes on with the next good reading. A rig whose readings stay away for long is not controlled: "
+        "the caller must",
+        "stop it. This needs IEEE arithmetic; do not compile with -ffast-math or -ffinite-math-only.",
+        "Compile with -DHELI2DOF_REAL=float for single precision.",
+    ]
 
 
-def _vector(name: str, values: Iterable[float], unit: str = "") -> str:
-    comment = f" /* {unit} */" if unit else ""
-    return f"static const heli2dof_real {name}[2] = {{{', '.join(map(_number, values))}}};{comment}"
+def _members(controller: Controller) -> list[str]:
+    """Of the state."""
+    good = (
+        "angles[2], "
+        + "rates[2], " * (controller.sampled is None)
+        + "rotors[2], " * controller.rotors_measured
+    )
+    return [
+        "filter[2][2]; /* of the rate filters, per axis */"
+        if controller.sampled is None
+        else f"estimate[{len(controller.sampled[0])}]; /* of the states, in deviations from the trim */",
+        *["integral[2]; /* of the errors of pitch and yaw, rad s */"] * controller.integrates,
+        *["motors[2]; /* the voltages on their way to the motors, V */"] * controller.told_late,
+        f"{good}reference[2]; /* the last good ones */",
+    ]
 
 
-def _matrix(name: str, rows: Floats, unit: str = "") -> str:
-    comment = f" /* {unit} */" if unit else ""
-    inner = ",\n".join(f"    {{{', '.join(map(_number, row))}}}" for row in rows.tolist())
-    return f"static const heli2dof_real {name}[2][{rows.shape[1]}] = {{{comment}\n{inner}\n}};"
+def _inputs(controller: Controller) -> str:
+    if controller.sampled is not None:
+        return "angles and reference angles"
+    return (
+        "angles, rates, rotors' speeds and reference angles"
+        if controller.rotors_measured
+        else ("angles, rates and reference angles")
+    )
 
 
-def _constants(controller: _Controller) -> list[str]:
+def _constants(controller: Controller) -> list[str]:
     loop = controller.loop
+    units = ("V/rad", "V/rad", "V s/rad", "V s/rad", "V/V", "V/V")[: loop.design.K.shape[1]]
     lines = [
-        _matrix("K", loop.design.K, "u = -K x + v; V/rad, V/rad, V s/rad, V s/rad"),
-        _vector("OPERATING_POINT", (loop.design.plant.theta_0, 0.0), "rad"),
-        _vector("TRIM", controller.trim, "V"),
+        matrix("K", loop.design.K, f"u = -K x + v; {', '.join(units)}"),
+        vector("OPERATING_POINT", (loop.design.plant.theta_0, 0.0), "rad"),
+        vector("TRIM", controller.trim, "V"),
     ]
+    if controller.sampled is not None or controller.rotors_measured:
+        lines.append(
+            vector("REST", loop.design.trim, "voltages and rotors' speeds of the rig at rest there, V")
+        )
+    if controller.told_late:
+        lines.append(
+            vector("BEFORE", controller.before, "what the motors have until the first ones arrive, V")
+        )
     if loop.proportional.any():
-        lines.append(_matrix("PROPORTIONAL", loop.proportional, "volts of each motor per error, V/rad"))
+        lines.append(matrix("PROPORTIONAL", loop.proportional, "volts of each motor per error, V/rad"))
     if loop.feedforward.any():
-        lines.append(_matrix("FEEDFORWARD", loop.feedforward, "G(0)^-1, V/rad"))
+        lines.append(matrix("FEEDFORWARD", loop.feedforward, "G(0)^-1, V/rad"))
     if loop.integral is not None:
-        lines.append(_matrix("INTEGRAL", loop.integral, "per integral of the errors, V/(rad s)"))
-        lines.append(f"static const heli2dof_real SAMPLE_TIME = {_number(controller.sample_time)}; /* s */")
+        lines.append(matrix("INTEGRAL", loop.integral, "per integral of the errors, V/(rad s)"))
+        lines.append(f"static const heli2dof_real SAMPLE_TIME = {number(controller.sample_time)}; /* s */")
     if controller.limited:
-        lines.append(_vector("LIMIT", controller.limits, "V"))
-    if controller.windup == BACK_CALCULATION:
-        lines.append(_matrix("TRACKING", controller.tracking, "rad/(V s)"))
-    if controller.windup == CLAMPING:
+        lines.append(vector("LIMIT", controller.limits, "V"))
+    if controller.tracks:
+        lines.append(matrix("TRACKING", controller.tracking, "rad/(V s)"))
+    if controller.clamps:
         motors = ", ".join(map(str, controller.motor_of))
         lines.append(
             f"static const int MOTOR_OF[2] = {{{motors}}}; /* the motor that each integral drives */"
@@ -182,67 +219,21 @@ def _constants(controller: _Controller) -> list[str]:
     return lines
 
 
-def _step(controller: _Controller, *, proportional: bool, feedforward: bool) -> str:
-    integrates = controller.loop.has_integrators
-    errors = proportional or integrates
-    asked = ["        heli2dof_real u = TRIM[i];"]
-    asked += [
-        "        for (j = 0; j < 2; j++) {",
-        "            u -= K[i][j] * (state->angles[j] - OPERATING_POINT[j]);",
+def _inner_constants(controller: Controller) -> list[str]:
+    """Of the rate filters, or of the observer."""
+    if controller.sampled is not None:
+        names = ("ESTIMATE", "BY_ANGLES", "BY_VOLTAGES")
+        return [matrix(name, rows) for name, rows in zip(names, controller.sampled, strict=True)]
+    F, b = rate_filter(controller.sample_time)
+    return [
+        "/* x+ = FILTER x + FILTER_GAIN angle, rate = FILTER_RATE x[1] */",
+        matrix("FILTER", F),
+        vector("FILTER_GAIN", b),
+        f"static const heli2dof_real FILTER_RATE = {number(FILTER_FREQUENCY**2)};",
     ]
-    asked += ["            u -= K[i][2 + j] * state->rates[j];"]
-    asked += ["            u += PROPORTIONAL[i][j] * error[j];"] * proportional
-    asked += [
-        "            u += FEEDFORWARD[i][j] * (state->reference[j] - OPERATING_POINT[j]);"
-    ] * feedforward
-    asked += ["            u += INTEGRAL[i][j] * state->integral[j];"] * integrates + ["        }"]
-    if controller.limited:
-        asked += ["        voltages[i] = u > LIMIT[i] ? LIMIT[i] : u < -LIMIT[i] ? -LIMIT[i] : u;"]
-    else:
-        asked += ["        voltages[i] = u;"]
-    cut = controller.windup in (CLAMPING, BACK_CALCULATION)
-    asked += ["        asked[i] = u;"] * (controller.windup == CLAMPING) + [
-        "        cut[i] = voltages[i] - u;"
-    ] * cut
-    lines = [
-        "void heli2dof_step(heli2dof_state *state, const heli2dof_real angles[2], const heli2dof_real rates[2],"
-    ]
-    lines += ["                   const heli2dof_real reference[2], heli2dof_real voltages[2])", "{"]
-    names = ["error[2]"] * errors + ["asked[2]"] * (controller.windup == CLAMPING) + ["cut[2]"] * cut
-    lines += [f"    heli2dof_real {', '.join(names)};"] * bool(names) + ["    int i, j;", ""]
-    lines += ["    hold(state->angles, angles);", "    hold(state->rates, rates);"]
-    lines += ["    hold(state->reference, reference);"]
-    lines += [
-        "    for (i = 0; i < 2; i++)",
-        "        error[i] = state->reference[i] - state->angles[i];",
-    ] * errors
-    lines += ["    for (i = 0; i < 2; i++) {", *asked, "    }"]
-    if integrates:
-        lines += [
-            "    for (i = 0; i < 2; i++) {",
-            "        heli2dof_real e = error[i];",
-            *_windup(controller.windup),
-        ]
-        lines += ["        state->integral[i] += SAMPLE_TIME * e;", "    }"]
-    return "\n".join([*lines, "}"])
 
 
-def _windup(kind: int) -> list[str]:
-    if kind == BACK_CALCULATION:
-        return ["        e += TRACKING[i][0] * cut[0] + TRACKING[i][1] * cut[1];"]
-    if kind == CLAMPING:
-        return [
-            "        const int motor = MOTOR_OF[i];",
-            "        const int beyond = cut[motor] > R(0.0) || cut[motor] < R(0.0);",
-            "        if (beyond && INTEGRAL[motor][i] * e * asked[motor] > R(0.0))",
-            "            e = R(0.0);",
-        ]
-    return []
-
-
-_INTEGRALS = "    heli2dof_real integral[2]; /* of the errors of pitch and yaw, rad s */\n"
-LARGEST_READING = 1e6
-"""Angles, rates and references beyond this, rad or rad/s, are no readings, as are NaN and infinity."""
+_LARGEST = f"static const heli2dof_real LARGEST_READING = {number(LARGEST_READING)};"
 
 _HEADER = """\
 /*
@@ -250,16 +241,7 @@ _HEADER = """\
  *
 {discretization}
  *
- * At every sample: read the angles, call heli2dof_rates (unless the rates are measured), then heli2dof_step,
- * and give the voltages to the motors. Angles in rad, absolute; rates in rad/s; voltages in V, as the motors
- * get them, trim included. Order: pitch, yaw. No allocation, no library, no global state.
- * Where the voltages reach the motors one sample late, they have the trim until the first ones arrive.
- *
- * An angle, rate or reference that is NaN, infinite or beyond +-{largest:g} counts as not read: in its place stands
- * the last good one, for each axis by itself, so that neither filters nor integrals are spoilt and the controller
- * goes on with the next good reading. A rig whose readings stay away for long is not controlled: the caller must
- * stop it. This needs IEEE arithmetic; do not compile with -ffast-math or -ffinite-math-only.
- * Compile with -DHELI2DOF_REAL=float for single precision.
+{use}
  */
 #ifndef HELI2DOF_CONTROLLER_H
 #define HELI2DOF_CONTROLLER_H
@@ -278,19 +260,14 @@ extern "C" {{
 
 /* What the controller remembers between samples. */
 typedef struct {{
-    heli2dof_real filter[2][2]; /* of the rate filters, per axis */
-{integrals}    heli2dof_real angles[2], rates[2], reference[2]; /* the last good ones */
+{members}
 }} heli2dof_state;
 
 /* Before the first sample: the rig rests at these angles; one that is not read is taken at the operating point. */
-void heli2dof_start(heli2dof_state *state, const heli2dof_real angles[2]);
+{start}
 
-/* Rates from the angles of this sample, by the filters; once per sample. */
-void heli2dof_rates(heli2dof_state *state, const heli2dof_real angles[2], heli2dof_real rates[2]);
-
-/* Voltages of this sample from its angles, rates and reference angles. */
-void heli2dof_step(heli2dof_state *state, const heli2dof_real angles[2], const heli2dof_real rates[2],
-                   const heli2dof_real reference[2], heli2dof_real voltages[2]);
+{rates}/* Voltages of this sample from its {inputs}. */
+{step}
 
 #ifdef __cplusplus
 }}
@@ -299,53 +276,11 @@ void heli2dof_step(heli2dof_state *state, const heli2dof_real angles[2], const h
 #endif
 """
 
-_FILTER = """\
-/* x+ = FILTER x + FILTER_GAIN angle, rate = FILTER_RATE x[1] */
-{filter}
-{gain}
-static const heli2dof_real FILTER_RATE = {rate};
-static const heli2dof_real LARGEST_READING = {largest};
+_RATES = """\
+/* Rates from the angles of this sample, by the filters; once per sample. */
+{prototype}
 
-/* The last good values: what is not read changes nothing. A comparison with NaN is false. */
-static void hold(heli2dof_real good[2], const heli2dof_real read[2])
-{{
-    int i;
-
-    for (i = 0; i < 2; i++)
-        if (read[i] >= -LARGEST_READING && read[i] <= LARGEST_READING)
-            good[i] = read[i];
-}}
-
-void heli2dof_start(heli2dof_state *state, const heli2dof_real angles[2])
-{{
-    int i;
-
-    for (i = 0; i < 2; i++) {{
-        state->angles[i] = OPERATING_POINT[i];
-        state->rates[i] = R(0.0);
-{integrals}    }}
-    hold(state->angles, angles);
-    for (i = 0; i < 2; i++) {{
-        state->reference[i] = state->angles[i];
-        state->filter[i][0] = state->angles[i] / FILTER_RATE;
-        state->filter[i][1] = R(0.0);
-    }}
-}}
-
-void heli2dof_rates(heli2dof_state *state, const heli2dof_real angles[2], heli2dof_real rates[2])
-{{
-    int i;
-
-    hold(state->angles, angles);
-    for (i = 0; i < 2; i++) {{
-        heli2dof_real *x = state->filter[i];
-        const heli2dof_real x0 = x[0], x1 = x[1];
-
-        rates[i] = FILTER_RATE * x1;
-        x[0] = FILTER[0][0] * x0 + FILTER[0][1] * x1 + FILTER_GAIN[0] * state->angles[i];
-        x[1] = FILTER[1][0] * x0 + FILTER[1][1] * x1 + FILTER_GAIN[1] * state->angles[i];
-    }}
-}}"""
+"""
 
 _format = partial(Format, stem=_STEM)
 HEADER = _format("c-header", "Controller in C99: header", ".h", "text/x-c; charset=utf-8", render_header)

@@ -2,32 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 
-import numpy as np
-
-from ..design import Design
-from ..estimators import FILTER_DAMPING, FILTER_FREQUENCY, Estimator, Observer
-from ..rotors import Actuators
-from ..signals import AXES, Floats
+from ..estimators import FILTER_DAMPING, FILTER_FREQUENCY, Observer
+from ..signals import AXES
 from ..spec import Spec
 from ..tables import number
 
 
-def rotors_in_words(actuators: Actuators | None) -> str:
+def machine_lines(spec: Spec) -> list[str]:
+    """Lines in ASCII on rotors, friction, and what the feedback acts on; none on what is as in the paper."""
+    parts = (
+        ("Rotors", rotors_in_words(spec)),
+        ("Friction", friction_in_words(spec)),
+        ("The feedback acts on", estimator_in_words(spec)),
+    )
+    return [f"{head}: {words}" for head, words in parts if words]
+
+
+def rotors_in_words(spec: Spec) -> str:
     """Lag and thrust curve of both motors' rotors; empty where thrust follows the voltages."""
+    actuators = spec.actuators
     if actuators is None:
         return ""
-    return "; ".join(_rotor(actuators, j, axis) for j, axis in enumerate(AXES) if _own(actuators, j))
+    words = []
+    for axis, tau, dead, square, slope in zip(
+        AXES, actuators.tau, actuators.dead_zone, actuators.square, actuators.slope, strict=True
+    ):
+        parts = [f"lags by {in_ascii(tau)} s"] if tau else []
+        if square:
+            zone = f"(|v| - {in_ascii(dead)})^2" if dead else "v^2"
+            parts.append(f"thrust {in_ascii(square)} {zone}, {in_ascii(slope)} times as steep at the trim")
+        if parts:
+            words.append(f"{axis} {', '.join(parts)}")
+    return "; ".join(words)
 
 
-def friction_in_words(actuators: Actuators | None) -> str:
+def friction_in_words(spec: Spec) -> str:
     """Of both axes; empty where there is none."""
+    actuators = spec.actuators
     if actuators is None:
         return ""
-    both = zip(AXES, actuators.coulomb.tolist(), actuators.breakaway.tolist(), strict=True)
+    both = zip(AXES, actuators.coulomb, actuators.breakaway, strict=True)
     return "; ".join(
-        f"{axis} {ascii_number(moving)} N m against the motion, {ascii_number(rest)} N m at rest"
+        f"{axis} {in_ascii(moving)} N m against the motion, {in_ascii(rest)} N m at rest"
         for axis, moving, rest in both
         if rest
     )
@@ -35,69 +53,27 @@ def friction_in_words(actuators: Actuators | None) -> str:
 
 def estimator_in_words(spec: Spec) -> str:
     """What the feedback acts on; empty where it has the states."""
-    measured = spec.scenario.measured
+    measured, observer = spec.scenario.measured, spec.observer or Observer()
     if measured == "states":
         return ""
     if measured == "filtered":
-        return f"angles and rates filtered from them, 2nd order, {FILTER_FREQUENCY:.6g} rad/s, damping {FILTER_DAMPING:g}"
-    observer = spec.observer or Observer()
+        words = f"2nd order, {FILTER_FREQUENCY:.6g} rad/s, damping {FILTER_DAMPING:g}"
+        return f"the angles and their filtered rates, {words}"
     if observer.method == "kalman":
+        voltages, angles = in_ascii(observer.voltage_noise), in_ascii(observer.angle_noise)
         return (
-            f"the estimate of a Kalman filter for white noise of {ascii_number(observer.voltage_noise)} V/sqrt(Hz) on "
-            f"the voltages and {ascii_number(observer.angle_noise)} rad/sqrt(Hz) on the angles"
+            f"the estimate of a Kalman filter for white noise of {voltages} V/sqrt(Hz) on the voltages and "
+            f"{angles} rad/sqrt(Hz) on the angles"
         )
-    poles = ", ".join(map(ascii_number, observer.poles.values))
-    return f"an observer's estimate, poles of A - LC {poles} rad/s, {observer.structure.title}"
+    poles = poles_in_words(observer.poles.values)
+    return f"the estimate of an observer, {observer.structure.title}, with poles {poles} rad/s"
 
 
-def machine_lines(spec: Spec) -> Iterator[str]:
-    """Lines for the head of a file, in ASCII."""
-    parts = (
-        ("Rotors", rotors_in_words(spec.actuators)),
-        ("Friction", friction_in_words(spec.actuators)),
-        ("The feedback acts on", estimator_in_words(spec)),
-    )
-    return (f"{head}: {words}" for head, words in parts if words)
+def poles_in_words(poles: Iterable[complex]) -> str:
+    """Poles as text, in ASCII."""
+    return ", ".join(map(in_ascii, poles))
 
 
-def ascii_number(value: complex) -> str:
-    """As the tables write it, in ASCII."""
+def in_ascii(value: complex) -> str:
+    """A number or pole as the tables write it, in ASCII."""
     return number(value, 6, minus="-", gap="")
-
-
-def estimated_names(design: Design, estimator: Estimator) -> tuple[str, ...]:
-    """What the states of an estimator are, by their names."""
-    if estimator.measured == "filtered":
-        return "theta: x_1", "theta: x_2", "psi: x_1", "psi: x_2"
-    return tuple(signal.name for signal in design.states[: estimator.order])
-
-
-def with_lag(design: Design) -> tuple[Floats, Floats] | None:
-    """A and B of the rig with the rotors that lag, x = [θ, ψ, θ̇, ψ̇, v …]; None where none lags.
-
-    Their order is 5 where one of them follows at once.
-    """
-    actuators = design.actuators
-    if actuators is None or not actuators.lags:
-        return None
-    thrust, lags = design.plant.B * actuators.slope, actuators.tau > 0.0
-    late, rates = np.eye(2)[:, lags], np.diag(1.0 / actuators.tau[lags])
-    below = np.zeros((len(rates), 4))
-    A = np.block([[design.plant.A, thrust @ late], [below, -rates]])
-    return A, np.vstack((thrust * ~lags, rates @ late.T))
-
-
-def _own(actuators: Actuators, j: int) -> bool:
-    return bool(actuators.tau[j] or actuators.square[j])
-
-
-def _rotor(actuators: Actuators, j: int, axis: str) -> str:
-    tau, dead, square = (float(x[j]) for x in (actuators.tau, actuators.dead_zone, actuators.square))
-    parts = [f"lags, time constant {ascii_number(tau)} s"] if tau else []
-    if square:
-        zone = f" beyond {ascii_number(dead)} V" if dead else ""
-        slope = ascii_number(float(actuators.slope[j]))
-        parts.append(
-            f"thrust grows with the square of its speed{zone}, {slope} times the linear slope at the trim"
-        )
-    return f"{axis} {', '.join(parts)}"

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
 
 from ..body import body_of
 from ..placement.registry import METHODS
 from ..presets import PRESETS, Preset
 from ..signals import AXES
 from ..spec import Spec
-from ..tables import number
 from ..version import package_version
+from .machine import machine_lines, poles_in_words
 
 
 def preset_of(spec: Spec) -> Preset:
@@ -28,7 +27,9 @@ def origin(spec: Spec, name: str, link: str = "") -> list[str]:
         f"heli2dof {package_version()}",
         f"Rig: {preset.title}, preset {preset.name}" + (f", with {', '.join(changes)}" if changes else ""),
         f"Operating point: pitch {spec.theta_0!r} rad, yaw 0 rad",
+        *machine_lines(spec),
         f"Requested poles: {poles_in_words(spec.poles.values)} rad/s"
+        + (f", the rotors' {poles_in_words(spec.rotor_poles)} rad/s" if spec.place_rotors else "")
         + ("" if method.places_poles else f" ({method.name} chooses its own)"),
         f"Placement: {structure_in_words(spec)}; outer loop: {outer_in_words(spec)}",
         f"Made again by POST /api/v1/export/{name} with the body",
@@ -61,8 +62,3 @@ def outer_in_words(spec: Spec) -> str:
         ", decoupler" if outer.decoupler else ""
     )
     return f"PI, {'; '.join(gains)}{more}"
-
-
-def poles_in_words(poles: Iterable[complex]) -> str:
-    """Poles as text, in ASCII."""
-    return ", ".join(number(p, 6, minus="-", gap="") for p in poles)
