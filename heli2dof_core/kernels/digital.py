@@ -213,6 +213,9 @@ def rig_without_feedback(size, c, m, plant, free):
     copy_into(c, plant)
     for j in range(12):
         plant[GAIN + j] = 0.0
+    if len(size) > PLAIN:
+        for j in range(MORE_GAIN, USUAL):
+            plant[j] = 0.0
     plant[LIMIT], plant[LIMIT + 1] = np.inf, np.inf
     copy_into(m, free)
     free[WINDUP] = 0
