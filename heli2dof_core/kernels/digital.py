@@ -54,6 +54,7 @@ from .layout import (
     TIME,
     TRACKING,
     TRAVEL,
+    USUAL,
     WANTED,
     WINDUP,
     WORKSPACE,
