@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from textwrap import wrap
 
 from ..estimators import FILTER_DAMPING, FILTER_FREQUENCY
 from ..simulation.digital import rate_filter
@@ -92,23 +93,24 @@ def _observer_in_words(spec: Spec, controller: Controller) -> list[str]:
     observer, states = controller.observer, controller.loop.design.states
     if observer is None:
         return []
-    names = [state.name for state in states[: observer.order]]
-    late = (
-        "those that the motors have during this sample, computed one sample before, the trim before the first"
+    names = ", ".join(state.name for state in states[: observer.order])
+    poles = poles_in_words(observer.poles.tolist())
+    rotors = "The rotors' speeds v_p, v_y, as the voltages that would hold them, follow the voltages alone. "
+    told = (
+        "those that the motors have during this sample, which were computed one sample before, and the trim before "
+        "the first"
         if controller.delay
         else "those of this sample"
     )
-    rotors = "The rotors' speeds v_p, v_y, as the voltages that would hold them, follow the voltages alone."
-    return [
-        "",
-        f"The states are not measured. The feedback acts on {estimator_in_words(spec)}:",
-        "x' = A x + B u + L (y - C x), y the angles, u the voltages, all in deviations from the trim;",
-        f"poles of A - LC {poles_in_words(observer.poles.tolist())} rad/s. State: {', '.join(names)}.",
-        *[rotors] * (observer.order > 4),
-        "From sample to sample it is exact for angles and voltages that are held between them. It predicts:",
-        "a sample's voltages use the estimate from the samples before it, and then the estimate goes on by this",
-        f"sample's angles and by the voltages, after the limits: {late}.",
-    ]
+    words = (
+        f"The states are not measured: the feedback acts on {estimator_in_words(spec)}.",
+        f"x' = A x + B u + L (y - C x) for x = ({names}), y the angles, u the voltages, all in deviations from the "
+        f"trim; poles of A - LC: {poles} rad/s. {rotors * (observer.order > 4)}From sample to sample it is exact for "
+        "angles and voltages that are held between them. It predicts: a sample's voltages use the estimate from the "
+        "samples before it, which then goes on by this sample's angles and by the voltages after their limits, "
+        f"{told}.",
+    )
+    return ["", *(line for paragraph in words for line in wrap(paragraph, 110))]
 
 
 def _windup_in_words(controller: Controller) -> str:
