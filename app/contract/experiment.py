@@ -106,12 +106,17 @@ class Metrics(Model):
 
 
 class States(Model):
-    """What the outputs do not show, rad/s and rad·s; the integrals are left out where nothing integrates."""
+    """What the outputs do not show; the integrals are left out where nothing integrates."""
 
     theta_dot: list[float] = Field(description="rad/s")
     psi_dot: list[float] = Field(description="rad/s")
     z_p: list[float] | None = Field(None, description="integral of the pitch error, rad·s")
     z_y: list[float] | None = Field(None, description="integral of the yaw error, rad·s")
+    w: list[list[float]] | None = Field(
+        None,
+        description="states of what estimates, a row each, in deviations from the trim: an observer's theta, psi, "
+        "theta_dot, psi_dot and, where the rotors are placed, v_p, v_y; or filters' angles and rates by frequency",
+    )
 
 
 class Rotors(Model):
@@ -189,13 +194,13 @@ def step_reply(step: CoreStep, loop: Loop, common: Reply | None = None) -> Reply
 
 
 def states_reply(step: CoreStep) -> Reply:
-    """The states that are no outputs, under ``states``; the integrals where anything integrates."""
-    states = step.response.states
-    if states is None:
-        return {}
+    """The states that are no outputs and no rotors' speeds, under ``states``: those that this response has."""
+    response = step.response
+    rows = {signal.name: row for signal, row in zip(response.signals, response.states, strict=False)}
     hidden = (*STATES[len(OUTPUTS) :], *INTEGRALS)
-    rows = states[len(OUTPUTS) :]
-    return {"states": {signal.name: row for signal, row in zip(hidden, rows, strict=False)}}
+    found: Reply = {signal.name: rows[signal.name] for signal in hidden if signal.name in rows}
+    estimate = [row for name, row in rows.items() if name.startswith("w_")]
+    return {"states": found | ({"w": estimate} if estimate else {})}
 
 
 def metrics_reply(metrics: StepMetrics) -> Reply:

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..estimators import FILTER_DAMPING, FILTER_FREQUENCY, Observer
-from ..signals import AXES
+import numpy as np
+
+from ..design import Design
+from ..estimators import FILTER_DAMPING, FILTER_FREQUENCY, Estimator, Observer
+from ..signals import AXES, Floats
 from ..spec import Spec
 from ..tables import number
 
@@ -67,6 +70,27 @@ def estimator_in_words(spec: Spec) -> str:
         )
     poles = poles_in_words(observer.poles.values)
     return f"the estimate of an observer, {observer.structure.title}, with poles {poles} rad/s"
+
+
+def estimated_in_words(design: Design, estimator: Estimator) -> str:
+    """What the states of an estimator are, in ASCII."""
+    names = [f"w_{i}" for i in range(1, estimator.order + 1)]
+    if estimator.L is None:
+        what = ["theta filtered", "its rate / omega", "psi filtered", "its rate / omega"]
+    else:
+        what = [signal.name for signal in design.states[: estimator.order]]
+    return ", ".join(f"{name}: {own}" for name, own in zip(names, what, strict=True))
+
+
+def with_lag(design: Design) -> tuple[Floats, Floats]:
+    """A and B of the rig with the speeds of the rotors that lag behind its four states, n×n and n×2."""
+    plant, actuators = design.plant, design.actuators
+    if actuators is None:
+        return plant.A, plant.B
+    lagging, thrust = actuators.tau > 0.0, plant.B * actuators.slope
+    late, lag = np.eye(2)[:, lagging], np.diag(1.0 / actuators.tau[lagging])
+    A = np.block([[plant.A, thrust @ late], [np.zeros((len(lag), 4)), -lag]])
+    return A, np.vstack((thrust * ~lagging, lag @ late.T))
 
 
 def poles_in_words(poles: Iterable[complex]) -> str:

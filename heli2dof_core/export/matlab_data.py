@@ -8,10 +8,12 @@ from typing import Any
 import numpy as np
 
 from ..evaluate import evaluate
+from ..loop import Loop
 from ..signals import C
 from ..spec import Spec
 from ..version import package_version
 from .format import Format
+from .machine import with_lag
 from .origin import origin
 
 _TEXT = 116
@@ -34,7 +36,7 @@ def render(spec: Spec, link: str = "") -> bytes:
         "D": np.zeros((2, 2)),
         "trim": design.trim[:, None],
         "K": design.K,
-        "poles": design.poles.array[:, None],
+        "poles": design.wanted[:, None],
         "placed": design.closed_loop_poles[:, None],
         "P": loop.proportional,
         "F": loop.feedforward,
@@ -44,6 +46,8 @@ def render(spec: Spec, link: str = "") -> bytes:
         "law": loop.voltage_from_state,
         "law_of_reference": loop.voltage_from_reference,
         "loop_poles": loop.poles[:, None],
+        **_machine(loop),
+        **_estimator(loop),
         "t": report.step["linear"].response.t[:, None],
         "reference": np.array(report.step["linear"].response.reference)[:, None],
         **{
@@ -57,6 +61,30 @@ def render(spec: Spec, link: str = "") -> bytes:
         _TEXT
     )  # SciPy's holds the date
     return head + file.getvalue()[_TEXT:]
+
+
+def _machine(loop: Loop) -> dict[str, Any]:
+    """Rotors and friction of the rig, by the motor or the axis, and what it is with the rotors that lag."""
+    actuators = loop.actuators
+    if actuators is None:
+        return {}
+    names = ("tau", "dead_zone", "square", "slope", "coulomb", "breakaway")
+    found = {name: getattr(actuators, name)[:, None] for name in names}
+    if actuators.lags:
+        found["A_plus"], found["B_plus"] = with_lag(loop.design)
+    return found
+
+
+def _estimator(loop: Loop) -> dict[str, Any]:
+    """What estimates x, w' = F_w w + G_w y + H_w u, x = x_from_w w + x_from_y y, in deviations."""
+    estimator = loop.estimator
+    if estimator is None:
+        return {}
+    found = {"F_w": estimator.F, "G_w": estimator.G, "H_w": estimator.H}
+    found |= {"x_from_w": estimator.from_state, "x_from_y": estimator.from_angles}
+    if estimator.L is not None:
+        found |= {"L": estimator.L, "observer_poles": estimator.poles[:, None]}
+    return found
 
 
 FORMAT = Format(

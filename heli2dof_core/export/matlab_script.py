@@ -3,26 +3,27 @@
 from __future__ import annotations
 
 from ..evaluate import loop_of
+from ..loop import Loop
 from ..parameters import PARAMETER_INFO
-from ..signals import Floats
 from ..spec import Spec
+from .dialect import MATLAB
 from .format import Format
 from .origin import origin
+from .script_loop import estimator_lines, gain_comment, loop_lines, machine_lines, model_names, start_of
 
 
 def render(spec: Spec, link: str = "") -> str:
     """A script that defines rig, K, loops and the linear step response, checks them and plots."""
     loop = loop_of(spec)
-    design, scenario = loop.design, spec.scenario
-    theta, psi, *start = scenario.resolved(spec.theta_0)
-    initial = [start[0] - spec.theta_0, *start[1:], *[0.0] * (len(loop.A) - 4)]
-    wanted = design.poles.values if design.aims else design.closed_loop_poles.tolist()
-    poles = "; ".join(f"complex({p.real!r}, {p.imag!r})" for p in wanted)
+    design, scenario, matrix = loop.design, spec.scenario, MATLAB.matrix
+    theta, psi, *_ = scenario.resolved(spec.theta_0)
+    wanted = design.wanted.tolist() if design.aims else design.closed_loop_poles.tolist()
     what = "asked for" if design.aims else "chosen by the method"
     numbers = []
     for name, value in spec.parameters.as_dict().items():
         unit = PARAMETER_INFO[name].unit.replace("·", "*").replace("²", "^2")
         numbers.append(f"{name} = {value!r};  % {PARAMETER_INFO[name].meaning}, {unit}")
+    A, B = model_names(loop)
     return "\n".join(
         [
             *(f"% {line}" for line in origin(spec, FORMAT.name, link)),
@@ -31,24 +32,48 @@ def render(spec: Spec, link: str = "") -> str:
             *numbers,
             f"theta_0 = {spec.theta_0!r};  % operating point, rad",
             _PLANT,
-            f"poles = [{poles}];  % {what}, rad/s",
-            _matrix("K", design.K, "u = -K x + v, V/rad and V s/rad"),
-            _matrix("P", loop.proportional, "volts of each motor per error of pitch and yaw, V/rad"),
-            *([] if loop.integral is None else [_matrix("I_z", loop.integral, "per integral, V/(rad s)")]),
-            _matrix("F", loop.feedforward, "volts per reference, V/rad"),
-            _CHECK,
-            _INTEGRATING if loop.integral is not None else _STATIC,
+            *machine_lines(loop, MATLAB),
+            *estimator_lines(loop, MATLAB),
+            *_observer_check(loop),
+            "\n% State feedback",
+            f"poles = [{_numbers(wanted)}];  % {what}, rad/s",
+            matrix("K", design.K, gain_comment(loop)),
+            matrix("P", loop.proportional, "volts of each motor per error of pitch and yaw, V/rad"),
+            *([] if loop.integral is None else [matrix("I_z", loop.integral, "per integral, V/(rad s)")]),
+            matrix("F", loop.feedforward, "volts per reference, V/rad"),
+            _check("placed", f"{A} - {B} * K", "pole_error", "poles", len(wanted)),
+            "fprintf('The placed poles are off by %.3g rad/s.\\n', pole_error);\n",
+            *loop_lines(loop, MATLAB),
+            "loop_poles = eig(A_loop);\n",
             f"t = linspace(0, {scenario.duration!r}, {scenario.samples})';  % s",
             f"reference = [{theta!r} - theta_0; {psi!r}];  % deviations, rad",
-            f"x = [{'; '.join(map(repr, initial))}];",
+            f"x = [{'; '.join(map(repr, start_of(loop, scenario)))}];",
             _RESPONSE,
         ]
     )
 
 
-def _matrix(name: str, rows: Floats, comment: str) -> str:
-    inner = "; ...\n".join(f"    {', '.join(map(repr, row))}" for row in rows.tolist())
-    return f"% {comment}\n{name} = [ ...\n{inner} ...\n];"
+def _numbers(poles: list[complex]) -> str:
+    return "; ".join(f"complex({p.real!r}, {p.imag!r})" for p in poles)
+
+
+def _observer_check(loop: Loop) -> list[str]:
+    """The observer's poles, and how far they are from those that were asked for."""
+    if loop.estimator is None or loop.estimator.L is None:
+        return []
+    wanted = loop.estimator.wanted
+    if wanted is None:
+        return ["observed = eig(A - L * C);"]
+    return [
+        f"observer_poles = [{_numbers(wanted.tolist())}];  % asked for, rad/s",
+        _check("observed", "A - L * C", "observer_error", "observer_poles", len(wanted)),
+        "fprintf('The poles of A - LC are off by %.3g rad/s.\\n', observer_error);",
+    ]
+
+
+def _check(found: str, matrix: str, error: str, wanted: str, n: int) -> str:
+    """The eigenvalues of a matrix beside those that it should have."""
+    return _CHECK.format(found=found, matrix=matrix, error=error, wanted=wanted, n=n)
 
 
 _PLANT = """
@@ -61,36 +86,16 @@ A = [zeros(2), eye(2); ...
     0, 0, 0, -B_y / beta_0];
 B = [zeros(2); diag([alpha, beta_0]) \\ thrust];
 C = [eye(2), zeros(2)];
-trim = thrust \\ [m * g * l * cos(theta_0) + K_s * theta_0; 0];  % V
+trim = thrust \\ [m * g * l * cos(theta_0) + K_s * theta_0; 0];  % V"""
 
-% State feedback"""
-
-_CHECK = """placed = eig(A - B * K);
-pole_error = 0;  % largest distance between these and the poles, matched one to one, rad/s
-left = placed;
-for k = 1:4
-    [distance, nearest] = min(abs(left - poles(k)));
-    pole_error = max(pole_error, distance);
+_CHECK = """{found} = eig({matrix});
+{error} = 0;  % largest distance between these and the poles, matched one to one, rad/s
+left = {found};
+for k = 1:{n}
+    [distance, nearest] = min(abs(left - {wanted}(k)));
+    {error} = max({error}, distance);
     left(nearest) = [];
-end
-fprintf('The placed poles are off by %.3g rad/s.\\n', pole_error);
-"""
-
-_INTEGRATING = """% The whole loop: u = -K x + P e + I z + F r with e = r - C x and z' = e
-law = [-K - P * C, I_z];
-law_of_reference = P + F;
-A_loop = [A, zeros(4, 2); -C, zeros(2)] + [B; zeros(2)] * law;
-B_loop = [B * law_of_reference; eye(2)];
-loop_poles = eig(A_loop);
-"""
-
-_STATIC = """% The whole loop: u = -K x + P e + F r with e = r - C x
-law = -K - P * C;
-law_of_reference = P + F;
-A_loop = A + B * law;
-B_loop = B * law_of_reference;
-loop_poles = eig(A_loop);
-"""
+end"""
 
 _RESPONSE = """
 % Linear step response, exact at every sample: no limits; voltages are deviations from the trim

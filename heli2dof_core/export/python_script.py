@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 from ..evaluate import loop_of
+from ..loop import Loop
 from ..parameters import PARAMETER_INFO
-from ..signals import Floats
 from ..spec import Spec
+from .dialect import PYTHON
 from .format import Format
 from .origin import origin
+from .script_loop import estimator_lines, gain_comment, loop_lines, machine_lines, model_names, start_of
 
 
 def render(spec: Spec, link: str = "") -> str:
     """A script that needs NumPy and python-control, and Matplotlib only where it is run by itself."""
     loop = loop_of(spec)
-    design, scenario = loop.design, spec.scenario
-    theta, psi, *start = scenario.resolved(spec.theta_0)
-    order = len(loop.A)
-    initial = [start[0] - spec.theta_0, *start[1:], *[0.0] * (order - 4)]
-    wanted = design.poles.values if design.aims else design.closed_loop_poles.tolist()
-    poles = ", ".join(repr(p) if p.imag else repr(p.real) for p in wanted)
+    design, scenario, matrix = loop.design, spec.scenario, PYTHON.matrix
+    theta, psi, *_ = scenario.resolved(spec.theta_0)
+    wanted = design.wanted.tolist() if design.aims else design.closed_loop_poles.tolist()
     what = "asked for" if design.aims else "chosen by the method"
     numbers = [
         f"{name} = {value!r}  # {PARAMETER_INFO[name].meaning}, {PARAMETER_INFO[name].unit}"
@@ -33,23 +32,45 @@ def render(spec: Spec, link: str = "") -> str:
             *numbers,
             f"theta_0 = {spec.theta_0!r}  # operating point, rad",
             _PLANT,
-            f"poles = np.array([{poles}])  # {what}, rad/s",
-            _matrix("K", design.K, "u = -K x + v, V/rad and V s/rad"),
-            _matrix("P", loop.proportional, "volts of each motor per error of pitch and yaw, V/rad"),
-            *([] if loop.integral is None else [_matrix("I", loop.integral, "per integral, V/(rad s)")]),
-            _matrix("F", loop.feedforward, "volts per reference, V/rad"),
-            _INTEGRATING if loop.integral is not None else _STATIC,
+            *machine_lines(loop, PYTHON),
+            *_rig(loop),
+            *estimator_lines(loop, PYTHON),
+            *_observer_poles(loop),
+            "\n# State feedback",
+            f"poles = np.array([{_numbers(wanted)}])  # {what}, rad/s",
+            matrix("K", design.K, gain_comment(loop)),
+            matrix("P", loop.proportional, "volts of each motor per error of pitch and yaw, V/rad"),
+            *([] if loop.integral is None else [matrix("I", loop.integral, "per integral, V/(rad s)")]),
+            matrix("F", loop.feedforward, "volts per reference, V/rad"),
+            "",
+            *loop_lines(loop, PYTHON),
+            _OUTPUTS,
             f"t = np.linspace(0.0, {scenario.duration!r}, {scenario.samples})  # s",
             f"reference = np.array([{theta!r} - theta_0, {psi!r}])  # deviations, rad",
-            f"x_0 = np.array({initial!r})",
-            _RESPONSE,
+            f"x_0 = np.array({start_of(loop, scenario)!r})",
+            _response(loop),
         ]
     )
 
 
-def _matrix(name: str, rows: Floats, comment: str) -> str:
-    inner = "\n".join(f"    [{', '.join(map(repr, row))}]," for row in rows.tolist())
-    return f"{name} = np.array([  # {comment}\n{inner}\n])"
+def _numbers(poles: list[complex]) -> str:
+    return ", ".join(repr(p) if p.imag else repr(p.real) for p in poles)
+
+
+def _rig(loop: Loop) -> list[str]:
+    """The rig as it is as a system of python-control, where it is not `plant`."""
+    if loop.actuators is None:
+        return []
+    A, B = ("A_plus", "B_plus") if loop.actuators.lags else ("A", "B_thrust")
+    if B == "B_thrust" and not loop.actuators.square.any():
+        return []
+    return [f"rig = ct.ss({A}, {B}, np.eye(2, len({A})), np.zeros((2, 2)))"]
+
+
+def _observer_poles(loop: Loop) -> list[str]:
+    if loop.estimator is None or loop.estimator.wanted is None:
+        return []
+    return [f"observer_poles = np.array([{_numbers(loop.estimator.wanted.tolist())}])  # asked for, rad/s"]
 
 
 _PLANT = """
@@ -65,9 +86,7 @@ A[2, 2], A[3, 3] = -B_p / alpha, -B_y / beta_0
 B = np.vstack([np.zeros((2, 2)), np.linalg.solve(inertia, thrust)])
 C = np.eye(2, 4)
 trim = np.linalg.solve(thrust, [m * g * l * np.cos(theta_0) + K_s * theta_0, 0.0])  # V
-plant = ct.ss(A, B, C, np.zeros((2, 2)))
-
-# State feedback"""
+plant = ct.ss(A, B, C, np.zeros((2, 2)))"""
 
 _OUTPUTS = """loop = ct.ss(
     A_loop,
@@ -81,21 +100,24 @@ loop_poles = loop.poles()
 
 # Linear step response: no limits; angles in deviations from theta_0, voltages from the trim"""
 
-_INTEGRATING = f"""
-# The whole loop: u = -K x + P e + I z + F r with e = r - C x and z' = e
-law = np.hstack([-K - P @ C, I])
-law_of_reference = P + F
-A_loop = np.block([[A, np.zeros((4, 2))], [-C, np.zeros((2, 2))]]) + np.vstack([B, np.zeros((2, 2))]) @ law
-B_loop = np.vstack([B @ law_of_reference, np.eye(2)])
-{_OUTPUTS}"""
 
-_STATIC = f"""
-# The whole loop: u = -K x + P e + F r with e = r - C x
-law = -K - P @ C
-law_of_reference = P + F
-A_loop = A + B @ law
-B_loop = B @ law_of_reference
-{_OUTPUTS}"""
+def _response(loop: Loop) -> str:
+    """The linear step response, and the checks of a script that is run by itself."""
+    A, B = model_names(loop)
+    observed = ""
+    if loop.estimator is not None and loop.estimator.L is not None:
+        off = (
+            ', "rad/s, off by", distance(observed, observer_poles))'
+            if loop.estimator.wanted is not None
+            else ', "rad/s")'
+        )
+        observed = _OBSERVED.format(off=off)
+    return _RESPONSE.replace("<A - B @ K>", f"{A} - {B} @ K").replace("<observed>", observed)
+
+
+_OBSERVED = """    observed = np.linalg.eigvals(A - L @ C)
+    print("poles of A - LC:", observed{off}
+"""
 
 _RESPONSE = """response = ct.forced_response(loop, t, np.tile(reference[:, None], len(t)), x_0)
 theta, psi, V_p, V_y = response.outputs
@@ -112,9 +134,9 @@ def distance(found, wanted):
 
 if __name__ == "__main__":
     print("K =", K, sep="\\n")
-    placed = np.linalg.eigvals(A - B @ K)
+    placed = np.linalg.eigvals(<A - B @ K>)
     print("poles of A - BK:", placed, "rad/s, off by", distance(placed, poles))
-    print("poles of the whole loop:", loop_poles, "rad/s")
+<observed>    print("poles of the whole loop:", loop_poles, "rad/s")
     try:
         import matplotlib.pyplot as plt
     except ImportError:
