@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import re
 from dataclasses import replace
-from itertools import product
 from pathlib import Path
 
 import control
@@ -118,7 +117,7 @@ def test_the_python_script_says_the_same(case):
     if spec.scenario.measured == "observer" and spec.observer is not KALMAN:
         found = np.linalg.eigvals(names["A"] - names["L"] @ names["C"])
         assert names["distance"](found, names["observer_poles"]) < 1e-6
-    if spec.actuators is not None and "one-lags" not in text and spec.actuators.lags:
+    if spec.actuators is not None and spec.actuators.lags:
         assert isinstance(names["rig"], control.StateSpace) and len(names["rig"].A) == len(names["A_plus"])
 
 
@@ -198,7 +197,8 @@ def test_the_csv_holds_every_state(case):
 
 
 WORDS = (
-    "otor",
+    "rotors",
+    "Rotors",
     "friction",
     "Friction",
     "observer",
@@ -212,15 +212,13 @@ WORDS = (
 )
 
 
-@pytest.mark.parametrize(
-    ("name", "preset"), product(["python", "matlab", "c-header", "c-source", "csv"], [BASE])
-)
-def test_nothing_is_said_where_all_is_the_papers(name: str, preset: Spec):
+@pytest.mark.parametrize("name", ["python", "matlab", "c-header", "c-source", "csv"])
+def test_nothing_is_said_where_all_is_the_papers(name: str):
     """Nor where rotors are given that change nothing: a dead zone belongs to a curve."""
-    idle = replace(preset, rotors=Rotors(Rotor(dead_zone=1.0, matched_at=5.0), Rotor()))
-    plain, other = (FORMATS[name].render(spec).splitlines() for spec in (preset, idle))
+    idle = replace(BASE, rotors=Rotors(Rotor(dead_zone=1.0, matched_at=5.0), Rotor()))
+    plain, other = (FORMATS[name].render(spec).splitlines() for spec in (BASE, idle))
     assert [a for a, b in zip(plain, other, strict=True) if a != b] == [
         line for line in plain if line.endswith('{"preset": "quanser-2dof-manual"}')
     ]
-    text = "\n".join(line for line in plain if "motor (" not in line and "rotor)" not in line)
+    text = "\n".join(plain)
     assert not [word for word in WORDS if word in text]
