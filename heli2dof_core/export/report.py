@@ -5,32 +5,31 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cache
 from math import degrees
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..couplings import Structure
 from ..design import Design
 from ..evaluate import Report, evaluate
 from ..parameters import PARAMETER_INFO
 from ..placement.registry import METHODS
 from ..scenario import Model
-from ..signals import AXES, INPUTS, OUTPUTS, Floats
+from ..signals import AXES, INPUTS, OUTPUTS, ROTORS, Floats
 from ..simulation.response import Response
 from ..spec import Spec
 from ..templates import templates_beside
 from .format import Format
 from .origin import origin, preset_of
 from .report_figures import margins, merit
+from .report_formulas import formulas
+from .report_machine import words
 from .report_style import STYLE
 from .svg import Curve, Marks, chart, number, pole_map
 
-if TYPE_CHECKING:  # both would be imported before the first page
+if TYPE_CHECKING:  # would be imported before the first page
     from jinja2 import Environment
 
-    from ..symbolic.render import Formula
-
-_NAMES = ("p₁", "p₂", "p₃", "p₄")
+_NAMES = ("p₁", "p₂", "p₃", "p₄", "p₅", "p₆")
 
 
 def render(spec: Spec, link: str = "") -> str:
@@ -53,12 +52,13 @@ def render(spec: Spec, link: str = "") -> str:
             outer=_outer(spec, report),
             pole_map=_pole_map(report),
             loop_poles=[(str(i), pole(p)) for i, p in enumerate(report.loop.poles.tolist(), 1)],
-            formulas=_formulas(spec),
+            formulas=formulas(report.design),
             experiment=_experiment(spec, report),
             responses=_responses(spec, report),
             merit=merit(report),
             margins=margins(report),
             origin=origin(spec, FORMAT.name, link),
+            rig=words(spec, report),
         )
     )
 
@@ -92,10 +92,10 @@ def _placed(design: Design) -> list[tuple[str, ...]]:
     """The placed poles, after those that were asked for and with the distance from them where there were any."""
     found = design.closed_loop_poles.tolist()
     if not design.aims:
-        return [(name, pole(p)) for name, p in zip(_NAMES, found, strict=True)]
+        return [(name, pole(p)) for name, p in zip(_NAMES, found, strict=False)]
     return [
         (name, pole(p), pole(q), number(abs(p - q), 2))
-        for name, p, q in zip(_NAMES, design.poles.values, found, strict=True)
+        for name, p, q in zip(_NAMES, design.wanted.tolist(), found, strict=False)
     ]
 
 
@@ -119,33 +119,6 @@ def _outer(spec: Spec, report: Report) -> str:
         for axis, pi in zip(AXES, (outer.pitch, outer.yaw), strict=True)
     )
     return f"PI loops, {outer.pairing} pairing{', with the static decoupler' if outer.decoupler else ''}: {gains}."
-
-
-def _formulas(spec: Spec) -> dict[str, Any]:
-    """All formulas, K's entries by their indices; `gains` is None where K has no formula."""
-    from ..symbolic.render import symbolic_report  # SymPy: on first use
-
-    symbols = symbolic_report(spec.structure.family)
-    if spec.method != "full-rank":
-        return {"symbols": symbols, "gains": None}
-    gains, relative = symbols.entries["K"], symbols.entries["RGA"]["lambda_11"]
-    if spec.structure.shift is not None:
-        gains, relative = _shifted(spec.structure.family)
-    by_index = {name.removeprefix("k_"): entry for name, entry in gains.items()}
-    return {"symbols": symbols, "gains": by_index, "relative": relative}
-
-
-def _shifted(structure: Structure) -> tuple[dict[str, Formula], Formula]:
-    """K's entries and λ₁₁ with the shift as a symbol, and no more: all else with it takes SymPy a minute."""
-    from ..symbolic.full_rank import full_rank
-    from ..symbolic.grouping import group
-    from ..symbolic.render import formula
-    from ..symbolic.rga import relative_gain_array
-
-    K: Any = full_rank(structure, shifted=True).K.to_Matrix()  # SymPy's entries are dynamic
-    relative: Any = relative_gain_array(structure, shifted=True).to_Matrix()
-    entries = {f"k_{i + 1}{j + 1}": formula(group(K[i, j])) for i in range(2) for j in range(4)}
-    return entries, formula(group(relative[0, 0]))
 
 
 def _inner(mathml: str) -> str:
@@ -176,7 +149,21 @@ def _responses(spec: Spec, report: Report) -> list[tuple[str, str]]:
             near = [b for b in (-bounds[i], bounds[i]) if max(float(np.max(y / b)) for y in solid) > 0.8]
             curves += [Curve(curves[0].x, np.full(len(curves[0].x), bound), "mark") for bound in near]
         pictures.append((chart(signal.meaning, "t, s", f"{signal.symbol}, V", curves), signal.meaning))
-    return pictures
+    return [*pictures, *_speeds(report)]
+
+
+def _speeds(report: Report) -> Iterator[tuple[str, str]]:
+    """Drawings of the speeds of the rotors that lag, and their captions."""
+    actuators, trim = report.design.actuators, report.design.trim
+    for i, signal in enumerate(ROTORS):
+        if actuators is None or not actuators.tau[i]:
+            continue
+        curves = [
+            Curve(t, r.rotors[i] + (trim[i] if r.model == "linear" else 0.0), kind)
+            for t, r, kind in _traces(report)
+            if r.rotors is not None
+        ]
+        yield chart(signal.meaning, "t, s", f"{signal.symbol}, V", curves), signal.meaning
 
 
 def _traces(report: Report) -> Iterator[tuple[Floats, Response, str]]:
@@ -209,6 +196,9 @@ def _experiment(spec: Spec, report: Report) -> str:
         parts.append("without the trim voltages")
     if scenario.digital is not None:
         parts.append(f"digital controller, {number(1e3 * scenario.digital.sample_time)} ms")
+    if any(scenario.noise):
+        theta, psi = (number(degrees(deviation)) for deviation in scenario.noise)
+        parts.append(f"white noise on the measured angles, standard deviations {theta}° and {psi}°")
     if scenario.disturbance is not None:
         d = scenario.disturbance
         parts.append(f"disturbed by {number(d.V_p)} V and {number(d.V_y)} V from {number(d.time)} s on")
