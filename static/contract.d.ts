@@ -1270,7 +1270,7 @@ export interface StateWeights {
   psi_dot?: number | null;
 }
 
-/** What the outputs do not show, rad/s and rad·s; the integrals are left out where nothing integrates. */
+/** What the outputs do not show; the integrals are left out where nothing integrates. */
 export interface States {
   /** rad/s */
   theta_dot: number[];
@@ -1280,6 +1280,11 @@ export interface States {
   z_p?: number[];
   /** integral of the yaw error, rad·s */
   z_y?: number[];
+  /**
+   * states of what estimates, a row each, in deviations from the trim: an observer's theta, psi, theta_dot, psi_dot
+   * and, where the rotors are placed, v_p, v_y; or filters' angles and rates by frequency
+   */
+  w?: number[][];
 }
 
 /**

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
 import pytest
 
 from app.contract.evaluation import Evaluation
+from app.contract.experiment import StepRequest
 from app.contract.exports import FORMATS
+from heli2dof_core import evaluate
 
 BODY = {"poles": [-9, -8, {"re": -3, "im": 4}, {"re": -3, "im": -4}], "scenario": {"reference": {"psi": 0.4}}}
 LINK = "http://127.0.0.1:8000/?projector#poles=-9,-8&x='*/"
@@ -32,6 +35,67 @@ def test_json_is_the_evaluate_reply_and_makes_itself_again(client):
     for model in ("linear", "nonlinear"):
         assert set(file["step"][model].pop("states")) == {"theta_dot", "psi_dot", "z_p", "z_y"}
     assert file == client.post("/api/v1/evaluate", json={**BODY, "each_axis": True}).json()
+    Evaluation.model_validate(file)
+
+
+MACHINE = {
+    "rotors": {"pitch": {"tau": 0.1, "curve": "quadratic", "dead_zone": 0.5}, "yaw": {"tau": 0.1}},
+    "friction": {"yaw": {"coulomb": 0.001}},
+    "scenario": {"reference": {"psi": 0.1}, "duration": 0.5, "samples": 51},
+}
+SIX = {**MACHINE, "place_rotors": True, "rotor_poles": [-15, -16]}
+
+
+def measured(body: dict, kind: str) -> dict:
+    return {**body, "scenario": {**body["scenario"], "measured": kind}}
+
+
+MACHINES = {
+    "rotors": MACHINE,
+    "static": {**MACHINE, "outer": "none", "poles": [-4, -5, -6, -7]},
+    "observer": measured(MACHINE, "observer"),
+    "filtered": measured(SIX, "filtered"),
+    "six": measured(SIX, "observer"),
+    "six-static": {**measured(SIX, "observer"), "outer": "none"},
+}
+
+
+@pytest.mark.parametrize("kind", MACHINES)
+@pytest.mark.parametrize("name", FORMATS)
+def test_every_format_is_a_file_of_the_machine(client, name: str, kind: str):
+    reply = client.post(f"/api/v1/export/{name}", json=MACHINES[kind])
+    assert reply.status_code == 200, reply.text
+    content = reply.content.decode("latin-1")
+    if name != "mat":
+        assert '"dead_zone"' in content or "&#34;dead_zone&#34;" in content
+        assert name == "json" or "riction" in content
+
+
+@pytest.mark.parametrize("kind", MACHINES)
+def test_json_names_every_state_that_it_has(client, kind: str):
+    """Each state under its own name, whatever stands beside it: no rotor's speed as an integral."""
+    body = MACHINES[kind]
+    file = client.post("/api/v1/export/json", json=body).json()
+    spec = StepRequest.model_validate(body).to_spec()
+    report = evaluate(spec)
+    for model in ("linear", "nonlinear"):
+        response = report.step[model].response
+        rows = {signal.name: values for signal, values in response.by_signal()}
+        states = file["step"][model]["states"]
+        hidden = {"theta_dot", "psi_dot"} | ({"z_p", "z_y"} if body.get("outer") != "none" else set())
+        estimates = [name for name in rows if name.startswith("w_")]
+        assert set(states) == hidden | ({"w"} if estimates else set())
+        for name in hidden:
+            np.testing.assert_array_equal(states[name], rows[name])
+        for name, values in zip(estimates, states.get("w", []), strict=True):
+            np.testing.assert_array_equal(values, rows[name])
+        for name in ("v_p", "v_y"):
+            np.testing.assert_array_equal(file["step"][model]["rotors"][name], rows[name])
+    observed = body["scenario"].get("measured") == "observer"
+    assert ("observer" in file) == observed and len(file["gains"]["K"][0]) == (
+        6 if "place_rotors" in body else 4
+    )
+    file.pop("origin")
     Evaluation.model_validate(file)
 
 
