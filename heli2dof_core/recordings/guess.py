@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..signals import ROTORS
 from .recording import ANGLES, Columns, Table
 from .time_axis import likely_unit
 from .units import split_unit
@@ -28,13 +29,15 @@ _PARTS = re.compile(r"(?:^|.*[./])(?:out|log|logsout|data|simout|nonlinear|table
 _MODEL = re.compile(r"[_ .]nonlinear$")
 _FIRST = re.compile(r"(^|[._ ])(nonlinear|measured)([._ ]|$)")
 """Of our own exports: voltages of the nonlinear model hold the trim."""
+_SPEEDS = tuple(signal.name for signal in ROTORS)
+"""Of our own exports: rotors' speeds, whose names differ from the voltages' by their case alone."""
 _LARGE_PITCH, _LARGE_YAW = radians(115), 10.0
 """Angles beyond which numbers are no radians."""
 
 
 def role_of(name: str) -> str | None:
     """What a column of this name probably is."""
-    bare = _MODEL.sub("", _PARTS.sub("", split_unit(name)[0].strip()))
+    bare = _bare(name)
     plain = re.sub(r"[^a-z0-9()]", "", bare.lower().translate(_GREEK))
     plain = re.sub(r"[()]", "", plain) if re.fullmatch(r"[vu]m?\(\d\)", plain) else plain
     for role, pattern in _NAMES.items():
@@ -44,12 +47,22 @@ def role_of(name: str) -> str | None:
     return role_of(last) if last not in (bare, "") else None
 
 
+def _bare(name: str) -> str:
+    """The name without its unit and what it is a part of."""
+    return _MODEL.sub("", _PARTS.sub("", split_unit(name)[0].strip()))
+
+
+def _rank(name: str) -> tuple[bool, bool]:
+    """Which of several columns of one role comes first: measured ones, and voltages before rotors' speeds."""
+    return not _FIRST.search(name), re.split(r"[./:]", _bare(name))[-1] in _SPEEDS
+
+
 def guess_columns(table: Table) -> Columns:
     """What the columns probably are, by their names, and in which units."""
     chosen: dict[str, str] = {}
     if table.time is not None:
         chosen["time"] = table.time
-    for name in sorted(table.names, key=lambda name: not _FIRST.search(name)):
+    for name in sorted(table.names, key=_rank):
         role = role_of(name)
         if role and (
             role not in chosen or (role == "time" and _rises(table, name) > _rises(table, chosen[role]))

@@ -258,6 +258,19 @@ def test_our_own_exports_open(client):
         assert "csv" in upload(client, file.content, name, status=422)["hint"]
 
 
+@pytest.mark.parametrize("measured", ["states", "filtered", "observer"])
+@pytest.mark.parametrize("name", ["csv", "mat", "json"])
+def test_our_own_exports_of_the_machine_open(client, name: str, measured: str):
+    """Rotors' speeds, whose names differ from the voltages' by their case, are not taken for them."""
+    rotors = {"pitch": {"tau": 0.1, "curve": "quadratic", "dead_zone": 0.5}, "yaw": {"tau": 0.1}}
+    body = {"rotors": rotors, "place_rotors": True, "rotor_poles": [-15, -16]}
+    body["scenario"] = {"reference": {"theta": 0.1}, "measured": measured}
+    preview = upload(client, client.post(f"/api/v1/export/{name}", json=body).content, f"run.{name}")
+    columns = preview["guess"]["columns"]
+    assert "V_p" in columns["V_p"] and "V_y" in columns["V_y"] and set(FOUR) <= set(columns)
+    post(client, f"recordings/{preview['id']}/overlay", {**body, "columns": columns})
+
+
 def test_the_store_forgets_the_longest_unused():
     store = RecordingStore(most=100, most_bytes=2500)
     keys = [store.put(Table(("x",), np.zeros((100, 1)))) for _ in range(3)]
