@@ -61,8 +61,9 @@ def _with_rotors(structure: Structure) -> dict[str, Formula]:
     # `group` writes coefficients of quadratics by poles; those of cubics have the same names
     aside = {d: sp.Dummy() for cubic in COEFFICIENTS for d in cubic}
     back = {dummy: d for d, dummy in aside.items()}
-    return {
-        f"k_{i + 1}{j + 1}": formula(group(K[i, j].xreplace(aside)).xreplace(back))
-        for i in range(2)
-        for j in range(6)
-    }
+
+    def written(entry: Any) -> Formula:
+        own: Any = group(entry.xreplace(aside))
+        return formula(own.xreplace(back))
+
+    return {f"k_{i + 1}{j + 1}": written(K[i, j]) for i in range(2) for j in range(6)}
