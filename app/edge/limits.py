@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import asyncio.selector_events
 import contextlib
+import itertools
 from collections import Counter, OrderedDict
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -28,6 +29,8 @@ _UPLOAD_PATH = "/api/v1/recordings"
 _RATE_LIMITED_PATHS = ("/api/", "/scene/")
 """Where requests are counted: the page's own files cost nothing, and a class loads thousands of them at once."""
 _MOST_ADDRESSES = 10_000
+_connections = itertools.count(1)
+"""Numbers of requests and sockets; not the ports of their clients, of which a proxy tells nothing."""
 
 
 def address_of(scope: Scope) -> str:
@@ -125,7 +128,7 @@ class Limits:
         body = _Body(receive, most, self._settings.body_seconds)
         if body.content_length(scope) > most:
             return await body.refusal(413)(scope, receive, send)
-        token = current_caller.set(Caller((address, _connection(scope)), body.disconnected))
+        token = current_caller.set(Caller((address, next(_connections)), body.disconnected))
         try:
             await self._app(scope, body.receive, send)
         except _RefusedError as refused:
@@ -142,7 +145,7 @@ class Limits:
             return await _refuse_socket(
                 receive, send, f"this address has {settings.sockets_per_address} sockets open"
             )
-        token = current_caller.set(Caller((address, _connection(scope))))
+        token = current_caller.set(Caller((address, next(_connections))))
         try:
             with self._counts.counted(address):
                 await self._app(scope, self._rate_limited(receive, send), send)
@@ -222,10 +225,6 @@ class _Body:
         else:
             detail, code = f"The body is larger than {self._most} bytes.", "body_too_large"
         return problem_response(problem(status, detail, code), {"Connection": "close"})
-
-
-def _connection(scope: Scope) -> str:
-    return str((scope.get("client") or ("", 0))[1])
 
 
 async def _refuse_socket(receive: Receive, send: Send, reason: str) -> None:

@@ -40,7 +40,7 @@ NICENESS = 5
 class Caller:
     """For whom the present task works; `disconnected` returns once an HTTP client has left."""
 
-    client: Client = ("", "")
+    client: Client = ("", 0)
     disconnected: Callable[[], Awaitable[None]] | None = None
 
 

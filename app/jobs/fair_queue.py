@@ -8,8 +8,8 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any
 
-Client = tuple[str, str]
-"""Who asks: an address, and which connection from it."""
+Client = tuple[str, int]
+"""Who asks: an address, and which request or socket from it."""
 
 
 class BusyError(Exception):
@@ -44,7 +44,7 @@ class FairQueue:
 
     def __init__(self, most: int, most_each: int) -> None:
         self._most, self._most_each = most, most_each
-        self._addresses: OrderedDict[str, OrderedDict[str, deque[Job]]] = OrderedDict()
+        self._addresses: OrderedDict[str, OrderedDict[int, deque[Job]]] = OrderedDict()
         self._count: Counter[Client] = Counter()
         self._changed = threading.Condition()
         self._closed = False

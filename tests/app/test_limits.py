@@ -15,7 +15,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from app.edge.limits import Buckets, Limits, SocketCounts, address_of
-from app.jobs.compute import Compute
+from app.jobs.compute import Compute, current_caller
 from app.jobs.fair_queue import BusyError, FairQueue, Job
 from app.jobs.recording_store import RecordingStore
 from app.ops.settings import Settings
@@ -146,23 +146,52 @@ def test_when_too_much_waits_more_is_refused_and_who_goes_makes_room(server, htt
 def test_clients_take_turns_whoever_has_how_many_waiting():
     queue = FairQueue(most=100, most_each=20)
     for name in ["a1", "a1", "a1", "a2", "b1", "b1", "c1"]:
-        queue.put(Job((name[0], name[1]), None))
+        queue.put(Job((name[0], int(name[1])), None))
     order = [job.client for _ in range(len(queue)) if (job := queue.take())]
-    assert ["".join(client) for client in order] == ["a1", "b1", "c1", "a2", "b1", "a1", "a1"]
+    assert [f"{address}{connection}" for address, connection in order] == [
+        "a1",
+        "b1",
+        "c1",
+        "a2",
+        "b1",
+        "a1",
+        "a1",
+    ]
+
+
+def test_many_behind_one_proxy_and_address_are_many():
+    """A proxy that says for whom it asks says no port; forty tabs of one lab may each have work that waits."""
+    callers = []
+
+    async def app(*_: object) -> None:
+        callers.append(current_caller.get().client)
+
+    async def unasked(*_: object) -> None:
+        raise AssertionError("the app neither reads nor answers")
+
+    async def three() -> None:
+        limits = Limits(app, Settings(), SocketCounts())
+        for kind in ("websocket", "websocket", "http"):
+            scope = {"type": kind, "path": "/api/v1/live", "headers": [], "client": ("192.0.2.1", 0)}
+            await limits(scope, receive=unasked, send=unasked)
+
+    run(three())
+    assert {address for address, _ in callers} == {"192.0.2.1"}
+    assert len({connection for _, connection in callers}) == 3
 
 
 def test_the_queue_is_bounded_in_all_and_for_each():
     queue = FairQueue(most=3, most_each=2)
-    jobs = [Job(("a", "1"), None), Job(("a", "1"), None)]
+    jobs = [Job(("a", 1), None), Job(("a", 1), None)]
     for job in jobs:
         queue.put(job)
     with pytest.raises(BusyError, match="of your requests"):
-        queue.put(Job(("a", "1"), None))
-    queue.put(Job(("a", "2"), None))
+        queue.put(Job(("a", 1), None))
+    queue.put(Job(("a", 2), None))
     with pytest.raises(BusyError, match="The server"):
-        queue.put(Job(("b", "1"), None))
+        queue.put(Job(("b", 1), None))
     queue.drop(jobs[0])
-    queue.put(Job(("b", "1"), None))
+    queue.put(Job(("b", 1), None))
     assert len(queue.close()) == 3
     assert queue.take() is None
 
@@ -286,6 +315,6 @@ def test_a_class_behind_one_address_meets_no_limit():
     )  # a minute at a thousand a second
     kept = []
     for k in range(students):
-        queue.put(Job(("192.0.2.1", str(k)), None))
+        queue.put(Job(("192.0.2.1", k), None))
         kept.append(store.put(table, f"student {k}"))
     assert all(store.get(key) is table for key in kept)

@@ -47,6 +47,7 @@ class Client:
                 self.peer = None
             else:
                 assert reply["seq"] == seq, reply
+                assert "gains" in reply, reply
                 self.gains.append(reply["gains"]["K"])
                 self.answered.append(perf_counter())
 

@@ -19,6 +19,10 @@ from tests.patience import PATIENCE, until
 
 CLIENTS, BEFORE, AFTER = 8, 3, 5
 """Clients of each replica, and answers that each has before and after the end of one."""
+POSTING = 2
+"""REST clients of each replica."""
+CUT = 0
+"""Instead of a status: the connection ended within the answer."""
 
 
 def test_a_session_stays_on_one_replica_by_path_and_by_query(farm: Farm):
@@ -60,7 +64,10 @@ def test_recordings_are_found_again_by_their_session_alone(farm: Farm):
 def test_clients_come_back_on_another_replica(
     farm: Farm, end: Callable[[Replica], None], record_property: Callable[[str, object], None]
 ):
-    """Live sockets come back within seconds and are answered as before; no REST call is refused meanwhile."""
+    """Live sockets come back within seconds and are answered as before; no REST call is refused meanwhile.
+
+    Only an answer of which a killed replica has sent the beginning is lost: nginx cannot ask another one for it.
+    """
     victim = farm.replicas[0]
     homes = [replica for replica in farm.replicas for _ in range(CLIENTS)]
     names = [name for replica in farm.replicas for name in farm.sessions(replica, CLIENTS)]
@@ -85,7 +92,8 @@ def test_clients_come_back_on_another_replica(
     for client in clients:
         assert len(client.gains) >= BEFORE + AFTER
         assert all(gains == client.gains[0] for gains in client.gains)
-    assert set(statuses) == {200}
+    assert statuses.keys() <= ({200, CUT} if end is Replica.kill else {200})
+    assert statuses[CUT] <= POSTING
     assert statuses[200] > 40
     assert victim.process.wait(PATIENCE) == (-signal.SIGKILL if end is Replica.kill else 0)
     assert all(farm.home(name) is not victim for name in names[:CLIENTS])
@@ -102,17 +110,21 @@ async def under_load(
     async def post(session: str) -> None:
         async with httpx2.AsyncClient(base_url=farm.url, timeout=PATIENCE) as rest:
             while not over:
-                answer = await rest.post(
-                    "api/v1/gains", json={"poles": [-5, -6, -7, -8]}, params={"session": session}
-                )
-                statuses[answer.status_code] += 1
+                try:
+                    answer = await rest.post(
+                        "api/v1/gains", json={"poles": [-5, -6, -7, -8]}, params={"session": session}
+                    )
+                except httpx2.RemoteProtocolError:
+                    statuses[CUT] += 1
+                else:
+                    statuses[answer.status_code] += 1
 
     async def rounds(count: int) -> None:
         for _ in range(count):
             await asyncio.gather(*(client.ask() for client in clients))
 
     async with asyncio.timeout(PATIENCE):
-        posting = [asyncio.create_task(post(name)) for name in names[:: CLIENTS // 2]]
+        posting = [asyncio.create_task(post(name)) for name in names[:: CLIENTS // POSTING]]
         await rounds(BEFORE)
         ended = perf_counter()
         end(victim)
