@@ -9,7 +9,7 @@ const FLOORS = [
   ['ui', 'link'],
   ['charts'],
   ['plots', 'splane', 'scene', 'recordings', 'tour', 'panels'],
-  ['paper', 'compare'],
+  ['paper', 'compare', 'machine'],
 ];
 const TOP = ['static/main.js', 'static/api_docs.js'];
 

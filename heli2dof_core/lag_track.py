@@ -9,7 +9,6 @@ import numpy as np
 from .augmentation import augmented_loop
 from .frozen import Frozen
 from .loop import Loop
-from .poles import match_poles
 from .rotors import USUAL_LAG, Actuators
 from .signals import Complexes, Floats, fixed
 
@@ -35,6 +34,8 @@ class LagTrack(Frozen):
 
 def lag_track(loop: Loop, steps: int = STEPS) -> LagTrack:
     """The track of each pole of the loop; gains and estimator stay as they are."""
+    from scipy.optimize import linear_sum_assignment
+
     own, design = loop.actuators or Actuators.none(loop.design.plant), loop.design
     assumed = not own.lags
     tau = fixed(np.full(2, USUAL_LAG)) if assumed else own.tau
@@ -48,7 +49,9 @@ def lag_track(loop: Loop, steps: int = STEPS) -> LagTrack:
     stack[:, rotors] /= share[:, None, None]  # their rows are divided by τ
     poles = np.linalg.eigvals(stack).astype(np.complex128)
     for k in range(steps - 1, 0, -1):  # back from the end, whose order is that of the loop
-        poles[k - 1] = poles[k - 1][match_poles(poles[k], poles[k - 1])]
+        # the least sum of distances: the least largest one would leave all but the fastest pole at will
+        _, nearest = linear_sum_assignment(np.abs(poles[k][:, None] - poles[k - 1]))
+        poles[k - 1] = poles[k - 1][nearest]
     return LagTrack(tau, assumed, share, poles)
 
 

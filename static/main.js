@@ -46,6 +46,7 @@ const sharing = new SceneSharing(store, scene);
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t), onPeek: (t) => scene.peek(t) });
 const projector = new Projector();
 const plane = new SPlane(byId('splane'), store); // what the hand moves
+const experiment = new ExperimentPanel(byId('scenario'), store);
 /** @type {{render: (state: State) => void}[]} */
 const figures = [
   new HeaderPanel(byId('header'), store, address, { tour, projector }),
@@ -54,7 +55,7 @@ const figures = [
   new PolesPanel(byId('poles'), store),
   new LoopsPanel(byId('loops'), store),
   new ScenarioPanel(byId('scenario'), store),
-  new ExperimentPanel(byId('scenario'), store),
+  experiment,
   new NumbersPanel(byId('numbers'), store),
   new MetricsPanel(byId('metrics')),
   new PinBar(byId('pin-bar'), store),
@@ -196,6 +197,13 @@ function welcome() {
 
 /** Panels that the first view does not need, fetched when it is there. */
 async function furtherDown() {
+  const { LagPaths, MeasuredPart, RotorPoles } = await fetched(() => import('./machine/index.js'));
+  views.figures.unshift(
+    ...[new RotorPoles(byId('poles'), store), new MeasuredPart(experiment.body, store), new LagPaths(plane, store)].map(
+      viewOf,
+    ),
+  );
+  schedule();
   const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await fetched(() =>
     Promise.all([import('./compare/index.js'), import('./recordings/index.js'), import('./paper/index.js')]),
   );

@@ -78,10 +78,17 @@ export interface Design extends Choices {
   method: string;
   loops: Loops;
   scenario: Scenario;
-  rotors?: contract.RotorsChanges;
-  friction?: contract.AxisFrictionChanges;
-  observer?: contract.ObserverChanges;
+  /** overrides of the preset's */
+  rotors: contract.RotorsChanges;
+  friction: contract.AxisFrictionChanges;
+  /** of pitch's and of yaw's rotor where they are placed, rad/s */
+  rotor_poles: [number, number];
+  /** absent: the server's own */
+  observer?: Observer;
 }
+
+/** How the states are estimated. */
+export type Observer = Said<Except<contract.ObserverChanges, 'poles'>> & { poles: Poles };
 
 export type Preset = Except<contract.Preset, 'encoders'> & { encoders: Encoders };
 
@@ -110,6 +117,8 @@ export interface Requirements {
   settling: number | null;
   /** % */
   overshoot: number | null;
+  /** of both rotors that the loop shall bear, s */
+  lag: number | null;
 }
 
 /** A design that is kept for comparison; its reply is missing until the server has given one. */
@@ -168,6 +177,8 @@ export interface State {
   showLinear: boolean;
   /** rise, peak and settling on the curves */
   showMarks: boolean;
+  /** where the rotors' lag takes the loop's poles; null: where they lag, or would matter */
+  showLag: boolean | null;
   dragging: boolean;
   canUndo: boolean;
   canRedo: boolean;

@@ -10,9 +10,10 @@ from collections.abc import Iterator
 from dataclasses import MISSING
 
 from app.contract.places import COLUMNS
+from heli2dof_core.estimators import Observer
 from heli2dof_core.poles import LARGEST
 from heli2dof_core.quantities import Field
-from heli2dof_core.request import LIMITS, OUTER, PARAMETERS, STRUCTURE, Place, quantities
+from heli2dof_core.request import LIMITS, OUTER, PARAMETERS, ROTORS, STRUCTURE, Place, quantities
 from tests.children import ROOT
 from tests.page_source import key, literal
 
@@ -36,6 +37,7 @@ export const QUANTITIES = {
 GROUPS = {
     "STRUCTURE": ("The structure of the closed loop", STRUCTURE),
     "OUTER": ("The outer loops' own", OUTER),
+    "ROTORS": ("Whether the rotors are placed, too", ROTORS),
 }
 """What stands right in a request, by what it makes up there: name in the module → in words, place."""
 
@@ -44,7 +46,12 @@ def module() -> str:
     """The whole module."""
     own = (item for item in (*quantities(), *quantities([COLUMNS])) if item[1] not in (PARAMETERS, LIMITS))
     poles = f"  poles: {{ unit: 'rad/s', min: {literal(-LARGEST)}, max: {literal(LARGEST)} }},\n"
-    return "".join((HEAD, poles, *(_entry(*item) for item in own), "};\n", *map(_names, GROUPS)))
+    observer = ", ".join(literal(pole.real) for pole in Observer().poles.values)
+    standing = (
+        "\n/** Of an observer, unless someone says otherwise: q₁ to q₄, rad/s. */\n"
+        f"export const OBSERVER_POLES = [{observer}];\n"
+    )
+    return "".join((HEAD, poles, *(_entry(*item) for item in own), "};\n", standing, *map(_names, GROUPS)))
 
 
 def _names(name: str) -> str:

@@ -11,6 +11,7 @@ import {
   FULL_RANK,
   hardest,
   keyOf,
+  LOOP,
   MARGINS,
   MOTOR,
   nameOf,
@@ -117,6 +118,11 @@ const COLUMNS = [
       const worse = worseMargins(r.margins);
       return worse && -worse.phase;
     },
+  },
+  {
+    ...column('lag', LOOP.lag),
+    text: (r) => (r.stable && r.lag_margin === undefined ? '∞' : textOf(LOOP.lag, r.lag_margin)),
+    cost: (r) => (r.stable ? -(r.lag_margin ?? Infinity) : undefined),
   },
   {
     id: 'stable',

@@ -33,7 +33,17 @@ export class Budget {
 }
 
 /** What of the state a link holds. @param {State} s */
-const held = (s) => [s.design, s.motion, s.showLinear, s.showMarks, s.spread, s.requirements, s.locks, pinKey(s.pins)];
+const held = (s) => [
+  s.design,
+  s.motion,
+  s.showLinear,
+  s.showMarks,
+  s.showLag,
+  s.spread,
+  s.requirements,
+  s.locks,
+  pinKey(s.pins),
+];
 /** Their replies are no part of it. @param {State['pins']} pins */
 const pinKey = (pins) => pins.map((p) => `${p.id} ${p.index} ${p.name}`).join('\n');
 

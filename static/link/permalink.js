@@ -5,7 +5,7 @@
  * Written is what differs from the preset's proposal. `p`: the four poles. `pi`: k_p, T_i of pitch, k_p, T_i of yaw.
  * `set.…`: parameters; `limits.…`; `step.…`: references;
  * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`,
- * `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`. `at`: the
+ * `lag`, `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`. `at`: the
  * place on the page. A part that cannot be read is named and left out; the rest is restored.
  *
  * The format is part of the page's contract: a change that an old reader would misread takes a new version, and the
@@ -16,7 +16,7 @@
  * @typedef {import('./link_values.js').Leaf} Leaf
  * @typedef {{part: string, why: string}} Trouble
  * @typedef {{index: number, name: string, design: Design}} PinnedDesign
- * @typedef {Pick<State, 'motion'|'showLinear'|'showMarks'|'spread'|'requirements'|'locks'>} Shown
+ * @typedef {Pick<State, 'motion'|'showLinear'|'showMarks'|'showLag'|'spread'|'requirements'|'locks'>} Shown
  * @typedef {{design?: Design, shown?: Shown, pins?: PinnedDesign[], place?: string, trouble: Trouble[]}} Link
  * @typedef {{presets: Preset[], methods: {name: string}[]}} Known
  */
@@ -28,6 +28,7 @@ const VERSION = 1;
 export const MOST = 2000;
 const LIMITS = ['V_p', 'V_y', 'theta'];
 const MOTIONS = ['both', 'theta', 'psi'];
+const MACHINE = ['rotors', 'friction', 'observer'];
 const OUTER = ['loops.pitch.kp', 'loops.pitch.ti', 'loops.yaw.kp', 'loops.yaw.ti'];
 const SHORT = /** @type {const} */ ([
   ['scenario.reference.', 'step.'],
@@ -74,12 +75,13 @@ const joined = (parts, separator) => parts.map(([key, text]) => `${key}=${escape
  * @returns {string} with its #; empty while there is no design
  */
 export function linkOf(state, { presets }, place = null, most = MOST) {
-  const { design, motion, showLinear, showMarks, spread, requirements, locks, pins } = state;
+  const { design, motion, showLinear, showMarks, showLag, spread, requirements, locks, pins } = state;
   if (!design) return '';
   const parts = designParts(design, presets);
   if (motion !== 'both') parts.push(['motion', motion]);
   if (!showLinear) parts.push(['linear', 'false']);
   if (!showMarks) parts.push(['marks', 'false']);
+  if (showLag !== null) parts.push(['lag', String(showLag)]);
   if (spread) parts.push(['spread', String(spread)]);
   for (const [path, text] of differences(requirements, NONE)) parts.push([`req.${path}`, text]);
   if (locks.length) parts.push(['lock', locks.join()]);
@@ -102,8 +104,16 @@ export function linkOf(state, { presets }, place = null, most = MOST) {
 function objection(path, leaf, base, { methods }, preset) {
   const [top, key] = path.split('.');
   if (typeof leaf === 'number' && !Number.isFinite(leaf)) return 'not a finite number';
-  const words = path.includes('.') ? undefined : QUANTITIES[path]?.words; // deeper ones are the server's to judge
-  if (words) return words.some((word) => word === leaf) ? '' : `neither ${words.join(' nor ')}`;
+  const quantity = QUANTITIES[path];
+  const machine = MACHINE.includes(top);
+  if (quantity?.words && (machine || !path.includes('.')))
+    // the scenario's are the server's to judge
+    return quantity.words.some((word) => word === leaf) ? '' : `neither ${quantity.words.join(' nor ')}`;
+  if (path === 'observer.poles' || path === 'rotor_poles')
+    return Array.isArray(leaf) && leaf.length === (top === 'observer' ? 4 : 2) && leaf.every(isPole)
+      ? ''
+      : 'no poles of its kind';
+  if (machine && quantity && leaf !== undefined) return inRange(leaf, quantity) ? '' : 'not a number in its range';
   if (path === 'method')
     return !methods.length || methods.some((m) => m.name === leaf) ? '' : 'no method of this server';
   if (top === 'parameters')
@@ -124,6 +134,13 @@ function objection(path, leaf, base, { methods }, preset) {
     return `not a ${typeof base}`;
   return base !== undefined || top === 'scenario' ? '' : 'unknown here';
 }
+
+/** @param {Leaf} leaf @param {import('../model/quantities.js').Quantity} quantity */
+const inRange = (leaf, { min = -Infinity, max = Infinity }) => typeof leaf === 'number' && leaf >= min && leaf <= max;
+
+/** A real one, or one of a pair. @param {unknown} p */
+const isPole = (p) =>
+  [p].flatMap((v) => (v !== null && typeof v === 'object' ? Object.values(v) : [v])).every(Number.isFinite);
 
 /** @param {unknown} object @param {string} path @returns {unknown} */
 const at = (object, path) =>
@@ -227,6 +244,7 @@ function readFirst(body, known) {
     motion: 'both',
     showLinear: true,
     showMarks: true,
+    showLag: null,
     spread: 0,
     requirements: NONE,
     locks: [],
@@ -245,6 +263,7 @@ function readFirst(body, known) {
         : refuse(`neither ${MOTIONS.join(' nor ')}`);
     else if (key === 'linear') shown.showLinear = value !== 'false';
     else if (key === 'marks') shown.showMarks = value !== 'false';
+    else if (key === 'lag') shown.showLag = value !== 'false';
     else if (key === 'spread')
       Number(value) >= 0 && Number(value) <= 0.5 ? (shown.spread = Number(value)) : refuse('not between 0 and 0.5');
     else if (key === 'lock') {

@@ -68,6 +68,12 @@ export function withOption(scenario, part) {
 export const withDigital = (scenario, part) =>
   withOption(scenario, { digital: part ? differing({ ...scenario.digital, ...part }, DIGITAL) : undefined });
 
+/** @param {Scenario} scenario @param {'theta'|'psi'} axis @param {number|undefined} rad @returns {Scenario} */
+export function withNoise(scenario, axis, rad) {
+  const noise = differing({ ...scenario.noise, [axis]: rad || undefined }, {});
+  return withOption(scenario, { noise: Object.keys(noise).length ? noise : undefined });
+}
+
 /** @param {Scenario} scenario @param {Partial<Disturbance>|null} part null: undisturbed @returns {Scenario} */
 export const withDisturbance = (scenario, part) =>
   withOption(scenario, {
@@ -170,6 +176,7 @@ export function experimentWords(scenario) {
     ...digitalWords(scenario),
     measured === 'filtered' && 'filtered rates',
     measured === 'observer' && 'an observer',
+    scenario.noise && 'noisy angles',
     ...disturbanceWords(scenario),
     !saturation && 'no voltage limits',
     saturation && anti_windup !== 'clamping' && windup,

@@ -35,6 +35,10 @@ const PLACES = {
   own_poles: testid('method'),
   own_integral_action: testid('method'),
   nearly_uncontrollable: testid('rig-K_pp'),
+  lives_by_fast_rotors: testid('show-lag'),
+  rotors_unstable: testid('show-lag'),
+  lag_unlimited: testid('metric-lag'),
+  lag_margin_missed: testid('require-lag'),
 };
 
 /**

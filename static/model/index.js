@@ -22,31 +22,33 @@ export {
   withDigital,
   withDisturbance,
   withEncoder,
+  withNoise,
   withOption,
   withStart,
 } from './experiment.js';
-export { AXIS, DESIGN, MARGINS, MOTOR, RESPONSE, SENSITIVITY, STEP } from './figures.js';
+export { AXIS, DESIGN, LOOP, MARGINS, MOTOR, RESPONSE, SENSITIVITY, STEP } from './figures.js';
 export { figureIn, signOf, textOf, tipOf, valueIn } from './figure_texts.js';
 export { placeOf, remarksOf } from './finding_places.js';
+export {
+  axisOf,
+  dragHandle,
+  fourOf,
+  HANDLES,
+  handlesOf,
+  kindOf,
+  nudgeHandle,
+  numeralOf,
+  observerPoles,
+  placesObserver,
+  withObserverPoles,
+  withRotorPole,
+} from './handles.js';
 export { lockNames, LOCKS } from './locks.js';
 export { inverseOf, mixingOf } from './loop_values.js';
 export { COUPLINGS, LEADS, STRUCTURES } from './method_names.js';
 export { bringsIntegralAction, FULL_RANK, keyOf, nameOf, partOf, placesPoles } from './methods.js';
 export { colorOf, COLORS, differenceTable, FIGURES, letterOf } from './pins.js';
-export {
-  character,
-  drag,
-  fromWire,
-  isComplex,
-  LIMIT,
-  nudge,
-  pairOf,
-  partner,
-  setComplex,
-  setMode,
-  setReal,
-  tidy,
-} from './poles.js';
+export { character, fromWire, isComplex, LIMIT, partner, setComplex, setMode, setReal, tidy } from './poles.js';
 export {
   asking,
   AXES,
@@ -54,6 +56,7 @@ export {
   guideWords,
   isAsked,
   leastDamping,
+  missesLag,
   missing,
   NONE,
   RANGES,
@@ -65,6 +68,8 @@ export {
   asProposed,
   changedWords,
   isChanged,
+  lagOf,
+  lags,
   proposedShown,
   quantities,
   valueOf,

@@ -4,7 +4,7 @@
  * @typedef {{name: string, keys: (keyof Design)[], controls: string}} Lock controls: where the page changes them, as a
  *   selector
  */
-import { OUTER, STRUCTURE } from './quantities.js';
+import { OUTER, ROTORS, STRUCTURE } from './quantities.js';
 
 /** @type {Record<string, Lock>} */
 export const LOCKS = {
@@ -14,11 +14,15 @@ export const LOCKS = {
     controls: '[data-testid=preset], #header :is([data-field], [data-testid^=rig-reset])',
   },
   point: { name: 'operating point', keys: ['theta0'], controls: '[data-field^="operating_point"]' },
-  poles: { name: 'poles', keys: ['poles'], controls: '.pole, #poles input, [data-testid^="use-split"]' },
+  poles: {
+    name: 'poles',
+    keys: ['poles', 'rotor_poles'],
+    controls: '.pole:not(.observer), #poles input:not([type=checkbox]), [data-testid^="use-split"]',
+  },
   method: {
     name: 'method',
-    keys: ['method', ...STRUCTURE, 'place_rotors', 'observer'],
-    controls: '[data-field=method], [data-testid^="use-"]',
+    keys: ['method', ...STRUCTURE, ...ROTORS],
+    controls: '[data-field=method], [data-field=place_rotors], [data-testid^="use-"]',
   },
   loops: {
     name: 'outer loops',
@@ -27,6 +31,7 @@ export const LOCKS = {
       '#loops [data-testid^=outer-], #loops .pis input, [data-field=pairing], [data-field=decoupler], ' +
       '[data-testid=suggest-pi], [data-testid=pair-advised]',
   },
+  observer: { name: 'observer', keys: ['observer'], controls: '.pole.observer, [data-field^=observer]' },
   scenario: { name: 'steps', keys: ['scenario'], controls: '#scenario [data-field^=scenario]' },
 };
 

@@ -6,7 +6,7 @@
 import { t } from '../text/index.js';
 import { best, hardest, worseMargins } from './compare_math.js';
 import { signOf, textOf, valueIn } from './figure_texts.js';
-import { AXIS, DESIGN, MARGINS, MOTOR, RESPONSE, SENSITIVITY } from './figures.js';
+import { AXIS, DESIGN, LOOP, MARGINS, MOTOR, RESPONSE, SENSITIVITY } from './figures.js';
 
 export const COLORS = 6;
 
@@ -73,6 +73,8 @@ const ofMotor = (motor, name) => ({
   title: `peak of the ${name} ${MOTOR.peak.hint}`,
 });
 
+/** Without end where the loop bears any. */
+const lag = column('lag', LOOP.lag, (r) => (r.stable ? (r.lag_margin ?? Infinity) : undefined));
 const gain = column('gain', MARGINS.gain, (r) => worseMargins(r.margins)?.gain);
 
 /** @type {Figure[]} */
@@ -95,6 +97,7 @@ export const FIGURES = [
     return Number.isFinite(p) ? p : undefined;
   }),
   column('disk', SENSITIVITY.disk, (r) => r.sensitivity?.disk_margin),
+  { ...lag, text: (v) => (v === Infinity ? '∞' : lag.text(v)) },
 ];
 
 /**

@@ -77,8 +77,14 @@ export const QUANTITIES = {
   'columns.decimate': { min: 1, max: 1000, standard: 1 },
 };
 
+/** Of an observer, unless someone says otherwise: q₁ to q₄, rad/s. */
+export const OBSERVER_POLES = [-40, -42, -41, -43];
+
 /** The structure of the closed loop: the names right in a request. */
 export const STRUCTURE = /** @type {const} */ (['coupling', 'lead', 'shift']);
 
 /** The outer loops' own: the names right in a request. */
 export const OUTER = /** @type {const} */ (['outer', 'pairing', 'decoupler']);
+
+/** Whether the rotors are placed, too: the names right in a request. */
+export const ROTORS = /** @type {const} */ (['place_rotors']);

@@ -13,12 +13,13 @@ import { character } from './poles.js';
 const SLACK = 1 + 1e-9; // a pole on the border itself is allowed
 
 /** @type {Requirements} */
-export const NONE = { settling: null, overshoot: null };
+export const NONE = { settling: null, overshoot: null, lag: null };
 
-/** What can be asked: s, %. @type {Record<keyof Requirements, {min: number, max: number, positive: boolean}>} */
+/** What can be asked: s, %, s. @type {Record<keyof Requirements, {min: number, max: number, positive: boolean}>} */
 export const RANGES = {
   settling: { min: 0, max: 1e3, positive: true },
   overshoot: { min: 0, max: 100, positive: false },
+  lag: { min: 0, max: 10, positive: true },
 };
 
 /**
@@ -29,16 +30,24 @@ export const RANGES = {
  * @returns {Requirements|null} null where that cannot be asked
  */
 export function asking(r, name, value) {
-  if (name !== 'settling' && name !== 'overshoot') return null;
-  const { min, max, positive } = RANGES[name];
+  if (!Object.hasOwn(RANGES, name)) return null;
+  const { min, max, positive } = RANGES[/** @type {keyof Requirements} */ (name)];
   if (value === null) return { ...r, [name]: null };
   return typeof value === 'number' && value >= min && value <= max && !(positive && value === 0)
     ? { ...r, [name]: value }
     : null;
 }
 
-/** @param {Requirements} r */
+/** Whether something is asked of the steps. @param {Requirements} r */
 export const isAsked = (r) => r.settling !== null || r.overshoot !== null;
+
+/**
+ * Whether the loop bears less lag of the rotors than is asked; a stable one without a margin bears any.
+ * @param {import('../types.js').Reply|null} reply
+ * @param {Requirements} r
+ */
+export const missesLag = (reply, { lag }) =>
+  lag !== null && reply !== null && !(reply.stable && (reply.lag_margin ?? Infinity) >= lag / SLACK);
 
 /** The real part that no pole may exceed, rad/s. @param {Requirements} r @returns {number|undefined} */
 export const fastestOf = ({ settling }) => (settling === null ? undefined : -4 / settling);

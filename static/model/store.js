@@ -18,7 +18,7 @@ import { guarded } from './locks.js';
 import { FULL_RANK } from './methods.js';
 import { letterOf } from './pins.js';
 import { fromWire } from './poles.js';
-import { OUTER, STRUCTURE } from './quantities.js';
+import { OUTER, ROTORS, STRUCTURE } from './quantities.js';
 import { NONE } from './requirements.js';
 
 const DEPTH = 200;
@@ -35,6 +35,7 @@ export const initialState = () => ({
   motion: 'both',
   showLinear: true,
   showMarks: true,
+  showLag: null,
   dragging: false,
   spread: 0,
   cloud: null,
@@ -60,7 +61,7 @@ export const initialState = () => ({
 });
 
 /** The contract's fields of a design that are one value. @type {Set<string>} */
-const PLAIN = new Set([...STRUCTURE, ...OUTER]);
+const PLAIN = new Set([...STRUCTURE, ...OUTER, ...ROTORS]);
 
 /** Those that a preset or a design has. @param {Preset|Design} of @returns {Choices} */
 const plainOf = (of) =>
@@ -72,8 +73,11 @@ export function designOf(preset, keep = {}) {
     preset: preset.name,
     parameters: {},
     limits: {},
+    rotors: {},
+    friction: {},
     theta0: preset.operating_point?.theta ?? 0,
     poles: fromWire(preset.poles),
+    rotor_poles: [preset.rotor_poles[0].re, preset.rotor_poles[1].re],
     method: FULL_RANK,
     ...plainOf(preset),
     loops: { pitch: { ...preset.loops.pitch }, yaw: { ...preset.loops.yaw } },
@@ -91,8 +95,12 @@ export function bodyOf(design) {
     preset: design.preset,
     parameters: design.parameters,
     limits: design.limits,
+    rotors: design.rotors,
+    friction: design.friction,
     operating_point: { theta: design.theta0 },
     poles: design.poles,
+    rotor_poles: design.rotor_poles,
+    ...(design.observer && { observer: design.observer }),
     method: design.method,
     ...plainOf(design),
     loops: design.loops,

@@ -13,6 +13,7 @@ export {
   hubAddress,
   identifyAddress,
   joinRecordings,
+  lagTrack,
   Live,
   liveSocket,
   motionFile,

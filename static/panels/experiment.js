@@ -45,6 +45,8 @@ export class ExperimentPanel {
       this.start = new StartPart(fields, close);
       return [this.start, this.limits, this.digital, this.disturbance, this.accuracy].map((part) => part.node);
     });
+    /** Takes parts that come later. */
+    this.body = /** @type {HTMLElement} */ (details.lastElementChild);
     root.append(h('div', { class: 'row experiment-row' }, details, this.words, this.reset));
   }
 

@@ -3,7 +3,7 @@
  * free for it.
  */
 import { fixed, say, t } from '../text/index.js';
-import { AXES, placeOf, verdictOf } from '../model/index.js';
+import { AXES, LOOP, missesLag, placeOf, textOf, tipOf, verdictOf } from '../model/index.js';
 import { button, h, setText } from '../ui/index.js';
 import { leadTo } from './lead.js';
 
@@ -44,8 +44,14 @@ export function findingsOf(state) {
       },
     ];
   const missed = missedWords(state);
+  const slower = missesLag(reply, state.requirements)
+    ? say`Requirement missed: the loop bears ${textOf(LOOP.lag, reply?.lag_margin)} of lag in its rotors.`
+    : '';
   const own = /** @type {import('../types.js').Finding[]} */ (
-    missed ? [{ code: 'requirement_missed', severity: 'warning', message: missed }] : []
+    [
+      { code: 'requirement_missed', severity: 'warning', message: missed },
+      { code: 'lag_margin_missed', severity: 'warning', message: slower },
+    ].filter((f) => f.message)
   );
   const rank = (/** @type {import('../types.js').Finding} */ f) =>
     (RANK[f.severity] ?? 3) - (CAUSES.includes(f.code) ? 0.5 : 0);
@@ -61,11 +67,12 @@ export class FindingsPanel {
     this.icon = h('span', { class: 'icon', 'aria-hidden': 'true' });
     this.word = h('strong');
     this.detail = h('span', { class: 'detail' });
+    this.lag = h('span', { class: 'detail', title: tipOf(LOOP.lag), 'data-testid': 'strip-lag' });
     this.verdict = h(
       'div',
       { class: 'verdict', 'data-testid': 'verdict', role: 'status' },
       this.icon,
-      h('div', {}, this.word, this.detail),
+      h('div', {}, h('span', {}, this.word, ' ', this.lag), this.detail),
     );
     this.list = h('ul', { class: 'list', 'aria-live': 'polite' });
     this.all = h('ul', { class: 'all', hidden: true, id: 'all-findings' });
@@ -126,6 +133,8 @@ export class FindingsPanel {
     this.verdict.className = `verdict ${kind}${uneasy ? ' uneasy' : ''}`;
     setText(this.icon, uneasy ? ICON.warning : { refused: '!', waiting: '…', stable: '✓', unstable: '✕' }[kind]);
     setText(this.word, { refused: 'Not computed', waiting: 'Waiting', stable: 'Stable', unstable: 'Unstable' }[kind]);
+    const lag = problem || reply?.lag_margin === undefined ? '' : textOf(LOOP.lag, reply.lag_margin);
+    setText(this.lag, lag && say`lag margin ${lag}`);
     setText(
       this.detail,
       problem && reply

@@ -8,7 +8,7 @@ export { Notice } from './notice.js';
 export { NumbersPanel } from './numbers.js';
 export { PinBar } from './pin_bar.js';
 export { PinsPanel } from './pins.js';
-export { PolesPanel } from './poles.js';
+export { PairEditor, PolesPanel } from './poles.js';
 export { FieldProblems } from './problems.js';
 export { Remarks } from './remarks.js';
 export { ScenarioPanel } from './scenario.js';

@@ -7,7 +7,9 @@ import {
   AXES,
   AXIS,
   figureIn,
+  LOOP,
   MARGINS,
+  missesLag,
   MOTOR,
   RESPONSE,
   SENSITIVITY,
@@ -63,7 +65,8 @@ export function linearPeak(step, name) {
  *   most?: (m: Metrics|undefined, axis: Axis) => string|undefined}} Figure
  * One figure of the loop: per motor, or of both at once.
  * @typedef {{id: string, group: string, more?: boolean, name: () => (Node|string)[], title: string,
- *   margin?: (g: Margins|undefined) => string, both?: (s: NonNullable<Reply['sensitivity']>) => string}} Robustness
+ *   margin?: (g: Margins|undefined) => string, both?: (s: NonNullable<Reply['sensitivity']>) => string,
+ *   loop?: (r: Reply) => string}} Robustness
  */
 
 /**
@@ -123,6 +126,9 @@ function peakText(s) {
   return s.peak < 1.005 ? peak : `${peak} at ${textOf(SENSITIVITY.peak_frequency, s.peak_frequency)}`;
 }
 
+/** What the loop bears of the rotors' lag. @param {Reply} r */
+const lagText = (r) => (r.stable && r.lag_margin === undefined ? '∞' : textOf(LOOP.lag, r.lag_margin));
+
 /** @type {Robustness[]} */
 const ROBUSTNESS = [
   {
@@ -144,6 +150,7 @@ const ROBUSTNESS = [
       `${textOf(SENSITIVITY.disk, s.disk_margin)}: × ${gainsBorne(s)}, ± ${textOf(SENSITIVITY.phase, s.phase)}`,
   },
   { ...row('sensitivity', 'robustness', SENSITIVITY.sensitivity), both: peakText },
+  { ...row('lag', 'robustness', LOOP.lag), loop: lagText },
 ];
 
 /** The disk margin in words. @param {Reply['sensitivity']} s */
@@ -177,7 +184,7 @@ export class MetricsPanel {
       }),
     );
     this.robustness = ROBUSTNESS.map((row) =>
-      row.both
+      row.both || row.loop
         ? [h('td', { colspan: 2, 'data-testid': `metric-${row.id}` })]
         : AXES.map((axis) => h('td', { 'data-testid': `metric-${row.id}-${axis}` })),
     );
@@ -251,6 +258,11 @@ export class MetricsPanel {
         if (row.margin) setText(this.robustness[i][j], row.margin(margin));
         else if (row.both && j === 0)
           setText(this.robustness[i][0], reply.sensitivity ? row.both(reply.sensitivity) : '–');
+        else if (row.loop && j === 0) {
+          const missed = missesLag(reply, requirements);
+          setText(this.robustness[i][0], `${missed ? '✕ ' : ''}${row.loop(reply)}`);
+          this.robustness[i][0].classList.toggle('warn', missed);
+        }
         if (row.id === 'margin') setAttr(this.robustness[i][j], 'title', bothMotors(reply.sensitivity));
       });
     });

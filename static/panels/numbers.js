@@ -42,7 +42,11 @@ export function pairingWords(reply, pairing) {
 export function copied({ reply, design }) {
   if (!reply || !design) return [];
   const { K, A, B } = reply.gains;
-  /** @type {import('../ui/copy_formats.js').Item[]} */ const items = [{ ...GAIN, matrix: K }];
+  const six = K[0].length === 6;
+  const note = six
+    ? GAIN.note.replace('theta_dot, psi_dot] in rad, rad/s', 'theta_dot, psi_dot, v_p, v_y] in rad, rad/s, V')
+    : GAIN.note;
+  /** @type {import('../ui/copy_formats.js').Item[]} */ const items = [{ ...GAIN, note, matrix: K }];
   if (reply.rga?.rga)
     items.push({
       name: 'RGA',

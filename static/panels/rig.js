@@ -2,7 +2,7 @@
  * The rig's parameters and limits as fields, each beside what the preset says. Folded away; the header's line says how
  * many differ.
  */
-import { inField, say } from '../text/index.js';
+import { inField, say, t } from '../text/index.js';
 import {
   asProposed,
   changedWords,
@@ -17,30 +17,74 @@ import {
 import { button, h, designField, setAttr, setText, symbol } from '../ui/index.js';
 import { folded } from './folded.js';
 
-const CONCERNED = /^(parameters|limits)(\.|$)/;
+const CONCERNED = /^(parameters|limits|rotors|friction)(\.|$)/;
+/** The parts of the panel, by where their quantities stand. */
+const PARTS = /** @type {[import('../model/rig.js').Kind, string][]} */ ([
+  ['parameters', ''],
+  ['limits', ''],
+  ['rotors.pitch', 'Pitch rotor'],
+  ['rotors.yaw', 'Yaw rotor'],
+  ['friction.pitch', 'Friction in pitch'],
+  ['friction.yaw', 'Friction in yaw'],
+]);
 
-/** @param {string} name as in K_pp @returns {HTMLElement} */
-const symbolOf = (name) => (name === 'theta' ? symbol('θ', 'max') : symbol(name.split('_')[0], name.split('_')[1]));
+/** @param {import('../model/rig.js').Quantity} q @param {number|string} v as shown */
+const words = (q, v) => (typeof v === 'string' ? t(v) : Number.isNaN(v) ? t(q.free) : inField(v));
 
-/** @param {number} v */
-const words = (v) => (Number.isNaN(v) ? 'free' : inField(v));
+/**
+ * A choice of few in the shape of a field.
+ * @param {import('../model/rig.js').Quantity} q
+ * @param {HTMLElement} mark
+ * @param {(v: string) => void} choose
+ */
+function choiceField(q, mark, choose) {
+  const input = h(
+    'select',
+    {
+      'aria-label': q.meaning,
+      'data-testid': `rig-${q.kind}.${q.name}`,
+      'data-field': `${q.kind}.${q.name}`,
+      onchange: () => choose(input.value),
+    },
+    q.words?.map((word) => h('option', { value: word }, word)),
+  );
+  const set = (/** @type {number|string} */ v) => {
+    input.value = String(v);
+  };
+  return { input, set, node: h('label', { class: 'field' }, mark, input) };
+}
 
 class Row {
   /** @param {import('../model/rig.js').Quantity} q @param {RigPanel} panel */
   constructor(q, panel) {
     this.q = q;
     const { store } = panel;
-    const id = `rig-${q.kind === 'limits' ? 'limit-' : ''}${q.name}`;
+    const id = `rig-${q.kind === 'parameters' ? '' : q.kind === 'limits' ? 'limit-' : `${q.kind}.`}${q.name}`;
     this.was = h('span', { class: 'was', 'data-testid': `${id}-preset` });
-    this.field = designField(store, id, (d, v) => (panel.preset ? withValue(d, panel.preset, q, v) : d), {
-      label: `${q.name}: ${q.meaning}, ${q.unit === '°' ? 'degrees; empty: free' : q.unit}`,
-      field: `${q.kind}.${q.name}`,
-      unit: q.unit,
-      min: q.min,
-      max: q.max,
-      optional: q.free,
-      mark: h('span', { class: 'about' }, symbolOf(q.name), h('span', { class: 'meaning' }, q.meaning), this.was),
-    });
+    const mark = h(
+      'span',
+      { class: 'about' },
+      symbol(...q.symbol),
+      h('span', { class: 'meaning' }, q.meaning),
+      this.was,
+    );
+    const changed = (/** @type {import('../types.js').Design} */ d, /** @type {number|string} */ v) =>
+      panel.preset ? withValue(d, panel.preset, q, v) : d;
+    const numeric = q.words
+      ? null
+      : designField(store, id, changed, {
+          label: `${q.name}: ${q.meaning}, ${q.unit === '°' ? 'degrees; empty: free' : q.unit}`,
+          field: `${q.kind}.${q.name}`,
+          unit: q.unit,
+          min: q.min,
+          max: q.max,
+          optional: Boolean(q.free),
+          mark,
+        });
+    /** @type {{input: HTMLElement, node: HTMLElement, set: (v: number|string) => void}} */
+    this.field = numeric
+      ? { input: numeric.input, node: numeric.node, set: (v) => numeric.set(Number(v)) }
+      : choiceField(q, mark, (v) => store.edit((d) => changed(d, v)));
     this.reset = button(
       {
         class: 'quiet',
@@ -52,14 +96,14 @@ class Row {
       },
       '↺',
     );
-    if (q.free) this.field.setBlank('free', 45);
+    if (q.free) numeric?.setBlank(t(q.free), q.name === 'theta' ? 45 : 0);
     this.node = h('div', { class: 'rig-row' }, this.field.node, this.reset);
   }
 
   /** @param {import('../types.js').Design} design @param {import('../types.js').Preset} preset */
   render(design, preset) {
     const changed = isChanged(design, this.q);
-    const own = words(proposedShown(preset, this.q));
+    const own = words(this.q, proposedShown(preset, this.q));
     this.field.set(valueOf(design, preset, this.q));
     this.node.classList.toggle('changed', changed);
     this.reset.hidden = !changed;
@@ -89,14 +133,14 @@ export class RigPanel {
       'Reset all',
     );
     this.problem = h('p', { class: 'experiment-warning', role: 'status', 'data-testid': 'rig-problem' });
-    this.parameters = h('fieldset', { 'aria-label': 'Parameters' });
-    this.limits = h('fieldset', { 'aria-label': 'Limits' });
+    this.parts = PARTS.map(([kind, title]) =>
+      h('fieldset', { 'aria-label': title || kind }, title && h('p', { class: 'caption' }, title)),
+    );
     const how = { testid: 'rig', kind: 'rig-details', summary: this.summary, what: 'parameters' };
     this.node = folded(how, (close) => [
       h('div', { class: 'row' }, this.source, this.all, close),
       this.problem,
-      this.parameters,
-      this.limits,
+      ...this.parts,
     ]);
   }
 
@@ -112,11 +156,8 @@ export class RigPanel {
     this.preset = preset;
     if (!this.rows.length) {
       this.rows = quantities(preset).map((q) => new Row(q, this));
-      for (const [kind, node] of /** @type {const} */ ([
-        ['parameters', this.parameters],
-        ['limits', this.limits],
-      ]))
-        node.append(...this.rows.filter((r) => r.q.kind === kind).map((r) => r.node));
+      for (const [i, [kind]] of PARTS.entries())
+        this.parts[i].append(...this.rows.filter((r) => r.q.kind === kind).map((r) => r.node));
     }
     const changed = changedWords(design);
     setText(this.name, changed || 'Parameters');

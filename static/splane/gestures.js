@@ -5,7 +5,7 @@
  * @typedef {import('./math.js').View} View
  * @typedef {{x: number, y: number}} Point  pixels of the view
  */
-import { drag, nudge, tidy } from '../model/index.js';
+import { dragHandle, handlesOf, nudgeHandle, tidy } from '../model/index.js';
 import { keyStep, pick, pinch, toPixel, toPlane, zoom } from './math.js';
 
 export const REACH = 28; // px: how near a press must be to take a pole
@@ -84,8 +84,8 @@ export class Gestures {
 
   /** @param {MouseEvent} e @returns {number|null} the pole that a press here would take */
   #under(e) {
-    const poles = this.plane.store.state.design?.poles;
-    return poles ? pick(this.plane.view, poles, this.plane.marks.order, this.#at(e), REACH) : null;
+    const { design } = this.plane.store.state;
+    return design ? pick(this.plane.view, handlesOf(design), this.plane.marks.order, this.#at(e), REACH) : null;
   }
 
   /** @param {PointerEvent} e */
@@ -99,8 +99,9 @@ export class Gestures {
       if (this.#fingers.size > 1) return this.#spread(e);
     }
     const index = this.#under(e);
-    if (index !== null) {
-      const [px, py] = toPixel(view, store.state.design.poles[index]);
+    const pole = index === null ? undefined : handlesOf(store.state.design)[index];
+    if (index !== null && pole) {
+      const [px, py] = toPixel(view, pole);
       this.#drag = { index, id: e.pointerId, together: false, moved: false, dx: px - at.x, dy: py - at.y };
       marks.raise(index);
       marks.handles[index].focus({ preventScroll: true });
@@ -156,13 +157,13 @@ export class Gestures {
     const to = { re: tidy(Math.round(raw.re / grain) * grain), im: tidy(Math.round(raw.im / grain) * grain) };
     this.plane.store.edit(
       (d) => {
-        const moved = drag(d.poles, gesture.index, to, {
+        const moved = dragHandle(d, gesture.index, to, {
           snap: SNAP / v.scale,
           meet: MEET / v.scale,
           together: gesture.together,
         });
         gesture.together = moved.together;
-        return { ...d, poles: moved.poles };
+        return moved.design;
       },
       { gesture: `drag-${gesture.index}`, stamp },
     );
@@ -207,12 +208,12 @@ export class Gestures {
     } else if (direction) {
       const step = keyStep(v) * (e.shiftKey ? 0.1 : 1);
       const by = { re: direction[0] * step, im: direction[1] * step };
-      plane.store.edit((d) => ({ ...d, poles: nudge(d.poles, index, by) }), {
+      plane.store.edit((d) => nudgeHandle(d, index, by), {
         gesture: `key-${index}`,
         stamp: e.timeStamp,
       });
     } else if (e.ctrlKey) return;
-    else if ('1234'.includes(e.key)) plane.marks.handles[Number(e.key) - 1].focus();
+    else if ('123456'.includes(e.key)) plane.marks.handles[Number(e.key) - 1].focus();
     else if (e.key === '+' || e.key === '-')
       plane.look(zoom(v, e.key === '+' ? 1.4 : 1 / 1.4, v.width / 2, v.height / 2));
     else if (e.key.toLowerCase() === 'f') plane.fit();

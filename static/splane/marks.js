@@ -6,7 +6,7 @@
  * @typedef {import('./math.js').View} View
  */
 import { poleText, say } from '../text/index.js';
-import { guideWords, isAsked, pairOf, placesPoles } from '../model/index.js';
+import { axisOf, guideWords, HANDLES, handlesOf, isAsked, kindOf, numeralOf, placesPoles } from '../model/index.js';
 import { setAttr, svg } from '../ui/index.js';
 import { toPixel } from './math.js';
 
@@ -17,19 +17,28 @@ const LOOP_MARK = 'M 0 -5.5 L 5.5 0 L 0 5.5 L -5.5 0 Z';
 const TITLE =
   'Drag, or use the arrow keys (Shift: fine, Page keys: coarse). Drag two real poles of a pair together, then off ' +
   'the axis: they turn complex.\n' +
-  'Where marks overlap, Tab or 1 to 4 brings another to the top.';
+  'Where marks overlap, Tab or 1 to 6 brings another to the top.';
+const RINGS = /** @type {const} */ ({
+  placed: { pitch: ['circle', { r: 11 }], yaw: ['rect', { x: -10, y: -10, width: 20, height: 20, rx: 2 }] },
+  rotor: { pitch: ['path', { d: 'M 0 -12 L 11 8 L -11 8 Z' }], yaw: ['path', { d: 'M 0 12 L 11 -8 L -11 -8 Z' }] },
+  observer: { pitch: ['circle', { r: 8 }], yaw: ['rect', { x: -7, y: -7, width: 14, height: 14, rx: 2 }] },
+});
+const WHOSE = { placed: '', rotor: 'rotor ', observer: 'observer ' };
+
+/** @param {number} i */
+export const nameOf = (i) => `${NAMES[axisOf(i)]} ${WHOSE[kindOf(i)]}pole ${numeralOf(i)}`;
 
 /** @param {number} i a handle: what is pressed, focused and heard */
 function handle(i) {
   return svg(
     'g',
     {
-      class: 'pole',
+      class: `pole ${kindOf(i)}`,
       'data-testid': `pole-${i}`,
       'data-index': i,
       tabindex: 0,
       role: 'slider',
-      'aria-label': `${NAMES[pairOf(i)]} pole ${i + 1}`,
+      'aria-label': nameOf(i),
       'aria-valuemin': -1e5,
       'aria-valuemax': 1e5,
     },
@@ -41,21 +50,18 @@ function handle(i) {
 
 /** @param {number} i a mark: what is seen */
 function mark(i) {
-  const name = NAMES[pairOf(i)];
-  const ring =
-    name === 'pitch'
-      ? svg('circle', { class: 'ring', r: 11 })
-      : svg('rect', { class: 'ring', x: -10, y: -10, width: 20, height: 20, rx: 2 });
+  const name = /** @type {'pitch'|'yaw'} */ (NAMES[axisOf(i)]);
+  const [tag, shape] = RINGS[kindOf(i)][name];
   return svg(
     'g',
-    { class: `pole-mark ${name}`, 'data-testid': `pole-mark-${i}` },
-    ring,
+    { class: `pole-mark ${kindOf(i)} ${name}`, 'data-testid': `pole-mark-${i}` },
+    svg(tag, { class: 'ring', ...shape }),
     svg('path', { class: 'cross', d: CROSS }),
   );
 }
 
 /** Its number, over all marks. @param {number} i */
-const numeral = (i) => svg('text', { class: `name ${NAMES[pairOf(i)]}`, x: 14 }, String(i + 1));
+const numeral = (i) => svg('text', { class: `name ${NAMES[axisOf(i)]}`, x: 14 }, numeralOf(i));
 
 /** A sample of the two kinds of marks that are not dragged, for the key. @param {'open'|'loop'} kind */
 export const sample = (kind) =>
@@ -67,16 +73,20 @@ export const sample = (kind) =>
 
 export class Marks {
   /** Indices of the poles from the lowest to the topmost mark. */
-  order = [3, 2, 1, 0];
+  order = HANDLES.toReversed();
 
   constructor() {
     this.open = svg('g', { class: 'open-poles', 'data-testid': 'open-poles' });
     this.loop = svg('g', { class: 'loop-poles', 'data-testid': 'loop-poles' });
-    this.links = NAMES.map((name) => svg('line', { class: `link ${name}` }));
+    /** Of a pair, by the handle of its first pole. @type {Record<number, SVGElement>} */
+    this.links = Object.fromEntries(
+      [0, 2, 6, 8].map((i) => [i, svg('line', { class: `link ${kindOf(i)} ${NAMES[axisOf(i)]}` })]),
+    );
     this.path = svg('path', { class: 'loop-path', 'data-testid': 'loop-path', 'aria-hidden': 'true' });
-    this.handles = [0, 1, 2, 3].map(handle);
-    this.marks = [0, 1, 2, 3].map(mark);
-    this.names = [0, 1, 2, 3].map(numeral);
+    this.handles = HANDLES.map(handle);
+    this.marks = HANDLES.map(mark);
+    this.names = HANDLES.map(numeral);
+    for (const i of HANDLES) if (kindOf(i) !== 'placed') this.#show(i, false);
     this.seen = svg(
       'g',
       { 'aria-hidden': 'true' },
@@ -84,7 +94,7 @@ export class Marks {
     );
     this.nodes = [
       this.open,
-      ...this.links,
+      ...Object.values(this.links),
       this.path,
       this.loop,
       this.seen,
@@ -98,7 +108,7 @@ export class Marks {
    * @param {number} index
    */
   raise(index) {
-    if (this.order[3] === index) return;
+    if (this.order.at(-1) === index) return;
     this.order = [...this.order.filter((i) => i !== index), index];
     this.seen.append(this.marks[index]);
   }
@@ -107,42 +117,57 @@ export class Marks {
   draw(state, view, fresh) {
     const { design, reply, requirements } = state;
     if (!design) return;
-    if (fresh || design.poles !== this.#poles || requirements !== this.#requirements)
-      this.#drawPlaced(design.poles, view, requirements);
-    this.#poles = design.poles;
+    if (fresh || design !== this.#design || requirements !== this.#requirements)
+      this.#drawPlaced(handlesOf(design), view, requirements);
+    this.#design = design;
     this.#requirements = requirements;
-    const whole = design.outer === 'pi' || !placesPoles(state) ? reply?.loop_poles : undefined;
+    // where they are none but the placed ones, these are all there is to see
+    const more = reply && reply.loop_poles.length > reply.gains.closed_loop_poles.length;
+    const whole = design.outer === 'pi' || more || !placesPoles(state) ? reply?.loop_poles : undefined;
     if (fresh || reply?.open_loop_poles !== this.#shown.open)
       this.#drawOthers(this.open, OPEN_MARK, (this.#shown.open = reply?.open_loop_poles) ?? [], view);
     if (fresh || whole !== this.#shown.loop)
       this.#drawOthers(this.loop, LOOP_MARK, (this.#shown.loop = whole) ?? [], view);
   }
 
-  /** @type {readonly Complex[]|null} */ #poles = null;
+  /** @type {import('../types.js').Design|null} */ #design = null;
   /** @type {import('../types.js').Requirements|null} */ #requirements = null;
   /** @type {{open?: Complex[], loop?: Complex[]}} */ #shown = {};
 
-  /** @param {readonly Complex[]} poles @param {View} view @param {import('../types.js').Requirements} requirements */
+  /** @param {number} i @param {boolean} shown */
+  #show(i, shown) {
+    for (const node of [this.handles[i], this.marks[i], this.names[i], this.links[i]])
+      if (node) setAttr(node, 'display', shown ? 'inline' : 'none');
+  }
+
+  /**
+   * @param {readonly (Complex|undefined)[]} poles
+   * @param {View} view
+   * @param {import('../types.js').Requirements} requirements
+   */
   #drawPlaced(poles, view, requirements) {
-    const at = poles.map((p) => toPixel(view, p).map((v) => v.toFixed(1)));
-    for (const [i, [x, y]] of at.entries()) {
-      const place = `translate(${x} ${y})`;
+    const at = poles.map((p) => p && toPixel(view, p).map((v) => v.toFixed(1)));
+    for (const i of HANDLES) {
+      const p = poles[i];
+      this.#show(i, Boolean(p));
+      const place = `translate(${at[i]?.join(' ')})`;
+      if (!p) continue;
       setAttr(this.handles[i], 'transform', place);
       setAttr(this.marks[i], 'transform', place);
       setAttr(this.names[i], 'transform', place);
-      setAttr(this.handles[i], 'aria-valuenow', poles[i].re);
-      const guide = isAsked(requirements) ? guideWords(poles[i], requirements) : '';
+      setAttr(this.handles[i], 'aria-valuenow', p.re);
+      const guide = kindOf(i) === 'placed' && isAsked(requirements) ? guideWords(p, requirements) : '';
       setAttr(
         this.handles[i],
         'aria-valuetext',
-        guide ? say`${poleText(poles, i)}, guide: alone ${guide} than asked` : poleText(poles, i),
+        guide ? say`${poleText(p, nameOf(i))}, guide: alone ${guide} than asked` : poleText(p, nameOf(i)),
       );
       // Labels of a pair stand apart even where its poles meet or lie mirrored.
-      const below = poles[i].im < 0 || (poles[i].im === 0 && i % 2 === 1);
+      const below = p.im < 0 || (p.im === 0 && i % 2 === 1);
       setAttr(this.names[i], 'y', below ? 20 : -11);
-    }
-    for (const [pair, link] of this.links.entries()) {
-      const [[x1, y1], [x2, y2]] = [at[2 * pair], at[2 * pair + 1]];
+      const [link, other] = [this.links[i], at[i + 1]];
+      if (!link || !other) continue;
+      const [x1, y1, x2, y2] = [...(at[i] ?? []), ...other];
       for (const [name, value] of Object.entries({ x1, y1, x2, y2 })) setAttr(link, name, value);
     }
   }
@@ -166,7 +191,7 @@ export class Marks {
         )
       : [];
     setAttr(this.path, 'd', at.length ? `M ${at.join(' L ')}` : '');
-    setAttr(this.path, 'class', `loop-path ${way ? NAMES[pairOf(way.index)] : ''}`);
+    setAttr(this.path, 'class', `loop-path ${way ? NAMES[axisOf(way.index)] : ''}`);
     const end = way?.path.at(-1);
     for (const [i, node] of [...this.loop.children].entries())
       node.classList.toggle('target', end !== undefined && this.#shown.loop?.[i] === end);

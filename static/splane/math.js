@@ -43,16 +43,18 @@ const RING = 11; // px: half a pole's mark
 /**
  * The pole that a press takes: the topmost of the marks that it falls on; beside all marks, the nearest within reach.
  * @param {View} v
- * @param {readonly Complex[]} poles
+ * @param {readonly (Complex|undefined)[]} poles
  * @param {readonly number[]} order from the lowest to the topmost mark
  * @param {{x: number, y: number}} at @param {number} reach pixels
  * @returns {number|null}
  */
 export function pick(v, poles, order, at, reach) {
-  const away = poles.map((p) => {
+  const away = order.map(() => Infinity);
+  for (const [i, p] of poles.entries()) {
+    if (!p) continue;
     const [x, y] = toPixel(v, p);
-    return Math.hypot(x - at.x, y - at.y);
-  });
+    away[i] = Math.hypot(x - at.x, y - at.y);
+  }
   const onTop = order.findLast((i) => away[i] <= RING);
   if (onTop !== undefined) return onTop;
   const nearest = order.reduceRight((best, i) => (away[i] < away[best] ? i : best), order[order.length - 1]);

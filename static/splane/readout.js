@@ -3,7 +3,19 @@
  * loops take it; and how its axis' step settles.
  */
 import { conjugates, fixed, say, seconds, t } from '../text/index.js';
-import { AXES, character, guideWords, isAsked, isComplex, pairOf, partner } from '../model/index.js';
+import {
+  AXES,
+  axisOf,
+  character,
+  fourOf,
+  guideWords,
+  handlesOf,
+  isAsked,
+  isComplex,
+  kindOf,
+  numeralOf,
+  partner,
+} from '../model/index.js';
 import { h, setText } from '../ui/index.js';
 import { toPixel } from './math.js';
 
@@ -23,25 +35,37 @@ const figures = (settling, overshoot) =>
  * @returns {string[]}
  */
 export function readoutLines({ design, reply, requirements }, index, to) {
-  const poles = design?.poles ?? [];
-  const p = poles[index];
-  const pair = pairOf(index);
+  const p = design && handlesOf(design)[index];
+  if (!design || !p) return [];
+  const pair = axisOf(index);
   const { wn, zeta, settling, overshoot } = character(p);
-  const two = isComplex(poles, pair);
-  const first = Math.min(index, partner(index)) + 1;
+  const kind = kindOf(index);
+  const two = kind !== 'rotor' && isComplex(fourOf(design, index), pair);
+  const [first, second] = [index, partner(index)].sort().map(numeralOf);
+  const own = [`${conjugates(two ? p : { re: p.re, im: 0 })} rad/s`, `ζ ${fixed(zeta)}   ωₙ ${fixed(wn)} rad/s`];
+  if (kind === 'rotor') return [say`${NAMES[pair]} rotor pole ${numeralOf(index)}`, ...own.slice(0, 1)];
+  if (kind === 'observer')
+    return [
+      two
+        ? say`${NAMES[pair]} observer poles ${first}, ${second}`
+        : say`${NAMES[pair]} observer pole ${numeralOf(index)}`,
+      ...own,
+      settling === undefined
+        ? t('alone: grows, unstable')
+        : say`errors of the estimate die away in ${seconds(settling)}`,
+    ];
   const axis = AXES[pair];
-  const own = reply?.axis_steps?.[axis]?.nonlinear.metrics?.[axis];
+  const metrics = reply?.axis_steps?.[axis]?.nonlinear.metrics?.[axis];
   const guide = isAsked(requirements) ? guideWords(p, requirements) : '';
   const pi = design?.outer === 'pi';
-  const step = !own
+  const step = !metrics
     ? ''
-    : own.settling_time === undefined
-      ? say`not settled, overshoot ${fixed(own.overshoot, 0)} %`
-      : figures(own.settling_time, own.overshoot);
+    : metrics.settling_time === undefined
+      ? say`not settled, overshoot ${fixed(metrics.overshoot, 0)} %`
+      : figures(metrics.settling_time, metrics.overshoot);
   return [
-    two ? say`${NAMES[pair]} poles ${first}, ${first + 1}` : say`${NAMES[pair]} pole ${index + 1}`,
-    `${conjugates(two ? p : { re: p.re, im: 0 })} rad/s`,
-    `ζ ${fixed(zeta)}   ωₙ ${fixed(wn)} rad/s`,
+    two ? say`${NAMES[pair]} poles ${first}, ${second}` : say`${NAMES[pair]} pole ${numeralOf(index)}`,
+    ...own,
     settling === undefined ? t('alone: grows, unstable') : say`alone: ${figures(settling, overshoot)}`,
     pi && to ? say`with PI: goes to ${pairText(to)} rad/s` : '',
     step && (pi ? say`with PI: ${step}` : say`step: ${step}`),
@@ -95,10 +119,10 @@ export class Readout {
    */
   draw(state, index, view, unit, to) {
     const { design, dragging } = state;
-    this.node.hidden = index === null || !design;
-    if (index === null || !design) return;
+    const p = design && index !== null ? handlesOf(design)[index] : undefined;
+    this.node.hidden = !p;
+    if (index === null || !p) return;
     if (!dragging || index !== this.#told) this.write(state, index, to);
-    const p = design.poles[index];
     const [x, y] = toPixel(view, p).map((v) => v * unit);
     this.#at = { x, y, width: view.width * unit, height: view.height * unit, unit };
     this.#place();
@@ -119,8 +143,9 @@ export class Readout {
   write(known, index, to) {
     if (index === null || !known.design) return;
     this.#told = index;
-    readoutLines(known, index, to).forEach((line, k) => setText(this.lines[k], line));
-    const name = `readout ${NAMES[pairOf(index)]}`;
+    const lines = readoutLines(known, index, to);
+    this.lines.forEach((node, k) => setText(node, lines[k] ?? ''));
+    const name = `readout ${NAMES[axisOf(index)]}`;
     if (this.node.className !== name) this.node.className = name;
   }
 }

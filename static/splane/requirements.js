@@ -2,8 +2,8 @@
  * What is asked of the response: two fields below the s-plane; and, as a guide, the regions where a pole alone would
  * not do, hatched.
  */
-import { forField, say } from '../text/index.js';
-import { forbidden, isAsked, leastDamping, missing, NONE, RANGES } from '../model/index.js';
+import { forField, say, t } from '../text/index.js';
+import { forbidden, isAsked, leastDamping, missesLag, missing, NONE, RANGES } from '../model/index.js';
 import { h, NumberField, setText, svg } from '../ui/index.js';
 import { bounds, toPixel } from './math.js';
 
@@ -86,14 +86,15 @@ export class RequirementsBar {
   /** @param {import('../model/store.js').Store} store */
   constructor(store) {
     const field = (
-      /** @type {'settling'|'overshoot'} */ key,
+      /** @type {keyof Requirements} */ key,
+      /** @type {string} */ mark,
       /** @type {string} */ unit,
       /** @type {number} */ start,
       /** @type {string} */ title,
     ) => {
       const made = new NumberField({
-        label: `${key} at most, ${unit === 's' ? 'seconds' : 'percent'}; empty: not asked`,
-        mark: h('span', { title }, `${key} ≤`),
+        label: `${mark} ${key === 'lag' ? 'at least' : 'at most'}, ${unit === 's' ? 'seconds' : 'percent'}; empty: not asked`,
+        mark: h('span', { title }, `${mark} ${key === 'lag' ? '≥' : '≤'}`),
         unit,
         testid: `require-${key}`,
         ...RANGES[key],
@@ -107,6 +108,7 @@ export class RequirementsBar {
     };
     this.settling = field(
       'settling',
+      'settling',
       's',
       1,
       'The steps shall settle to 2 % within this time. Hatched, as a guide: where a pole alone would take longer, ' +
@@ -114,10 +116,18 @@ export class RequirementsBar {
     );
     this.overshoot = field(
       'overshoot',
+      'overshoot',
       '%',
       10,
       'The steps shall overshoot by no more. Hatched, as a guide: where a pair alone would overshoot by more, ' +
         'e^(−πζ/√(1 − ζ²)). Empty: not asked',
+    );
+    this.lag = field(
+      'lag',
+      'lag',
+      's',
+      0.3,
+      'The loop shall stay stable with rotors that are so slow: an Aero’s need 0.16 s. Empty: not asked',
     );
     this.verdict = h('span', { class: 'asked-verdict', 'data-testid': 'requirements-verdict', role: 'status' });
     this.node = h(
@@ -125,6 +135,7 @@ export class RequirementsBar {
       { class: 'asked', role: 'group', 'aria-label': 'Requirements on the response' },
       this.settling.node,
       this.overshoot.node,
+      this.lag.node,
       this.verdict,
     );
   }
@@ -135,9 +146,11 @@ export class RequirementsBar {
       this.#shown = r;
       this.settling.set(r.settling ?? NaN);
       this.overshoot.set(r.overshoot ?? NaN);
+      this.lag.set(r.lag ?? NaN);
     }
-    const axes = missing(reply, r);
-    this.verdict.classList.toggle('missed', axes.length > 0);
-    setText(this.verdict, !isAsked(r) || !reply ? '' : axes.length ? `✕ ${axes.join(', ')}` : '✓ met');
+    const missed = [...missing(reply, r), ...(missesLag(reply, r) ? [t('lag margin')] : [])];
+    const asked = isAsked(r) || r.lag !== null;
+    this.verdict.classList.toggle('missed', missed.length > 0);
+    setText(this.verdict, !asked || !reply ? '' : missed.length ? `✕ ${missed.join(', ')}` : '✓ met');
   }
 }

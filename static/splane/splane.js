@@ -6,7 +6,7 @@
  */
 import { cloudWords, SPREADS } from './cloud_feed.js';
 import { say } from '../text/index.js';
-import { placesPoles } from '../model/index.js';
+import { handlesOf, placesPoles } from '../model/index.js';
 import { button, drawingUnit, h, setText, svg } from '../ui/index.js';
 import { loopPaths } from './loop_paths.js';
 import { drawCloud } from './cloud.js';
@@ -24,6 +24,8 @@ export class SPlane {
   #manual = false;
   /** @type {string|null} */ #preset = null;
   /** @type {number|null} */ #active = null;
+  /** What is drawn over the plane by others, told whether the view is a new one. @type {((fresh: boolean) => void)|null} */
+  over = null;
   /** @type {import('./math.js').View|null} */ #drawn = null;
   /** @type {import('../types.js').Requirements|null} */ #asked = null;
   /** @type {import('../types.js').Reply|null} whose paths they are */ #solved = null;
@@ -69,7 +71,7 @@ export class SPlane {
           'their responses as bands',
         onchange: () => store.set({ spread: Number(this.spread.value) }),
       },
-      SPREADS.map((v) => h('option', { value: v }, v ? say`uncertainty ± ${100 * v} %` : 'uncertainty: none')),
+      SPREADS.map((v) => h('option', { value: v }, v ? say`rigs ± ${100 * v} %` : 'exact rig')),
     );
     this.cloud = h('canvas', { class: 'cloud', hidden: true, 'aria-hidden': 'true' });
     this.cloudText = h('div', { class: 'cloud-words', 'data-testid': 'cloud-words', role: 'status' });
@@ -87,6 +89,7 @@ export class SPlane {
       tool('\u2212', 'Zoom out', '\u2212', 'zoom-out', () => this.#zoomBy(1 / 1.4)),
       tool('Fit', 'Fit all poles into view', 'F', 'fit', () => this.fit()),
       this.spread,
+      (this.more = h('span')),
       (this.key = h(
         'div',
         { class: 'splane-key', 'data-testid': 'splane-key' },
@@ -129,7 +132,8 @@ export class SPlane {
     const { design, reply } = state;
     if (!design || !this.view.width) return;
     this.#manual = false;
-    this.view = fit(design.poles, [...(reply?.loop_poles ?? []), ...(reply?.open_loop_poles ?? [])], this.view);
+    const own = handlesOf(design).filter((p) => p !== undefined);
+    this.view = fit(own, [...(reply?.loop_poles ?? []), ...(reply?.open_loop_poles ?? [])], this.view);
     this.#draw(state);
   };
 
@@ -154,7 +158,8 @@ export class SPlane {
     if (!design || !this.view.width) return;
     const fresh = design.preset !== this.#preset;
     this.#preset = design.preset;
-    const watched = [...design.poles, ...(reply?.loop_poles ?? []).filter((p) => p.re >= 0)];
+    const own = handlesOf(design).filter((p) => p !== undefined);
+    const watched = [...own, ...(reply?.loop_poles ?? []).filter((p) => p.re >= 0)];
     if (!dragging && (fresh || (!this.#manual && outgrown(this.view, watched)))) this.fit(state);
     else this.#draw(state);
   }
@@ -169,7 +174,7 @@ export class SPlane {
     const { reply, answered } = this.store.state;
     if (this.#active === null || !placesPoles(this.store.state)) return undefined;
     if (reply !== this.#solved) [this.#solved, this.#paths] = [reply, loopPaths(reply, answered)];
-    return this.#paths?.[this.#active].at(-1);
+    return this.#paths?.[this.#active]?.at(-1);
   }
 
   /** Draws the way of the pole in question to its pole of the whole loop. @param {boolean} fresh */
@@ -193,13 +198,15 @@ export class SPlane {
     this.#asked = requirements;
     const unused = !placesPoles(state); // then the loop's own poles are all there is to see
     this.root.classList.toggle('unused', unused);
-    setText(this.loopName, unused ? 'whole loop' : 'with PI');
+    const more = (state.reply?.loop_poles.length ?? 0) > 6 || design.outer === 'none'; // rotors, filters, an observer
+    setText(this.loopName, unused || more ? 'whole loop' : 'with PI');
     this.marks.draw(state, this.view, fresh);
     drawPins(this.svg, this.view, pins);
     drawCloud(this.cloud, this.view, this.unit, spread ? cloud : null);
     setText(this.cloudText, spread ? cloudWords(cloud, design.scenario) : '');
     this.readout.draw(state, this.#active, this.view, this.unit, this.#target());
     this.#link(fresh);
+    this.over?.(fresh);
     this.bar.render(state);
   }
 }

@@ -108,18 +108,8 @@ export const polesText = (poles, decimals = 2) =>
     .map((p) => conjugates(p, decimals))
     .join(', ');
 
-const PAIR = ['pitch', 'yaw'];
-
-/**
- * What a screen reader says of a pole.
- * @param {readonly import('../types.js').Complex[]} poles
- * @param {number} index
- */
-export function poleText(poles, index) {
-  const p = poles[index];
-  const name = `${PAIR[index < 2 ? 0 : 1]} pole ${index + 1}`;
-  return `${name}: ${complex(p, 1)} rad/s`;
-}
+/** What a pole says to those who hear it. @param {import('../types.js').Complex} p @param {string} name */
+export const poleText = (p, name) => `${name}: ${complex(p, 1)} rad/s`;
 
 /** @param {number|undefined} share 0…1 */
 export const percent = (share, decimals = 0) => (share === undefined ? '–' : `${fixed(100 * share, decimals)} %`);

@@ -14,12 +14,15 @@ const STATES = [
   { name: 'ψ', unit: 'V/rad' },
   { name: 'θ̇', unit: 'V·s/rad' },
   { name: 'ψ̇', unit: 'V·s/rad' },
+  { name: 'v_p', unit: 'V/V' },
+  { name: 'v_y', unit: 'V/V' },
 ];
 const MOTORS = ['V_p', 'V_y'];
 const motors = () => [symbol('V', 'p'), symbol('V', 'y')];
 
 export class Matrix {
   /** @type {number[][]|undefined} */ values;
+  /** How many of its columns are shown: of a gain those of the states that it feeds back. */ width;
 
   /**
    * @param {string} testid
@@ -31,6 +34,8 @@ export class Matrix {
    */
   constructor(testid, name, rows, columns, title, copied) {
     this.title = title;
+    this.columns = columns;
+    this.width = columns.length;
     const items =
       typeof copied === 'function' ? copied : () => (copied && this.values ? [{ ...copied, matrix: this.values }] : []);
     const tool = copied ? copyButton(testid, items) : null;
@@ -50,8 +55,12 @@ export class Matrix {
   /** @param {number[][]|undefined} values @param {(v: number) => string} format */
   render(values, format) {
     this.values = values;
+    this.width = values?.[0].length ?? this.width;
+    for (const [j, { parentElement: head }] of this.columns.entries()) if (head) head.hidden = j >= this.width;
     this.cells.forEach((row, i) =>
       row.forEach((cell, j) => {
+        cell.hidden = j >= this.width;
+        if (cell.hidden) return;
         setText(cell, values ? format(values[i][j]) : '–');
         setAttr(cell, 'title', `${t(this.title(i, j))}${values ? `\n${significant(values[i][j], 8)}` : ''}`);
       }),
@@ -60,15 +69,18 @@ export class Matrix {
 }
 
 /** The state feedback, u = −Kx + v. @param {string} testid @param {Copied} [copied] */
-export const gainMatrix = (testid, copied) =>
-  new Matrix(
+export function gainMatrix(testid, copied) {
+  const matrix = new Matrix(
     testid,
     h('b', {}, 'K'),
     motors(),
-    [symbol('θ'), symbol('ψ'), dotted('θ'), dotted('ψ')],
-    (i, j) => `k${'₁₂'[i]}${'₁₂₃₄'[j]}: ${STATES[j].unit}, feedback from ${STATES[j].name} to ${MOTORS[i]}`,
+    [symbol('θ'), symbol('ψ'), dotted('θ'), dotted('ψ'), symbol('v', 'p'), symbol('v', 'y')],
+    (i, j) => `k${'₁₂'[i]}${'₁₂₃₄₅₆'[j]}: ${STATES[j].unit}, feedback from ${STATES[j].name} to ${MOTORS[i]}`,
     copied,
   );
+  matrix.width = 4;
+  return matrix;
+}
 
 /** The feedback of the integrated errors, where a method brings its own. @param {string} testid */
 export const integralMatrix = (testid) =>

@@ -57,8 +57,8 @@ test('a pole for a screen reader', () => {
     { re: -3, im: 4 },
     { re: -3, im: -4 },
   ];
-  assert.equal(poleText(poles, 0), 'pitch pole 1: \u221212.0 rad/s');
-  assert.equal(poleText(poles, 3), 'yaw pole 4: \u22123.0 \u2212 4.0j rad/s');
+  assert.equal(poleText(poles[0], 'pitch pole 1'), 'pitch pole 1: \u221212.0 rad/s');
+  assert.equal(poleText(poles[3], 'yaw pole 4'), 'yaw pole 4: \u22123.0 \u2212 4.0j rad/s');
   assert.equal(complex(poles[2]), '\u22123.00 + 4.00j');
 });
 

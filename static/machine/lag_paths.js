@@ -1,0 +1,141 @@
+/**
+ * Where the rotors' lag takes the poles of the whole loop, as it grows from nothing to what it is: a path for each pole
+ * in the s-plane, with an arrow, and a ring where it crosses the imaginary axis. Asked for while the hand rests.
+ * @typedef {import('../types.js').State} State
+ * @typedef {import('../contract.js').Lag} Lag
+ */
+import { say, significant } from '../text/index.js';
+import { bodyOf, lags, presetOf } from '../model/index.js';
+import { lagTrack } from '../net/index.js';
+import { button, h, setAttr, setText, svg } from '../ui/index.js';
+import { toPixel } from '../splane/index.js';
+import { crossings } from './crossings.js';
+
+const REST_MS = 150;
+const ARROW = 'M -4 -3.5 L 4 0 L -4 3.5';
+
+export class LagPaths {
+  /** @type {Lag|null} */ #lag = null;
+  /** @type {Lag|null} */ #drawn = null;
+  #key = '';
+  /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
+
+  /** @param {import('../splane/splane.js').SPlane} plane @param {import('../model/store.js').Store} store */
+  constructor(plane, store) {
+    this.plane = plane;
+    this.store = store;
+    this.layer = svg('g', { class: 'lag-paths', 'data-testid': 'lag-paths', 'aria-hidden': 'true' });
+    plane.svg.prepend(this.layer);
+    this.words = h('div', { class: 'cloud-words lag-words', 'data-testid': 'lag-words', role: 'status' });
+    this.toggle = button(
+      {
+        'data-testid': 'show-lag',
+        'aria-label': 'Track of the rotors’ lag',
+        title:
+          'Where the poles of the loop go as the rotors’ lag τ grows from nothing to the rig’s own, or to the 0.16 s ' +
+          'of a real Aero where the rig has none. A ring: there the loop becomes unstable',
+        onclick: () => store.set({ showLag: !isShown(store.state) }),
+      },
+      h('i', {}, 'τ'),
+    );
+    plane.more.replaceWith(this.toggle);
+    plane.svg.after(this.words);
+    plane.over = (fresh) => this.#draw(fresh);
+  }
+
+  /** @param {State} state */
+  render(state) {
+    const { design, dragging, connection } = state;
+    if (!design) return;
+    const shown = isShown(state);
+    setAttr(this.toggle, 'aria-pressed', String(shown));
+    const key = shown ? JSON.stringify(asked(design)) : '';
+    if (!shown || key !== this.#key) {
+      this.#key = '';
+      this.#put(null); // it is of another design
+    }
+    if (!shown || dragging || connection === 'lost' || key === this.#key) return;
+    this.#key = key;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#ask(key), REST_MS);
+  }
+
+  /** @param {string} key */
+  async #ask(key) {
+    const { design, dragging } = this.store.state;
+    if (key !== this.#key || !design || dragging) return;
+    const lag = await lagTrack(asked(design)).catch(() => null); // what is wrong is told where it is asked for
+    if (key === this.#key) this.#put(lag);
+  }
+
+  /** @param {Lag|null} lag */
+  #put(lag) {
+    if (lag === this.#lag) return;
+    this.#lag = lag;
+    this.#draw(false);
+    const tau = `${significant(Math.max(...(lag?.tau ?? [0])), 3)} s`;
+    setText(
+      this.words,
+      !lag
+        ? ''
+        : lag.assumed
+          ? say`dashed: were the rotors to lag by 0 to ${tau}, as an Aero’s`
+          : say`dashed: the rotors’ lag from 0 to ${tau}`,
+    );
+  }
+
+  /** @param {boolean} fresh whether the view changed */
+  #draw(fresh) {
+    const lag = this.#lag;
+    if (!fresh && lag === this.#drawn) return;
+    this.#drawn = lag;
+    setAttr(this.layer, 'data-assumed', String(lag?.assumed ?? ''));
+    this.layer.replaceChildren(...(lag ? lag.poles.flatMap((path) => this.#path(path)) : []));
+  }
+
+  /** @param {import('../types.js').Complex[]} path */
+  #path(path) {
+    const { view } = this.plane;
+    const at = path.map((p) => toPixel(view, p));
+    const last = at.length - 1;
+    // where it goes, two thirds along what is drawn
+    const lengths = at.map(([x, y], i) => (i ? Math.hypot(x - at[i - 1][0], y - at[i - 1][1]) : 0));
+    const whole = lengths.reduce((sum, l) => sum + l, 0);
+    let i = 1;
+    for (let gone = lengths[1]; i < last && gone < 0.67 * whole; gone += lengths[++i]);
+    const turned = (Math.atan2(at[i][1] - at[i - 1][1], at[i][0] - at[i - 1][0]) * 180) / Math.PI;
+    const bad = path[last].re >= 0 ? ' bad' : '';
+    return [
+      svg('path', {
+        class: `lag-path${bad}`,
+        d: `M ${at.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join(' L ')}`,
+      }),
+      ...(whole > 18
+        ? [
+            svg('path', {
+              class: `lag-arrow${bad}`,
+              d: ARROW,
+              transform: `translate(${at[i]}) rotate(${turned.toFixed(0)})`,
+            }),
+          ]
+        : []),
+      ...crossings(path).map((p) => {
+        const [cx, cy] = toPixel(view, p);
+        return svg('circle', { class: 'lag-crossing', 'data-testid': 'lag-crossing', cx, cy, r: 4.5 });
+      }),
+    ];
+  }
+}
+
+/** What the track depends on. @param {import('../types.js').Design} design */
+const asked = (design) => ({
+  ...bodyOf(design),
+  ...(design.scenario.measured && { scenario: { measured: design.scenario.measured } }),
+});
+
+/** Unless someone has said so, where the rotors lag or the design lives by their not lagging. @param {State} state */
+export function isShown({ showLag, design, presets, reply }) {
+  if (showLag !== null || !design) return showLag === true;
+  const matters = reply?.findings.some((f) => f.code === 'lives_by_fast_rotors' || f.code === 'rotors_unstable');
+  return lags(design, presetOf({ presets, design })) || matters === true;
+}
