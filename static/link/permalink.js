@@ -5,8 +5,8 @@
  * Written is what differs from the preset's proposal. `p`: the four poles. `pi`: k_p, T_i of pitch, k_p, T_i of yaw.
  * `set.…`: parameters; `limits.…`; `step.…`: references;
  * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`,
- * `lag`, `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`. `at`: the
- * place on the page. A part that cannot be read is named and left out; the rest is restored.
+ * `lag`, `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`.
+ * `at`: the place on the page. A part that cannot be read is named and left out; the rest is restored.
  *
  * The format is part of the page's contract: a change that an old reader would misread takes a new version, and the
  * reader of the old one stays.
@@ -136,7 +136,8 @@ function objection(path, leaf, base, { methods }, preset) {
 }
 
 /** @param {Leaf} leaf @param {import('../model/quantities.js').Quantity} quantity */
-const inRange = (leaf, { min = -Infinity, max = Infinity }) => typeof leaf === 'number' && leaf >= min && leaf <= max;
+const inRange = (leaf, { min = -Infinity, max = Infinity }) =>
+  leaf === null || (typeof leaf === 'number' && leaf >= min && leaf <= max);
 
 /** A real one, or one of a pair. @param {unknown} p */
 const isPole = (p) =>

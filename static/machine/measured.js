@@ -25,6 +25,7 @@ import { PairEditor } from '../panels/index.js';
 /** @typedef {import('../types.js').Observer} Observer */
 
 const AXES = /** @type {const} */ (['theta', 'psi']);
+const STATES = ['θ', 'ψ', 'θ̇', 'ψ̇'];
 const standard = (/** @type {string} */ name) => QUANTITIES[`observer.${name}`]?.standard;
 const coupled = STRUCTURES.map(([key, name]) => /** @type {const} */ ([key.replace('full-rank/', ''), name]));
 
@@ -128,9 +129,9 @@ export class MeasuredPart {
     this.gain = new Matrix(
       'l-matrix',
       h('b', {}, 'L'),
-      [symbol('θ'), symbol('ψ'), symbol('θ̇'), symbol('ψ̇')],
+      STATES.map((name) => symbol(name)),
       [symbol('θ'), symbol('ψ')],
-      (i, j) => `${i < 2 ? '1/s' : '1/s²'}, correction of ${['θ', 'ψ', 'θ̇', 'ψ̇'][i]} by the error of ${['θ', 'ψ'][j]}`,
+      (i, j) => `${i < 2 ? '1/s' : '1/s²'}, correction of ${STATES[i]} by the error of ${STATES[j]}`,
       { name: 'L', note: "x_hat' = A x_hat + B u + L (y - C x_hat), y = [theta, psi] in rad" },
     );
     this.words = h('p', { class: 'aside', 'data-testid': 'separation' });
@@ -186,7 +187,7 @@ export class MeasuredPart {
     const unknown = lags(design, presetOf({ presets, design })) && !design.place_rotors;
     const separation = unknown
       ? 'The observer does not know that the rotors lag: the loop’s poles are neither the placed ones nor its own.'
-      : 'Separation: the loop’s poles are the placed ones, which PI moves on, and the observer’s, each where it was put.';
+      : 'Separation: the loop’s poles are the placed ones, which PI moves on, and the observer’s own.';
     setText(
       this.words,
       `${t(separation)} ${say`Margins are not promised (Doyle, 1978): here the disk margin is ${margin}.`}`,

@@ -67,7 +67,12 @@ export function dragHandle(design, index, to, how) {
   return { design: withFour(design, index, poles), together };
 }
 
-/** One press of a key on whichever pole (see `nudge`). @param {Design} design @param {number} index @param {Complex} by */
+/**
+ * One press of a key on whichever pole (see `nudge`).
+ * @param {Design} design
+ * @param {number} index
+ * @param {Complex} by
+ */
 export function nudgeHandle(design, index, by) {
   if (kindOf(index) === 'rotor') return withRotorPole(design, axisOf(index), design.rotor_poles[axisOf(index)] + by.re);
   return withFour(design, index, nudge(fourOf(design, index), index % OBSERVER, by));

@@ -155,7 +155,11 @@ export const sendRecording = (file, name, dialect = {}) =>
 /** Files of one run as one recording. @param {string[]} recordings their ids @returns {Promise<Preview>} */
 export const joinRecordings = (recordings) =>
   call('api/v1/recordings/join', /** @satisfies {import('../contract.js').JoinRequest} */ ({ recordings }));
-/** Where the rotors' lag takes the loop's poles. @param {Asked<import('../contract.js').DesignRequest>} design @returns {Promise<import('../contract.js').Lag>} */
+/**
+ * Where the rotors' lag takes the loop's poles.
+ * @param {Asked<import('../contract.js').StepRequest>} design
+ * @returns {Promise<import('../contract.js').Lag>}
+ */
 export const lagTrack = (design) => call('api/v1/lag', design);
 /** A recording of a design's digital rig. @param {Asked<import('../contract.js').SampleRequest>} design */
 export const sampleRecording = (design) => fileOf('api/v1/recordings/sample', design);

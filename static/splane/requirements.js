@@ -93,7 +93,7 @@ export class RequirementsBar {
       /** @type {string} */ title,
     ) => {
       const made = new NumberField({
-        label: `${mark} ${key === 'lag' ? 'at least' : 'at most'}, ${unit === 's' ? 'seconds' : 'percent'}; empty: not asked`,
+        label: `${mark} at ${key === 'lag' ? 'least' : 'most'}, ${unit === 's' ? 'seconds' : 'percent'}; empty: not asked`,
         mark: h('span', { title }, `${mark} ${key === 'lag' ? '≥' : '≤'}`),
         unit,
         testid: `require-${key}`,

@@ -24,7 +24,10 @@ export class SPlane {
   #manual = false;
   /** @type {string|null} */ #preset = null;
   /** @type {number|null} */ #active = null;
-  /** What is drawn over the plane by others, told whether the view is a new one. @type {((fresh: boolean) => void)|null} */
+  /**
+   * What is drawn over the plane by others, told whether the view is a new one.
+   * @type {((fresh: boolean) => void)|null}
+   */
   over = null;
   /** @type {import('./math.js').View|null} */ #drawn = null;
   /** @type {import('../types.js').Requirements|null} */ #asked = null;

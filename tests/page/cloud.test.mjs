@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { mock, test } from 'node:test';
 import { CloudFeed, cloudRequest, cloudWords } from '../../static/splane/cloud_feed.js';
 import { designOf, Store } from '../../static/model/store.js';
+import { MACHINE } from './presets.mjs';
 
 const preset = {
   name: 'rig',
@@ -13,6 +14,7 @@ const preset = {
   limits: { V_p: 24, V_y: 15 },
   poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),
   loops: { pitch: { kp: 1, ti: 1 }, yaw: { kp: 1, ti: 1 } },
+  ...MACHINE,
   scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 3 },
 };
 

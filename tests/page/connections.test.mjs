@@ -8,6 +8,7 @@ import { afterEach, mock, test } from 'node:test';
 import { Hub } from '../../static/scene/hub.js';
 import { RecordingFeed } from '../../static/recordings/feed.js';
 import { designOf, Store } from '../../static/model/store.js';
+import { MACHINE } from './presets.mjs';
 
 afterEach(() => {
   mock.timers.reset();
@@ -89,6 +90,7 @@ const preset = {
   limits: { V_p: 24, V_y: 15 },
   poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),
   loops: { pitch: { kp: 1, ti: 1 }, yaw: { kp: 1, ti: 1 } },
+  ...MACHINE,
   scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 3 },
 };
 

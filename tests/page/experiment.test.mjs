@@ -22,6 +22,7 @@ import { linearPeak, motorText, notSettled } from '../../static/panels/metrics.j
 import { QUANTITIES } from '../../static/model/quantities.js';
 import { NONE } from '../../static/model/requirements.js';
 import { designOf, requestOf } from '../../static/model/store.js';
+import { MACHINE } from './presets.mjs';
 
 const STEPS = { reference: { theta: 0.1, psi: 0.2 }, duration: 3 };
 const RIG = { theta: 2880, psi: 4096 };
@@ -34,6 +35,7 @@ const preset = {
   limits: { V_p: 24, V_y: 15 },
   poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),
   loops: { pitch: { kp: 1, ti: 1 }, yaw: { kp: 1, ti: 1 } },
+  ...MACHINE,
   scenario: STEPS,
 };
 

@@ -81,6 +81,11 @@ function generator(seed) {
       Object.assign(d, { outer: pick(['pi', 'none']), pairing: pick(['diagonal', 'cross']), decoupler: chance(0.5) });
     if (chance(0.5))
       d.scenario = { reference: { theta: number(-1, 1), psi: number(-1, 1) }, duration: positive() % 60 || 1 };
+    if (chance(0.4)) d.rotors = { pitch: { tau: number(0, 9) }, ...(chance(0.5) && { yaw: { curve: 'quadratic' } }) };
+    if (chance(0.3)) d.friction = { yaw: { coulomb: positive(), static: pick([null, 3]) } };
+    if (chance(0.4)) Object.assign(d, { place_rotors: true, rotor_poles: [number(-40, 2), -positive()] });
+    if (chance(0.4))
+      d.observer = { poles: [...pair(), ...pair()], method: pick(['full-rank', 'kalman']), angle_noise: positive() };
     for (const name of ['disturbance', 'digital', 'anti_windup'])
       if (chance(0.3)) d.scenario = { ...d.scenario, [name]: any() }; // unknown to the link's code
     return d;
@@ -93,7 +98,8 @@ function generator(seed) {
     showLinear: chance(0.7),
     showMarks: chance(0.7),
     spread: pick([0, 0.05, 0.2]),
-    requirements: { settling: pick([null, 1.5]), overshoot: pick([null, 10]) },
+    requirements: { settling: pick([null, 1.5]), overshoot: pick([null, 10]), lag: pick([null, 0.2]) },
+    showLag: pick([null, true, false]),
     locks: Object.keys(LOCKS).filter(() => chance(0.3)),
     pins: Array.from({ length: chance(0.5) ? 0 : 3 }, (_, i) => ({
       id: i,
@@ -106,10 +112,11 @@ function generator(seed) {
   return { state, pick, random };
 }
 
-const shownOf = ({ motion, showLinear, showMarks, spread, requirements, locks }) => ({
+const shownOf = ({ motion, showLinear, showMarks, showLag, spread, requirements, locks }) => ({
   motion,
   showLinear,
   showMarks,
+  showLag,
   spread,
   requirements,
   locks,
@@ -166,7 +173,7 @@ test('links of version 1 open as they did', () => {
     const preset = PRESETS.find((p) => p.name === (design.preset ?? PRESETS[0].name));
     assert.deepEqual(read.trouble, []);
     assert.deepEqual(read.design, designOf(preset, design));
-    if (shown) assert.deepEqual(read.shown, { requirements: NONE, showMarks: true, ...shown });
+    if (shown) assert.deepEqual(read.shown, { requirements: NONE, showMarks: true, showLag: null, ...shown });
     assert.equal(read.place, place);
     if (pins)
       assert.deepEqual(
@@ -253,16 +260,16 @@ test('what cannot be read is named, and the rest is restored', () => {
 });
 
 test('requirements are part of a link, and only such as the page can ask', () => {
-  const state = { ...initialState(), design: designOf(PRESETS[0]), requirements: { settling: 0.4, overshoot: null } };
+  const state = { ...initialState(), design: designOf(PRESETS[0]), requirements: { ...NONE, settling: 0.4 } };
   const link = linkOf(state, KNOWN);
   assert.equal(link, '#v1&preset=quanser-2dof-manual&req.settling=0.4');
-  assert.deepEqual(readLink(link, KNOWN).shown.requirements, { settling: 0.4, overshoot: null });
+  assert.deepEqual(readLink(link, KNOWN).shown.requirements, { ...NONE, settling: 0.4 });
   const mixed = readLink('#v1&req.settling=-1&req.overshoot=5', KNOWN);
   assert.deepEqual(
     mixed.trouble.map((t) => t.part),
     ['req.settling'],
   );
-  assert.deepEqual(mixed.shown.requirements, { settling: null, overshoot: 5 });
+  assert.deepEqual(mixed.shown.requirements, { ...NONE, overshoot: 5 });
   for (const part of [
     'settling=',
     'settling=0',
@@ -279,7 +286,7 @@ test('requirements are part of a link, and only such as the page can ask', () =>
     assert.equal(trouble.length, 1, part);
     assert.deepEqual(shown.requirements, NONE, part);
   }
-  assert.deepEqual(NONE, { settling: null, overshoot: null }); // it was not written into
+  assert.deepEqual(NONE, { settling: null, overshoot: null, lag: null }); // it was not written into
 });
 
 test('what mail programs do to a link does not matter', () => {

@@ -1,7 +1,22 @@
 // Two presets in the shape of the server's, for tests of the page's pure modules.
 const real = (...values) => values.map((re) => ({ re, im: 0 }));
 
-const usual = { coupling: 'triangular', lead: 'pitch', outer: 'pi', pairing: 'diagonal', decoupler: false };
+const rotor = { tau: 0, curve: 'linear', dead_zone: 0 };
+/** What a preset says of the machine beyond the paper's model. */
+export const MACHINE = {
+  place_rotors: false,
+  rotors: { pitch: rotor, yaw: rotor },
+  friction: { pitch: { coulomb: 0 }, yaw: { coulomb: 0 } },
+  rotor_poles: real(-15, -16),
+};
+const usual = {
+  coupling: 'triangular',
+  lead: 'pitch',
+  outer: 'pi',
+  pairing: 'diagonal',
+  decoupler: false,
+  ...MACHINE,
+};
 
 export const PRESETS = [
   {

@@ -18,6 +18,7 @@ import {
   rangeOfCurves,
 } from '../../static/recordings/recordings.js';
 import { designOf, Store } from '../../static/model/store.js';
+import { MACHINE } from './presets.mjs';
 
 const preset = {
   name: 'rig',
@@ -28,6 +29,7 @@ const preset = {
   limits: { V_p: 24, V_y: 15 },
   poles: [-1, -2, -3, -4].map((re) => ({ re, im: 0 })),
   loops: { pitch: { kp: 1, ti: 1 }, yaw: { kp: 1, ti: 1 } },
+  ...MACHINE,
   scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 3 },
 };
 const names = { time: 't', theta: 'a', psi: 'b', V_p: 'c', V_y: 'd' };

@@ -7,6 +7,8 @@ import {
   asProposed,
   changedWords,
   isChanged,
+  lagOf,
+  lags,
   proposedShown,
   quantities,
   valueOf,
@@ -38,7 +40,13 @@ const named = (preset, name) => quantities(preset).find((q) => q.name === name);
 test('every parameter and limit is listed once, angles in degrees', () => {
   assert.deepEqual(
     quantities(HELD).map((q) => `${q.kind}.${q.name}`),
-    ['parameters.K_pp', 'parameters.B_y', 'parameters.m', 'limits.V_p', 'limits.V_y', 'limits.theta'],
+    [
+      ...['parameters.K_pp', 'parameters.B_y', 'parameters.m', 'limits.V_p', 'limits.V_y', 'limits.theta'],
+      ...['pitch', 'yaw'].flatMap((axis) =>
+        ['tau', 'curve', 'dead_zone', 'matched_at'].map((name) => `rotors.${axis}.${name}`),
+      ),
+      ...['pitch', 'yaw'].flatMap((axis) => ['coulomb', 'static'].map((name) => `friction.${axis}.${name}`)),
+    ],
   );
   const theta = named(HELD, 'theta');
   assert.equal(theta.unit, '°');
@@ -60,6 +68,23 @@ test('a design holds only what differs, and sends it', () => {
   assert.deepEqual([parameters, limits], [{}, {}]);
 });
 
+test('the machine: overrides of each rotor and each axis, gone when they are as the preset has them', () => {
+  const of = (kind, name) => quantities(HELD).find((q) => q.kind === kind && q.name === name);
+  const [tau, curve, held] = [of('rotors.yaw', 'tau'), of('rotors.yaw', 'curve'), of('friction.pitch', 'static')];
+  let design = withValue(designOf(HELD), HELD, tau, 0.16);
+  design = withValue(design, HELD, curve, 'quadratic');
+  design = withValue(design, HELD, held, 0.02);
+  assert.deepEqual(design.rotors, { yaw: { tau: 0.16, curve: 'quadratic' } });
+  assert.deepEqual(bodyOf(design).friction, { pitch: { static: 0.02 } });
+  assert.equal(valueOf(design, HELD, curve), 'quadratic');
+  assert.deepEqual([lagOf(design, HELD, 'yaw'), lags(design, HELD)], [0.16, true]);
+  assert.deepEqual(curve.words, ['linear', 'quadratic']);
+  design = withValue(without(design, tau), HELD, curve, 'linear');
+  assert.deepEqual([design.rotors, lags(design, HELD)], [{}, false]);
+  assert.deepEqual(withValue(design, HELD, held, NaN).friction, {}); // free, as the preset has it
+  assert.deepEqual(asProposed(design).friction, {});
+});
+
 test('a travel can be free: null where the preset has stops, absent where it has none', () => {
   const theta = named(HELD, 'theta');
   assert.deepEqual(withValue(designOf(HELD), HELD, theta, NaN).limits, { theta: null });
@@ -69,10 +94,11 @@ test('a travel can be free: null where the preset has stops, absent where it has
 });
 
 test('what is changed is counted in words', () => {
-  const words = (parameters, limits) => changedWords({ parameters, limits });
+  const words = (parameters, limits, rotors = {}) => changedWords({ parameters, limits, rotors, friction: {} });
   assert.equal(words({}, {}), '');
   assert.equal(words({ m: 1 }, {}), '1 parameter changed');
   assert.equal(words({ m: 1, B_y: 2 }, {}), '2 parameters changed');
+  assert.equal(words({ m: 1 }, {}, { pitch: { tau: 0.1, curve: 'quadratic' } }), '3 parameters changed');
   assert.equal(words({}, { V_p: 1 }), '1 limit changed');
   assert.equal(words({ m: 1, B_y: 2 }, { V_p: 1, V_y: 2 }), '2 parameters, 2 limits changed');
 });

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { beforeEach, test } from 'node:test';
 
 import { bodyOf, designOf, requestOf, Store } from '../../static/model/store.js';
+import { MACHINE } from './presets.mjs';
 
 const PRESET = {
   name: 'rig',
@@ -23,6 +24,7 @@ const PRESET = {
   pairing: 'diagonal',
   decoupler: false,
   loops: { pitch: { kp: 30, ti: 0.1 }, yaw: { kp: 20, ti: 0.2 } },
+  ...MACHINE,
   scenario: { reference: { theta: 0.1, psi: 0.2 }, duration: 4 },
 };
 /** @type {Store} */
