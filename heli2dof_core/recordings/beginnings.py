@@ -23,6 +23,7 @@ LEAST_NOISE = 1e-5
 """Of angles, rad: below it residuals are no measure of what is known of the speeds."""
 _STEPS = (1e-4, 1e-4, 1e-3, 1e-3, 0.02, 0.02)
 """Of numerical derivatives: rad, rad/s, V."""
+_SPEEDS = np.repeat([0.0, 1.0], [4, 2])
 _MOST = 6
 _SHORTER, _TRIALS = 0.25, 4
 _ENOUGH = 1e-6
@@ -96,13 +97,11 @@ def _fitted(
             break
         noise = max(LEAST_NOISE, float(np.sqrt(np.mean(r**2))))
         J = np.column_stack([residuals(u + step) - r for step in np.diag(steps)[free]])
-        own = (noise / likely * np.diag(np.repeat([0.0, 1.0], [4, 2])))[:, free]
         if not np.all(np.isfinite(J)):
             break
-        A, b = (
-            np.vstack((J, own * steps[free])),
-            -np.concatenate((r, noise / likely * np.concatenate((np.zeros(4), u[4:])))),
-        )
+        weight = noise / likely * _SPEEDS
+        A = np.vstack((J, np.diag(weight * steps)[:, free]))
+        b = -np.concatenate((r, weight * u))
         change = np.zeros(6)
         change[free] = steps[free] * np.linalg.lstsq(A, b, rcond=1e-9)[0]
         before = cost(r, u, noise)
