@@ -5,11 +5,10 @@ from __future__ import annotations
 import json
 
 import pytest
-from click.testing import CliRunner
 
-from app.cli import main
 from app.contract.recordings import IdentificationReply
 from heli2dof_core.recordings.identification import FREE
+from tests.app.test_cli import run
 from tests.app.test_recordings_api import COLUMNS, FOUR, rows, upload
 from tests.app.test_rest import post
 
@@ -58,7 +57,7 @@ def test_lag_and_thrust_are_found_and_go_back_into_a_request(client, sample, sen
     right = truth(sample)
     for e in found["estimates"]:
         assert e["low"] <= right[e["name"]] <= e["high"], e
-        assert e["high"] - e["low"] < 0.3 * right[e["name"]]
+        assert e["high"] - e["low"] < 0.5 * abs(right[e["name"]])
     tau = {e["name"]: e for e in found["estimates"] if e["name"] in TAU}
     assert {e["unit"] for e in tau.values()} == {"s"} and {e["before"] for e in tau.values()} == {0.0}
     assert found["rotors"]["pitch"] == {
@@ -78,8 +77,11 @@ def test_lag_and_thrust_are_found_and_go_back_into_a_request(client, sample, sen
         assert max(after.values()) < 0.6 * max(before.values()), driver
 
 
-def test_references_drive_the_loop_with_its_rotors(client, sent):
-    about = {"columns": COLUMNS, "driver": "references", "scenario": {"digital": {"sample_time": 0.005}}}
+def test_references_drive_the_loop_with_its_rotors(client):
+    digital = {"digital": {"sample_time": 0.005}}
+    body = {**RIG, "length": 10.0, "deviation": 0.0, "scenario": digital}
+    sent = upload(client, client.post("/api/v1/recordings/sample", json=body).content)["id"]
+    about = {"columns": COLUMNS, "driver": "references", "scenario": digital}
     fits = [
         min(post(client, f"recordings/{sent}/overlay", {**body, **about})["fit"].values())
         for body in (RIG, {**RIG, "rotors": {axis: {"tau": 0.4} for axis in ("pitch", "yaw")}})
@@ -137,17 +139,14 @@ def test_the_command_line_finds_the_same(client, sample, sent, tmp_path):
         "--free",
         ",".join(free),
     ]
-    run = CliRunner().invoke(main, [*ask, "--json"])
-    assert run.exit_code == 0, run.stderr
-    own = json.loads(run.stdout)
+    own = json.loads(run(*ask, "--json").stdout)
     body = {**THOUGHT, "rotors": {"yaw": {"tau": 0.13}}, "recording": sent, "columns": COLUMNS, "free": free}
     other = identified(client, body)
     assert own["estimates"] == other["estimates"] and own["rotors"] == other["rotors"]
     assert own["rotors"]["yaw"]["tau"] == 0.13
-    refused = CliRunner().invoke(main, ["identify", str(path), "--free", "K_pp,rotors.tau"])
-    assert refused.exit_code == 2
-    assert "--free (free): 'rotors.tau' cannot be identified" in refused.stderr
-    assert "rotors.pitch.tau" in refused.stderr
+    refused = run("identify", str(path), "--free", "K_pp,rotors.tau", status=2).stderr
+    assert "--free (free): 'rotors.tau' cannot be identified" in refused and "rotors.pitch.tau" in refused
+    assert "rotors.pitch.tau" in run(*ask).stdout
 
 
 UNSOLVED = {"observer": {"method": "kalman", "voltage_noise": 1e6, "angle_noise": 1e-12}}
@@ -176,7 +175,6 @@ def test_nor_does_it_on_the_live_socket(client, measured):
 
 @pytest.mark.parametrize("call", ["evaluate", "step", "robustness", "export/csv", "export/c-source"])
 def test_where_it_is_used_it_does(client, call):
-    post(client, call, UNSOLVED) if call in ("evaluate", "step") else None
     problem = post(client, call, USED, status=422)
     assert "Riccati" in problem["detail"] and problem["field"] == "observer.angle_noise"
     reply = client.post(f"/api/v1/{call}", json={**UNSOLVED, "scenario": {"measured": "filtered"}})

@@ -1,4 +1,4 @@
-"""Recordings that the digital rig makes, rotors, friction and estimators included, and where stretches of them begin."""
+"""Recordings that the digital rig makes, with rotors, friction and estimators, and where stretches of them begin."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ CONTROLLERS = {
 
 
 def two(spec, theta=0.1, psi=0.3, count=301):
-    return np.tile([theta, psi], (count, 1)) + [spec.theta_0, 0.0]
+    return np.tile([spec.theta_0 + theta, psi], (count, 1))
 
 
 @pytest.mark.parametrize("controller", CONTROLLERS)
@@ -100,8 +100,8 @@ def test_the_papers_size_runs_alike_in_both_ways():
     )
     assert done == 301
     np.testing.assert_array_equal(measured, run.measured)
-    np.testing.assert_allclose(states, run.states, rtol=1e-12, atol=1e-14)
-    np.testing.assert_allclose(voltages, run.voltages, rtol=1e-11)
+    np.testing.assert_allclose(states, run.states, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(voltages, run.voltages, rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("kind", ["lag", "curved, placed, observed"])
@@ -176,7 +176,7 @@ def test_an_exported_step_is_what_the_rotors_made_of_it(kind):
     assert spec.actuators is not None
     _, away = beginnings(spec.parameters, recording, bounds, spec.actuators.constants)
     np.testing.assert_allclose(away[0] + recording.voltages[0], spec.actuators.trim, atol=1.0)
-    assert np.max(np.abs(away)) > 1.5
+    assert np.max(np.abs(away)) > 1.0
     rig = spec.parameters, recording
     assert min(driven_in_segments(*rig, None, None, **machine).fit) > 99.5
     assert np.all(np.isfinite(driven_in_segments(*rig, None, None, **machine).angles))
@@ -190,15 +190,13 @@ def test_what_rotors_did_before_is_found_where_a_recording_begins_in_motion():
     acting[:2] = [own.tau for own in truth.rotors.both]
     acting[6:8] = acting[8:] = [own.coulomb for own in truth.friction.both]
     speeds = turning(acting, np.array([[0, len(whole.t)]]), whole.t, whole.voltages).speeds
-    gaps = []
     for first in range(400, 2400, 400):
         part = Recording(whole.t[first:] - whole.t[first], whole.angles[first:], whole.voltages[first:])
         _, away = beginnings(truth.parameters, part, np.array([[0, len(part.t)]]), acting)
-        settled = speeds[first] - whole.voltages[first]
-        gaps.append((np.abs(away[0] - settled), np.abs(settled)))
-    found, ignored = np.median(gaps, axis=0)
-    assert np.all(found < 0.5 * ignored)
-    assert np.all(found < 0.7)
+        right = speeds[first] - whole.voltages[first]
+        assert abs(away[0, 0] - right[0]) < 0.1 and abs(away[0, 1] - right[1]) < 0.4
+    known = {"rotors": truth.rotors, "friction": truth.friction}
+    assert max(driven_in_segments(truth.parameters, part, **known).rms) < 1.2e-3
 
 
 def test_what_does_not_show_is_taken_for_settled():
