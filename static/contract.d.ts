@@ -311,6 +311,7 @@ export interface Erratum {
 
 /** A parameter in SI units with its 95 % interval; `plain` is the half width if residuals were white. */
 export interface EstimateReply {
+  /** of the rig's parameter, or its place in a request: rotors.pitch.tau */
   name: string;
   unit: string;
   before: number;
@@ -493,6 +494,10 @@ export interface Guess {
 export interface IdentificationReply {
   done: boolean;
   estimates: EstimateReply[];
+  /** with what was found, as a request takes them; quadratic curves say where they are matched */
+  rotors: RotorPair;
+  /** likewise */
+  friction: FrictionPair;
   rms_before: PerAxis | null;
   rms: PerAxis;
   segments: number;
@@ -502,12 +507,17 @@ export interface IdentificationReply {
   findings: Finding[];
 }
 
-/** A rig as it is thought to be, and which of its parameters are free. */
+/** A rig as it is thought to be, its rotors and friction too, and what of it is free. */
 export interface IdentifyRequest extends DesignRequest {
   recording: string;
   columns: Mapping;
-  /** all by default, K_s only where it is not 0 */
-  free?: ('K_pp' | 'K_py' | 'K_yp' | 'K_yy' | 'B_p' | 'B_y' | 'K_s')[] | null;
+  /**
+   * thrust constants, damping and stiffness by default, K_s only where it is not 0; names with dots are those of a
+   * request: time constants of rotors, and friction
+   */
+  free?:
+    | ('K_pp' | 'K_py' | 'K_yp' | 'K_yy' | 'B_p' | 'B_y' | 'K_s' | 'rotors.pitch.tau' | 'rotors.yaw.tau' | 'friction.pitch.coulomb' | 'friction.yaw.coulomb')[]
+    | null;
   /** s; by default by the rig's stability */
   segment?: number | null;
 }

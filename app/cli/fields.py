@@ -186,7 +186,7 @@ DRIVER = Option(
     "--driver", "driver", Name(lambda: ("segments", "voltages", "references")), "What drives the model."
 )
 SEGMENT = Option("--segment", "segment", click.FLOAT, "Length of a segment, s; by the rig by default.")
-FREE = Option("--free", "free", Words(), "Parameters to be found, with commas: K_pp,B_p.")
+FREE = Option("--free", "free", Words(), "What is to be found, with commas: K_pp,B_p,rotors.pitch.tau.")
 ALL = (*DESIGN, *LOOPS, *SCENARIO, MODEL, FREQUENCIES, *COLUMNS, SEPARATOR, DECIMAL, DRIVER, SEGMENT, FREE)
 
 

@@ -84,20 +84,20 @@ def overlay(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **valu
 @_FILES
 @takes(*DESIGN, *COLUMNS, *_TEXT, SEGMENT, FREE)
 def identify(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **values: Any) -> None:
-    """Find the rig's damping, stiffness and thrust constants from FILES, with 95 % intervals."""
-    from heli2dof_core import identify as identify_rig
+    """Find the rig's damping, stiffness and thrust constants from FILES, with 95 % intervals.
+
+    And, where they are among those to be found, time constants of its rotors and friction of its axes.
+    """
     from heli2dof_core.recordings.recording import recording_of
 
-    from ..contract.recordings import IdentifyRequest, identification_reply
+    from ..contract.recordings import IdentifyRequest, identification_reply, identified
 
     with refusals(as_json):
         table, columns, request = _opened(files, base, values)
         asked = IdentifyRequest.model_validate({**request, "recording": "file"})
         spec, recording = asked.to_spec(), recording_of(table, columns)
         load_kernels()
-        found: Identification = identify_rig(
-            spec.parameters, recording, asked.free, segment=asked.segment, travel=spec.limits.theta
-        )
+        found = identified(asked, spec, recording)
         if as_json:
             return print_json(identification_reply(found))
         show([_estimates(found)], _about(recording), findings=found.findings)

@@ -14,16 +14,20 @@ from pydantic import Field, create_model
 from heli2dof_core import (
     Design,
     Estimator,
+    Heli2DofError,
+    Loop,
     Parameters,
     Spec,
     loop_of,
     place,
     plant,
 )
+from heli2dof_core import Finding as CoreFinding
 from heli2dof_core.controllability import controllability_indices
 from heli2dof_core.design import FULL_RANK
 from heli2dof_core.estimators import observe
 from heli2dof_core.figures import LOOP as FIGURES_OF_LOOP
+from heli2dof_core.findings import merged
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.presets import DEFAULT
 from heli2dof_core.request import (
@@ -51,6 +55,7 @@ from .model import (
     Finding,
     Model,
     Reply,
+    findings_reply,
     poles_reply,
     proposed,
     reply_of,
@@ -252,12 +257,34 @@ def _indices_of(design: Design) -> tuple[int, ...]:
 def gains_of(spec: Spec) -> Reply:
     """The reply to a design alone: its observer is told where it has one."""
     placed = place(spec)
-    observer = None if spec.observer is None else observe(placed, spec.observer)
-    return gains_reply(placed, loop_of(spec, placed).lag_margin, observer)
+    loop = loop_of(spec, placed)
+    observer, unsolved = own_observer(spec, placed, loop)
+    return gains_reply(placed, loop.lag_margin, observer, unsolved)
 
 
-def gains_reply(design: Design, lag_margin: float | None = None, observer: Estimator | None = None) -> Reply:
-    """K and what it does to the poles; with the whole loop's lag margin, and an observer."""
+def own_observer(spec: Spec, design: Design, loop: Loop) -> tuple[Estimator | None, tuple[CoreFinding, ...]]:
+    """The observer that a request describes, and what is to be said where there is none like that.
+
+    Where the loop acts on it, it is the loop's; elsewhere it is told for its own sake and refuses nothing else.
+    """
+    if spec.observer is None:
+        return None, ()
+    if spec.scenario.measured == "observer":
+        return loop.estimator, ()
+    try:
+        return observe(design, spec.observer), ()
+    except Heli2DofError as error:
+        words = f"There is no observer: {error}. {error.hint}".rstrip()
+        return None, (CoreFinding("observer_unavailable", "warning", words),)
+
+
+def gains_reply(
+    design: Design,
+    lag_margin: float | None = None,
+    observer: Estimator | None = None,
+    more: tuple[CoreFinding, ...] = (),
+) -> Reply:
+    """K and what it does to the poles; with the whole loop's lag margin, an observer, and what more is to be said."""
     A, B = design.model
     rotors = design.rotor_poles
     return reply_of(
@@ -271,6 +298,7 @@ def gains_reply(design: Design, lag_margin: float | None = None, observer: Estim
         **observer_reply(observer),
         pole_error_bound=design.pole_error_bound if design.aims else None,
         controllability_indices=_indices_of(design),
+        **({"findings": findings_reply(merged(design.findings, more))} if more else {}),
     )
 
 

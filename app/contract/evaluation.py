@@ -5,12 +5,12 @@ from __future__ import annotations
 from pydantic import Field
 
 from heli2dof_core import Report, Spec
-from heli2dof_core.estimators import observe
+from heli2dof_core.findings import merged
 from heli2dof_core.request import (
     LIMITS,
 )
 
-from .design import Gains, ObserverGains, gains_reply
+from .design import Gains, ObserverGains, gains_reply, own_observer
 from .experiment import BothModels, OfLoop, StepRequest, loop_reply, step_reply
 from .fields import Whole
 from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, rga_reply, sensitivity_reply
@@ -59,12 +59,13 @@ class Evaluation(OfLoop):
 def report_reply(report: Report, spec: Spec) -> Reply:
     """Everything at once: what the page needs after a drag."""
     loop, common = report.loop, loop_reply(report.loop)
+    observer, unsolved = own_observer(spec, report.design, loop)
     return {
         **common,
         "gains": gains_reply(
             report.design,
             loop.lag_margin,
-            None if spec.observer is None else observe(report.design, spec.observer),
+            observer,
         ),
         "open_loop_poles": poles_reply(report.design.plant.poles),
         "rga": rga_reply(report.design, report.interaction),
@@ -76,5 +77,5 @@ def report_reply(report: Report, spec: Spec) -> Reply:
         "margins": margins_reply(report.margins),
         **sensitivity_reply(report.sensitivity),
         "limits": LIMITS.proposal(spec.limits),
-        "findings": findings_reply(report.findings),
+        "findings": findings_reply(merged(report.findings, unsolved)),
     }

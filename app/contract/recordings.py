@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field
 
-from heli2dof_core import loop_of
+from heli2dof_core import Spec, loop_of
 from heli2dof_core.errors import within_field
 from heli2dof_core.recordings.files import MOST_FILES
 from heli2dof_core.recordings.guess import guess_columns
-from heli2dof_core.recordings.identification import IDENTIFIABLE, Identification, Progress
+from heli2dof_core.recordings.identification import FREE, Identification, Progress, identify
 from heli2dof_core.recordings.overlay import (
     Overlay,
     driven_by_references,
@@ -22,6 +22,7 @@ from heli2dof_core.recordings.overlay import (
 from heli2dof_core.recordings.recording import ROLES, AngleUnit, Columns, Recording, Table
 from heli2dof_core.recordings.time_axis import likely_unit
 from heli2dof_core.recordings.units import SECONDS
+from heli2dof_core.request import FRICTION, ROTOR
 from heli2dof_core.signals import Floats
 
 from .design import DesignRequest
@@ -29,6 +30,7 @@ from .experiment import StepRequest
 from .fields import Strict, Whole, asked
 from .model import Finding, Model, Reply
 from .places import COLUMNS
+from .presets import FrictionPair, RotorPair
 
 PREVIEWED = 5
 
@@ -124,12 +126,15 @@ class OverlayRequest(StepRequest):
 
 
 class IdentifyRequest(DesignRequest):
-    """A rig as it is thought to be, and which of its parameters are free."""
+    """A rig as it is thought to be, its rotors and friction too, and what of it is free."""
 
     recording: str = Field(max_length=64)
     columns: Mapping
-    free: list[Annotated[str, Field(json_schema_extra={"enum": [*IDENTIFIABLE]})]] | None = Field(
-        default=None, max_length=len(IDENTIFIABLE), description="all by default, K_s only where it is not 0"
+    free: list[Annotated[str, Field(json_schema_extra={"enum": [*FREE]})]] | None = Field(
+        default=None,
+        max_length=len(FREE),
+        description="thrust constants, damping and stiffness by default, K_s only where it is not 0; names with "
+        "dots are those of a request: time constants of rotors, and friction",
     )
     segment: float | None = Field(
         default=None, ge=0.1, le=1e4, description="s; by default by the rig's stability"
@@ -222,7 +227,7 @@ class OverlayReply(Model):
 class EstimateReply(Model):
     """A parameter in SI units with its 95 % interval; `plain` is the half width if residuals were white."""
 
-    name: str
+    name: str = Field(description="of the rig's parameter, or its place in a request: rotors.pitch.tau")
     unit: str
     before: float
     value: float
@@ -237,6 +242,10 @@ class IdentificationReply(Model):
 
     done: bool
     estimates: list[EstimateReply]
+    rotors: RotorPair = Field(
+        description="with what was found, as a request takes them; quadratic curves say where they are matched"
+    )
+    friction: FrictionPair = Field(description="likewise")
     rms_before: PerAxis | None = None
     rms: PerAxis
     segments: int
@@ -255,12 +264,44 @@ def overlaid(
         RecordingError: the rig runs away, or what drives it was not recorded.
     """
     spec = request.to_spec()
+    rig, machine = (spec.parameters, recording), _machine(spec)
     if request.driver == "voltages":
-        return driven_by_voltages(spec.parameters, recording, spec.limits.theta, wanted)
+        return driven_by_voltages(*rig, spec.limits.theta, wanted, **machine)
     if request.driver == "segments":
-        return driven_in_segments(spec.parameters, recording, request.segment, spec.limits.theta, wanted)
+        return driven_in_segments(*rig, request.segment, spec.limits.theta, wanted, **machine)
     loop = loop_of(spec)
     return driven_by_references(loop, spec.limits, recording, spec.scenario.digital, wanted)
+
+
+def identified(
+    request: IdentifyRequest,
+    spec: Spec,
+    recording: Recording,
+    report: Callable[[Progress], None] = lambda progress: None,
+    wanted: Callable[[], None] = lambda: None,
+) -> Identification:
+    """What the recording says about the rig of `spec`, which is the request's.
+
+    Raises:
+        InvalidInputError: what shall be free cannot be.
+        RecordingError: the recording does not say what is asked of it.
+    """
+    return identify(
+        spec.parameters,
+        recording,
+        request.free,
+        segment=request.segment,
+        travel=spec.limits.theta,
+        report=report,
+        wanted=wanted,
+        **_machine(spec),
+    )
+
+
+def _machine(spec: Spec) -> dict[str, Any]:
+    """Rotors and friction, and what matches thrust curves that do not say it themselves."""
+    limits = spec.limits.V_p, spec.limits.V_y
+    return {"rotors": spec.rotors, "friction": spec.friction, "theta_0": spec.theta_0, "limits": limits}
 
 
 def preview_reply(key: str, name: str, table: Table) -> Reply:
@@ -331,6 +372,8 @@ def identification_reply(found: Identification) -> Reply:
     return {
         "done": True,
         "estimates": [{**vars(e), "adopted": e.allowed} for e in found.estimates],
+        "rotors": {axis: place.proposal(getattr(found.rotors, axis)) for axis, place in ROTOR.items()},
+        "friction": {axis: place.proposal(getattr(found.friction, axis)) for axis, place in FRICTION.items()},
         "rms_before": None if found.rms_before is None else _axes(found.rms_before),
         "rms": _axes(found.rms),
         "segments": len(found.segments),

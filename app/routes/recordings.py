@@ -11,9 +11,10 @@ from fastapi import APIRouter, HTTPException, Query, Request, Response, WebSocke
 
 from heli2dof_core import Spec, loop_of, preset
 from heli2dof_core.engine import engine
+from heli2dof_core.export.machine import machine_lines
 from heli2dof_core.recordings.files import Dialect, joined_tables, read_table, write_csv
 from heli2dof_core.recordings.files.text import Decimal, Separator
-from heli2dof_core.recordings.identification import Progress, identify
+from heli2dof_core.recordings.identification import Progress
 from heli2dof_core.recordings.recording import Table, recording_of
 from heli2dof_core.recordings.samples import deviating_rig, named_columns, sample_recording
 from heli2dof_core.scenario import Digital
@@ -28,6 +29,7 @@ from ..contract.recordings import (
     Preview,
     SampleRequest,
     identification_reply,
+    identified,
     overlaid,
     overlay_reply,
     preview_reply,
@@ -124,12 +126,14 @@ def _sample(request: SampleRequest) -> bytes:
     wanted = (base.scenario.theta or _DEFAULT_STEPS[0], base.scenario.psi or _DEFAULT_STEPS[1])
     size = (abs(wanted[0] - spec.theta_0) if base.scenario.theta is None else abs(wanted[0]), abs(wanted[1]))
     loop = loop_of(spec)
-    run = sample_recording(loop, spec.limits, digital, rig=rig, duration=request.length, size=size)
+    about = {"rig": rig, "duration": request.length, "size": size, "wanted": check_cancelled}
+    run = sample_recording(loop, spec.limits, digital, **about)
     changed = {name: v for name, v in rig.as_dict().items() if v != getattr(spec.parameters, name)}
     truth = ", ".join(f"{name} = {value:.6g}" for name, value in changed.items())
     comments = (
         "A digital rig of heli2dof: angles in rad, voltages in V",
         f"Its true parameters, SI: {truth}" if truth else "Its parameters are the design's",
+        *machine_lines(spec),
     )
     return write_csv(named_columns(run), comments)
 
@@ -152,16 +156,7 @@ async def _identify(
 
     def work() -> Reply:
         recording = recording_of(table, request.columns.to_columns())
-        found = identify(
-            spec.parameters,
-            recording,
-            request.free,
-            segment=request.segment,
-            travel=spec.limits.theta,
-            report=report,
-            wanted=check_cancelled,
-        )
-        return identification_reply(found)
+        return identification_reply(identified(request, spec, recording, report, check_cancelled))
 
     running = asyncio.ensure_future(compute.run_slow(work))
     running.add_done_callback(lambda _: news.put(None))

@@ -12,6 +12,7 @@ from __future__ import annotations
 from math import ceil, cos, exp, sin
 
 from . import examples
+from .actuators import curve_zone, inertia, thrust_on, thrust_slope
 from .digital import stop_at_travel
 from .jit import copy_into, entry_point, kernel
 from .layout import (
@@ -20,14 +21,11 @@ from .layout import (
     ALPHA,
     BREAKAWAY,
     COULOMB,
-    DEAD,
-    J_Y,
     K_PP,
     K_PY,
     K_YP,
     K_YY,
     ML2,
-    SQUARE,
     TAU,
 )
 from .recorded import begin_sensitivities, bound_travel, variational_equations
@@ -184,24 +182,11 @@ def thrust(since, V, v, by_tau, c, out):
             decay, away = exp(-since / tau), v[motor] - V[motor]
             speed = V[motor] + away * decay
             slope = decay * (by_tau[motor] + away * since / (tau * tau))
-        if c[SQUARE + motor] > 0.0:
-            beyond = abs(speed) - c[DEAD + motor]
-            if beyond <= 0.0:
-                speed = slope = 0.0
-            else:
-                side = 1.0 if speed > 0.0 else -1.0
-                slope *= 2.0 * c[SQUARE + motor] * beyond
-                speed = side * c[SQUARE + motor] * beyond * beyond
-        out[motor], out[2 + motor] = speed, slope
-
-
-@kernel
-def inertia(axis, state, c):
-    """α, or β at this pitch angle."""
-    if axis == 0:
-        return c[ALPHA]
-    cosine = cos(state[0, 0])
-    return c[J_Y] + c[ML2] * cosine * cosine
+        zone = curve_zone(speed, motor, c)
+        out[motor], out[2 + motor] = (
+            thrust_on(speed, zone, motor, c),
+            slope * thrust_slope(speed, zone, motor, c),
+        )
 
 
 @kernel
@@ -210,7 +195,7 @@ def direction_of(axis, state, slope, c):
     rate = state[0, 2 + axis]
     if rate != 0.0:
         return 1.0 if rate > 0.0 else -1.0
-    torque = inertia(axis, state, c) * slope[0, 2 + axis]
+    torque = inertia(axis, state[0, 0], c) * slope[0, 2 + axis]
     if abs(torque) <= c[BREAKAWAY + axis]:
         return 0.0
     return 1.0 if torque > 0.0 else -1.0
@@ -244,7 +229,7 @@ def step(begin, h, V, v, by_tau, c, rows, w):
 def rates(x, drive, direction, c, rows, out):
     """Rates of the state and of its derivatives, with thrusts φ and friction in these directions."""
     variational_equations(x, drive[0], drive[1], c, rows, out)
-    alpha, beta = c[ALPHA], inertia(1, x, c)
+    alpha, beta = c[ALPHA], inertia(1, x[0, 0], c)
     if rows > 1:
         out[12, 2] += c[K_PP] * drive[2] / alpha
         out[12, 3] += c[K_YP] * drive[2] / beta
@@ -278,7 +263,7 @@ def past(axis, at, V, v, by_tau, c, w):
         return -side * state[0, 2 + axis]
     thrust(at, V, v, by_tau, c, drive[0])
     variational_equations(state, drive[0, 0], drive[0, 1], c, 1, slope)
-    return abs(inertia(axis, state, c) * slope[0, 2 + axis]) - c[BREAKAWAY + axis]
+    return abs(inertia(axis, state[0, 0], c) * slope[0, 2 + axis]) - c[BREAKAWAY + axis]
 
 
 @kernel
@@ -325,7 +310,7 @@ def locate(axis, begin, h, V, v, by_tau, c, w):
 def meet(axis, begin, h, V, v, by_tau, c, rows, w):
     """The axis turns round, comes to rest, or breaks away: what its rate's derivatives are afterwards."""
     state, slope, kept, drive = w[0], w[2], w[4], w[5]
-    side, own = w[5, 3, axis], inertia(axis, state, c)
+    side, own = w[5, 3, axis], inertia(axis, state[0, 0], c)
     thrust(begin + h, V, v, by_tau, c, drive[0])
     if side != 0.0:
         variational_equations(state, drive[0, 0], drive[0, 1], c, 1, slope)
@@ -371,5 +356,5 @@ def torque_rate(axis, state, at, V, v, by_tau, c, w):
             stage[0, j] = state[0, j] + sign * small * w[3, 0, j]
         thrust(at + sign * small, V, v, by_tau, c, drive[0])
         variational_equations(stage, drive[0, 0], drive[0, 1], c, 1, slope)
-        values += sign * inertia(axis, stage, c) * slope[0, 2 + axis]
+        values += sign * inertia(axis, stage[0, 0], c) * slope[0, 2 + axis]
     return values / (2.0 * small)

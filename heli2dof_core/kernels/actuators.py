@@ -38,10 +38,24 @@ def rotor_speed(y, motor, voltage, c):
 @kernel
 def thrust(v, motor, c, m):
     """φ(v), V, on the part of its curve that the mode says."""
+    return thrust_on(v, m[ZONE + motor], motor, c)
+
+
+@kernel
+def thrust_on(v, zone, motor, c):
+    """φ(v), V, on this part of its curve: −1, 0 (the dead zone) or 1."""
     if c[SQUARE + motor] == 0.0:
         return v
-    beyond = v - m[ZONE + motor] * c[DEAD + motor]
-    return m[ZONE + motor] * c[SQUARE + motor] * beyond * beyond
+    beyond = v - zone * c[DEAD + motor]
+    return zone * c[SQUARE + motor] * beyond * beyond
+
+
+@kernel
+def thrust_slope(v, zone, motor, c):
+    """φ′(v), likewise."""
+    if c[SQUARE + motor] == 0.0:
+        return 1.0
+    return zone * 2.0 * c[SQUARE + motor] * (v - zone * c[DEAD + motor])
 
 
 @kernel

@@ -17,8 +17,9 @@ from ..scenario import MOST_SAMPLE_TIMES, Digital, Limits
 from ..signals import Floats
 from ..simulation.recorded import exact, run_held, run_recorder, turning
 from .acting import acting_of
+from .beginnings import beginnings
 from .recording import Recording
-from .segments import RUN_UP, SHORTEST, bridged, cut, divergence_told, fit_of, rough_starts, segment_length
+from .segments import SHORTEST, bridged, cut, divergence_told, fit_of, segment_length
 from .time_axis import stretches
 
 USUAL_SAMPLE_TIME = 0.002
@@ -70,15 +71,15 @@ def driven_by_voltages(
 ) -> Overlay:
     """The rig under the recorded voltages from the recorded initial state, in one run; after a gap it begins anew.
 
-    Rotors begin settled at the first voltages, there and after a gap; `theta_0` (rad) and `limits` (V) match thrust
-    curves that do not say it themselves.
+    Where rotors take time, they and the axes begin as fits the recording best, there and after a gap
+    (`beginnings`); `theta_0` (rad) and `limits` (V) match thrust curves that do not say it themselves.
     """
     recording, bounds = bridged(recording), stretches(recording.t)
     acting = acting_of(p, rotors, friction, theta_0, limits)
-    turned = None if acting is None else turning(acting, bounds, recording.t, recording.voltages)
     angles = np.full_like(recording.angles, np.nan)
     with divergence_told():
-        starts = rough_starts(recording, bounds)
+        starts, away = beginnings(p, recording, bounds, acting, travel=travel, wanted=wanted)
+        turned = None if acting is None else turning(acting, bounds, recording.t, recording.voltages, away)
         for start, (first, end) in zip(starts, bounds.tolist(), strict=True):
             own = slice(first, end)
             t, volts, part = recording.t[own], recording.voltages[own], turned and turned.part(own)
@@ -111,8 +112,10 @@ def driven_in_segments(
         longest = segment_length(p, recording)
         length = longest if longest >= recording.t[-1] else SHORTEST
     acting = acting_of(p, rotors, friction, theta_0, limits)
-    bounds = cut(recording, length, travel, 0.0 if acting is None else RUN_UP * float(max(acting[:2])))
-    fitted = fit_of(p, recording, bounds, wanted, acting)
+    bounds = cut(recording, length, travel)
+    with divergence_told():
+        _, away = beginnings(p, recording, stretches(recording.t), acting, travel=travel, wanted=wanted)
+    fitted = fit_of(p, recording, bounds, wanted, acting=acting, away=away)
     angles = np.full_like(recording.angles, np.nan)
     for first, end in bounds.tolist():
         angles[first:end] = recording.angles[first:end] - fitted.residuals[first:end]
@@ -130,7 +133,8 @@ def driven_by_references(
     """The design's loop under the recorded references, from the recorded initial state.
 
     The controller is `digital`, or one that knows its state exactly every 2 ms or as often as was recorded. Its
-    integrals start so that it asks for the first recorded voltages; what is between samples is interpolated.
+    integrals start so that it asks for the first recorded voltages; what is between samples is interpolated. Rotors,
+    friction and what estimates are the loop's.
 
     Raises:
         RecordingError: no references were recorded, or more samples of the controller fit in than are simulated.
@@ -151,20 +155,20 @@ def driven_by_references(
             value=controller.sample_time,
             hint=f"At most {MOST_SAMPLE_TIMES} are simulated: record less, or let the controller run slower.",
         )
-    bounds = stretches(recording.t)
+    bounds, p = stretches(recording.t), loop.design.plant.parameters
+    acting = None if loop.actuators is None else loop.actuators.constants
     angles, voltages = np.full_like(recording.angles, np.nan), np.full_like(recording.voltages, np.nan)
     with divergence_told():
-        starts = rough_starts(recording, bounds)
-        for start, (first, end) in zip(starts, bounds.tolist(), strict=True):
+        starts, away = beginnings(p, recording, bounds, acting, travel=limits.theta, wanted=wanted)
+        for start, more, (first, end) in zip(starts, away, bounds.tolist(), strict=True):
             wanted()
             t, wish = recording.t[first:end] - recording.t[first], recording.references[first:end]
             times = controller.sample_time * np.arange(
                 int(np.ceil(t[-1] / controller.sample_time - 1e-9)) + 1
             )
             held = np.clip(np.searchsorted(t, times + 1e-9, side="right") - 1, 0, None)
-            run = run_recorder(
-                loop, limits, controller, wish[held], start=start, voltages=recording.voltages[first]
-            )
+            own = {"start": start, "voltages": recording.voltages[first], "away": more}
+            run = run_recorder(loop, limits, controller, wish[held], **own, wanted=wanted)
             for axis in (0, 1):
                 angles[first:end, axis] = np.interp(t, times, run.states[:, axis])
             latest = np.clip(np.searchsorted(times, t + 1e-9, side="right") - 1, 0, len(times) - 1)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..checks import require_within
-from ..errors import InvalidInputError
+from ..errors import InvalidInputError, Wanted, nobody_leaves
 from ..loop import Loop
 from ..parameters import Parameters
 from ..scenario import MOST_SAMPLE_TIMES, Digital, Limits
@@ -53,8 +53,11 @@ def sample_recording(
     rig: Parameters,
     duration: float,
     size: tuple[float, float],
+    wanted: Wanted = nobody_leaves,
 ) -> Recorded:
     """What the digital controller of `loop` measures on `rig` while its references step by up to `size` (rad).
+
+    Rotors and friction are the loop's: a curve keeps the point where it meets the linear one on the loop's rig.
 
     Raises:
         InvalidInputError: it takes too many samples, or the rig runs away under this controller.
@@ -69,7 +72,7 @@ def sample_recording(
         )
     theta_0 = loop.design.plant.theta_0
     steps = reference_steps(duration, digital.sample_time, *size, theta_0=theta_0, seed=digital.seed)
-    run = run_recorder(loop, limits, digital, steps, rig=rig)
+    run = run_recorder(loop, limits, digital, steps, rig=rig, wanted=wanted)
     if run.done < len(run.t) or not np.all(np.abs(run.states[:, :2]) < 100.0):
         raise InvalidInputError(
             "under this controller the rig runs away",

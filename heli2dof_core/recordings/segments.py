@@ -186,6 +186,7 @@ def fit_starts(
     weights: Floats,
     step: float,
     acting: Floats | None = None,
+    away: Floats | None = None,
     wanted: Wanted = nobody_leaves,
 ) -> Fitted:
     """Gauss and Newton's method on each segment's starting state, from `starts`; p stays.
@@ -201,13 +202,15 @@ def fit_starts(
         weights: of the residuals of θ and ψ, 1/rad.
         step: longest one of the integration, s.
         acting: rotors and friction, `rotors.Actuators.constants`; None for the paper's rig.
+        away: how far rotors are from the first voltages where a stretch begins, (stretches, 2), V; None: they are
+            settled.
         wanted: called now and then; what it raises ends the fit.
 
     Raises:
         FloatingPointError: the simulation diverges.
     """
     t, angles, volts = recording.t, recording.angles, recording.voltages
-    rotors = None if acting is None else turning(acting, stretches(t), t, volts)
+    rotors = None if acting is None else turning(acting, stretches(t), t, volts, away)
     starts = starts.copy()
     if rotors is not None:
         return _fit_guarded(p, recording, bounds, starts, rotors, weights=weights, step=step, wanted=wanted)
@@ -297,9 +300,11 @@ def fit_of(
     recording: Recording,
     bounds: NDArray[np.int64],
     wanted: Wanted = nobody_leaves,
+    *,
     acting: Floats | None = None,
+    away: Floats | None = None,
 ) -> Fitted:
-    """The segments under a rig's parameters, both axes weighted alike.
+    """The segments under a rig's parameters, both axes weighted alike; the rest as in `fit_starts`.
 
     Raises:
         RecordingError: the rig runs away.
@@ -307,5 +312,13 @@ def fit_of(
     starts, step = rough_starts(recording, bounds), longest_step(p)
     with divergence_told():
         return fit_starts(
-            p, recording, bounds, starts, weights=np.ones(2), step=step, acting=acting, wanted=wanted
+            p,
+            recording,
+            bounds,
+            starts,
+            weights=np.ones(2),
+            step=step,
+            acting=acting,
+            away=away,
+            wanted=wanted,
         )

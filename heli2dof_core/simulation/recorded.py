@@ -15,11 +15,16 @@ from ..frozen import Frozen
 from ..kernels.layout import (
     ACTUATED_SENSITIVITIES,
     ACTUATED_WORKSPACE,
+    ESTIMATOR,
     GAIN,
+    INNER,
+    LAGGED,
     MORE_CONSTANTS,
     MORE_GAIN,
+    PLAIN,
     RECORDED_WORKSPACE,
     SENSITIVITIES,
+    STEP,
     TAU,
     TRAVEL,
     WORKSPACE,
@@ -29,8 +34,10 @@ from ..parameters import Parameters
 from ..plant import rig_constants
 from ..scenario import Digital, Limits, Scenario
 from ..signals import Floats
+from .augmented import inner_start
 from .digital import settings_of, standing_voltages
 from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
+from .sampled import run_sampled
 
 SHARE_OF_TIME_CONSTANT = 0.05
 """Longest step of the Runge–Kutta method in the rig's shortest time constants: an error below 1e-8 per step."""
@@ -50,7 +57,7 @@ class Recorded(Frozen):
     Attributes:
         t: s, (n,).
         measured: θ, ψ as its encoders told them, (n, 2), rad.
-        states: θ, ψ, θ̇, ψ̇, z_p, z_y as they were, (n, 6).
+        states: θ, ψ, θ̇, ψ̇, z_p, z_y as they were, and what the loop's size has behind them, (n, 6 or more).
         voltages: V_p, V_y from each sample to the next, (n, 2), V.
         references: θ_ref, ψ_ref, (n, 2), rad.
         done: samples until the simulation was given up; n if it was not.
@@ -95,15 +102,25 @@ class Turning(Frozen):
         return Turning(self.constants, self.speeds[rows], self.by_tau[rows])
 
 
-def turning(constants: Floats, bounds: NDArray[np.int64], t: Floats, volts: Floats) -> Turning:
+def turning(
+    constants: Floats, bounds: NDArray[np.int64], t: Floats, volts: Floats, away: Floats | None = None
+) -> Turning:
     """Rotor speeds under held voltages (n, 2) at all t.
 
-    In each stretch, `bounds` (stretches, 2), first and last + 1, they begin settled at its first voltages. They
-    depend on nothing but τ and V: what is wrong with that decays with τ, and no segment has unknown speeds.
+    In each stretch, `bounds` (stretches, 2), first and last + 1, they begin settled at its first voltages, or so far
+    `away` from them, (stretches, 2), V. They depend on nothing but τ and V: what is wrong with that decays with τ,
+    and no segment has unknown speeds.
     """
     speeds, by_tau, c = np.zeros(volts.shape), np.zeros(volts.shape), np.zeros(MORE_CONSTANTS)
     c[TAU:MORE_GAIN] = constants
     engine().run_rotors(bounds, t, volts, c, speeds, by_tau)
+    if away is not None:  # a speed's equation is linear: what it begins with more decays by itself
+        tau = np.where(constants[:2] > 0.0, constants[:2], np.inf)
+        for (first, end), more in zip(bounds.tolist(), away * (constants[:2] > 0.0), strict=True):
+            since = (t[first:end] - t[first])[:, None]
+            left = more * np.exp(-since / tau)
+            speeds[first:end] += left
+            by_tau[first:end] += left * since / tau**2
     return Turning(constants, speeds, by_tau)
 
 
@@ -231,8 +248,12 @@ def run_recorder(
     rig: Parameters | None = None,
     start: Floats | None = None,
     voltages: Floats | None = None,
+    away: Floats | None = None,
+    wanted: Wanted = nobody_leaves,
 ) -> Recorded:
     """The digital controller of `loop` on a rig, under references (n, 2) that may change at each sample.
+
+    Rotors and friction are the loop's, and so is what estimates.
 
     Args:
         loop: the controller; clamping stops its integrals, the trim is fed forward.
@@ -243,38 +264,64 @@ def run_recorder(
         start: θ, ψ, θ̇, ψ̇, at rest at the operating point by default.
         voltages: V_p, V_y of the first sample; the integrals start so that the controller asks for them, and with
             a delay the motors have them until its first ones arrive.
+        away: how far the rotors' speeds are from these voltages, (2,), V; without voltages rotors turn as the trim
+            holds them.
+        wanted: called now and then; what it raises ends the run.
     """
     theta_0, n = loop.design.plant.theta_0, len(references)
     theta, psi, theta_dot, psi_dot = (theta_0, 0.0, 0.0, 0.0) if start is None else start.tolist()
     first = (theta, psi, theta_dot, psi_dot)
     system = NonlinearLoop.of(loop, limits, Scenario(initial=first, samples=2))
-    c, y = system.constants.copy(), system.start[:6].copy()
+    system.constants[:GAIN] = rig_constants(rig or loop.design.plant.parameters)
     at_zero = NonlinearLoop.of(loop, limits, Scenario(theta=0.0, psi=0.0, initial=first, samples=2)).offset
     references = np.ascontiguousarray(references, dtype=float)
     offsets = np.ascontiguousarray(at_zero + references @ loop.voltage_from_reference.T)
     before = standing_voltages(loop, system)
+    plain, y = len(loop.size) == PLAIN, system.start.copy()
+    if not plain:
+        settings = settings_of(digital, before)
+        y[PLAIN:] = inner_start(loop, system.experiment, (settings[STEP], settings[STEP + 1]))[
+            1, : len(y) - PLAIN
+        ]
     if voltages is not None:
         before = np.clip(np.asarray(voltages, dtype=float), -system.limits, system.limits)
+        if not plain:
+            y[PLAIN:LAGGED] = before + (0.0 if away is None else away)
         if loop.integral is not None:
-            y[4:] = _integrals(system, offsets[0], y, before)
-    c[:GAIN] = rig_constants(rig or loop.design.plant.parameters)
+            y[4:PLAIN] = _integrals(system, offsets[0], y, before)
+    settings = settings_of(digital, before)
     noise = digital.noise * np.random.default_rng(digital.seed).standard_normal((n, 2))
+    t = np.arange(n, dtype=np.float64) * digital.sample_time
+    if not plain:
+        done, measured, states, held = run_sampled(
+            loop,
+            system,
+            y,
+            settings=settings,
+            noise=noise,
+            references=references,
+            offsets=offsets,
+            rtol=RTOL,
+            wanted=wanted,
+        )
+        return Recorded(t, measured, states, held, references, done)
     measured, states, held = np.full((n, 2), np.nan), np.full((n, 6), np.nan), np.full((n, 2), np.nan)
-    kernels = engine()
+    kernels, c = engine(), system.constants
     numbers = (RTOL, ABSOLUTE_TOLERANCE * RTOL, kernels.most_steps)
     scratch = (np.zeros(WORKSPACE), c.copy(), c.copy(), system.modes.copy(), np.empty(2), np.empty((2, 6)))
     _, done, _ = kernels.run_recorder(
-        y, c, system.modes.copy(), settings_of(digital, before), noise, references, offsets, *numbers,
+        y, c, system.modes.copy(), settings, noise, references, offsets, *numbers,
         *scratch, measured, states, held,
     )  # fmt: skip
-    return Recorded(
-        np.arange(n, dtype=np.float64) * digital.sample_time, measured, states, held, references, done
-    )
+    return Recorded(t, measured, states, held, references, done)
 
 
 def _integrals(system: NonlinearLoop, offset: Floats, y: Floats, voltages: Floats) -> Floats:
     """z_p, z_y with which the controller asks for these voltages; 0 where it cannot."""
     missing = voltages - offset - system.gain[:, :4] @ y[:4]
+    if len(y) > PLAIN:
+        more = system.constants[MORE_GAIN:ESTIMATOR].reshape(2, INNER)
+        missing = missing - more[:, : len(y) - PLAIN] @ y[PLAIN:]
     return np.asarray(np.linalg.lstsq(system.gain[:, 4:], missing, rcond=None)[0], dtype=np.float64)
 
 

@@ -6,6 +6,7 @@ import { significant } from '../text/index.js';
 import { button, check, h, head, setText, symbol, wide } from '../ui/index.js';
 import { RecordingFeed } from './feed.js';
 import {
+  ACTUATORS,
   adopted,
   curves,
   DRIVERS,
@@ -23,7 +24,7 @@ import { RecordingMapping } from './mapping.js';
 import { RecordingPlot } from './plot.js';
 
 const sym = (/** @type {string} */ name) => {
-  const [base, sub] = name.split('_');
+  const [base, sub] = (ACTUATORS[name]?.symbol ?? name).split('_');
   return symbol(base, sub);
 };
 const AXES = /** @type {const} */ (['theta', 'psi']);
@@ -225,11 +226,23 @@ export class RecordingsPanel {
     if (!preset) return;
     this.#preset = design.preset;
     const first = freeAtFirst({ ...preset.parameters, .../** @type {Record<string, number>} */ (design.parameters) });
+    const box = (/** @type {string} */ name) =>
+      check(
+        {
+          value: name,
+          checked: first.includes(name),
+          'data-testid': `recording-free-${name}`,
+          title: ACTUATORS[name]?.title,
+        },
+        sym(name),
+      ).node;
     this.free.replaceChildren(
-      ...IDENTIFIABLE.map(
-        (name) =>
-          check({ value: name, checked: first.includes(name), 'data-testid': `recording-free-${name}` }, sym(name))
-            .node,
+      ...IDENTIFIABLE.map(box),
+      h(
+        'div',
+        { class: 'lock-list', role: 'group', 'aria-label': 'Rotors and friction' },
+        h('span', {}, 'Rotors and friction'),
+        Object.keys(ACTUATORS).map(box),
       ),
     );
   }

@@ -22,6 +22,13 @@ export const ROLES = [
   { role: 'psi_ref', base: 'ψ', sub: 'ref', title: 'yaw reference', optional: true },
 ];
 export const IDENTIFIABLE = ['K_pp', 'K_py', 'K_yp', 'K_yy', 'B_p', 'B_y', 'K_s'];
+/** What else can be found, by its place in a request. @type {Record<string, {symbol: string, title: string}>} */
+export const ACTUATORS = {
+  'rotors.pitch.tau': { symbol: 'τ_p', title: 'time constant of the pitch motor’s rotor' },
+  'rotors.yaw.tau': { symbol: 'τ_y', title: 'time constant of the yaw motor’s rotor' },
+  'friction.pitch.coulomb': { symbol: 'F_p', title: 'Coulomb friction in pitch' },
+  'friction.yaw.coulomb': { symbol: 'F_y', title: 'Coulomb friction in yaw' },
+};
 export const DRIVERS = {
   segments: 'recorded voltages, in segments',
   voltages: 'recorded voltages, one run',
@@ -198,16 +205,35 @@ export function estimateRows(found) {
   }));
 }
 
+/** As many digits as a link needs. @param {number} v */
+const brief = (v) => Number(v.toPrecision(7));
+
 /**
- * The design on the rig that was found.
+ * What was found of both axes' rotors or friction, as a request takes it.
+ * @template {object} T
+ * @param {{pitch: T, yaw: T}} found
+ */
+const machine = ({ pitch, yaw }) => {
+  const own = (/** @type {T} */ part) =>
+    /** @type {T} */ (
+      Object.fromEntries(Object.entries(part).map(([k, v]) => [k, typeof v === 'number' ? brief(v) : v]))
+    );
+  return { pitch: own(pitch), yaw: own(yaw) };
+};
+
+/**
+ * The design on the rig that was found. Rotors and friction are said where they were looked for, or where their curves
+ * would be matched elsewhere on the new rig.
  * @param {import('../types.js').Design} design
  * @param {IdentificationReply} found
  * @returns {import('../types.js').Design}
  */
-export const adopted = (design, found) => ({
-  ...design,
-  parameters: {
-    ...design.parameters,
-    ...Object.fromEntries(found.estimates.map((e) => [e.name, Number(e.adopted.toPrecision(7))])),
-  },
-});
+export function adopted(design, { estimates, rotors, friction }) {
+  const own = estimates.filter(({ name }) => !(name in ACTUATORS));
+  const curved = [rotors.pitch, rotors.yaw].some(({ curve }) => curve !== 'linear');
+  return {
+    ...design,
+    parameters: { ...design.parameters, ...Object.fromEntries(own.map((e) => [e.name, brief(e.adopted)])) },
+    ...((curved || own.length < estimates.length) && { rotors: machine(rotors), friction: machine(friction) }),
+  };
+}

@@ -41,6 +41,20 @@ def test_from_a_sample_to_the_adopted_rig(page: Page):
     assert state(page)["parameters"] == {}
 
 
+def test_lag_is_looked_for_where_it_is_asked_for(page: Page):
+    page.get_by_test_id("recording-sample").click()
+    expect(page.get_by_test_id("recording-fit-theta")).to_contain_text("fit")
+    group = page.get_by_role("group", name="Rotors and friction")
+    assert group.get_by_role("checkbox").count() == 4
+    assert group.get_by_role("checkbox", checked=True).count() == 0
+    group.get_by_role("checkbox").first.check()
+    page.get_by_test_id("recording-identify").click()
+    row = page.get_by_test_id("recording-estimate-rotors.pitch.tau")
+    expect(row.locator("td").nth(2)).to_have_text(re.compile(r"0\.0\d+"))
+    expect(row.locator("th")).to_have_text("τp")
+    assert violations(page) == []
+
+
 def test_a_file_of_ones_own(page: Page):
     rows = [f"{0.01 * k},{k % 7},{k % 5},12.5,{-3.8 + 0.1 * (k % 3)}" for k in range(60)]
     page.get_by_test_id("recording-file").set_input_files(

@@ -50,6 +50,8 @@ const found = {
   evaluations: 3,
   seconds: 1,
   findings: [],
+  rotors: { pitch: { tau: 0, curve: 'linear', dead_zone: 0 }, yaw: { tau: 0, curve: 'linear', dead_zone: 0 } },
+  friction: { pitch: { coulomb: 0 }, yaw: { coulomb: 0 } },
   estimates: [{ name: 'K_pp', unit: 'N·m/V', before: 1, value: 1.25, low: 1.2, high: 1.3, plain: 0.02, adopted: 1.25 }],
 };
 
@@ -109,7 +111,26 @@ test('words', () => {
   });
   assert.ok(!freeAtFirst(preset.parameters).includes('K_s'));
   assert.ok(freeAtFirst({ K_s: 1 }).includes('K_s'));
-  assert.deepEqual(adopted(designOf(preset), found).parameters, { K_pp: 1.25 });
+});
+
+test('what was found of rotors and friction is adopted at its place, and only where it matters', () => {
+  const design = designOf(preset);
+  assert.deepEqual(adopted(design, found), { ...design, parameters: { K_pp: 1.25 } });
+  const [thrust] = found.estimates;
+  const lag = { ...thrust, name: 'rotors.yaw.tau', adopted: 0.123456789 };
+  const yaw = { tau: 0.123456789, curve: 'linear', dead_zone: 0 };
+  const late = { ...found, estimates: [thrust, lag], rotors: { ...found.rotors, yaw } };
+  const { parameters, rotors, friction } = adopted(design, late);
+  assert.deepEqual(parameters, { K_pp: 1.25 });
+  assert.deepEqual(rotors, { ...found.rotors, yaw: { ...yaw, tau: 0.1234568 } });
+  assert.deepEqual(friction, found.friction);
+  const curved = { ...found.rotors.pitch, curve: 'quadratic', matched_at: 12.34567891 };
+  const matched = adopted(design, { ...found, rotors: { ...found.rotors, pitch: curved } });
+  assert.equal(matched.rotors.pitch.matched_at, 12.34568, 'another K_pp would match it elsewhere');
+  assert.deepEqual(
+    freeAtFirst(preset.parameters).filter((name) => name.includes('.')),
+    [],
+  );
 });
 
 function rigged() {
