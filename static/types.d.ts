@@ -96,7 +96,8 @@ export type Finding = contract.Finding;
 
 type Courses = 't' | Axis | Motor;
 /** A response has both references, whatever was asked for. */
-export type Step = Except<contract.Step, Courses | 'reference'> & Record<Courses, Series> & { reference: Reference };
+export type Step = Except<contract.Step, Courses | 'reference' | 'rotors'> &
+  Record<Courses, Series> & { reference: Reference; rotors?: Record<keyof contract.Rotors, Series> };
 export type StepPair = Record<keyof BothModels, Step>;
 /** All that is shown of a design. */
 export type Reply = Except<Evaluation, 'step' | 'axis_steps' | 'findings'> & {

@@ -2,7 +2,7 @@
  * The whole state as the fragment of an address, and back:
  * `#v1&preset=quanser-aero&p=-5,-4,-3+2j,-3-2j&step.theta=5deg`. Pure.
  *
- * Written is what differs from the preset's proposal. `p`: the four poles. `pi`: k_p, T_i of pitch, k_p, T_i of yaw.
+ * Written is what differs from the preset's proposal. `p`: the four poles, `q`: the observer's. `pi`: k_p, T_i of pitch, k_p, T_i of yaw.
  * `set.…`: parameters; `limits.…`; `step.…`: references;
  * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`,
  * `lag`, `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`.
@@ -21,8 +21,9 @@
  * @typedef {{presets: Preset[], methods: {name: string}[]}} Known
  */
 import { differences, escaped, leafOf, polesLink, polesOf, setLeaf, unescaped } from './link_values.js';
-import { allowed, asking, designOf, LOCKS, NONE, QUANTITIES } from '../model/index.js';
+import { allowed, asking, designOf, LOCKS, NONE, observerPoles, QUANTITIES } from '../model/index.js';
 
+const NO_POLES = 'not four poles in real or conjugate pairs';
 const VERSION = 1;
 /** Longer links are cut by some mail programs; pins that make it longer are left out. */
 export const MOST = 2000;
@@ -53,7 +54,9 @@ function designParts(design, presets) {
   /** @type {[string, string][]} */ const parts = [['preset', design.preset]];
   if (!base) return parts;
   if (polesLink(design.poles) !== polesLink(base.poles)) parts.push(['p', polesLink(design.poles)]);
-  const changed = differences({ ...design, poles: [] }, { ...base, poles: [] });
+  const { poles: q, ...observer } = design.observer ?? {};
+  if (q) parts.push(['q', polesLink(q)]);
+  const changed = differences({ ...design, poles: [], observer }, { ...base, poles: [] });
   if (changed.some(([path]) => OUTER.includes(path)))
     parts.push(['pi', [design.loops.pitch.kp, design.loops.pitch.ti, design.loops.yaw.kp, design.loops.yaw.ti].join()]);
   return [
@@ -109,10 +112,8 @@ function objection(path, leaf, base, { methods }, preset) {
   if (quantity?.words && (machine || !path.includes('.')))
     // the scenario's are the server's to judge
     return quantity.words.some((word) => word === leaf) ? '' : `neither ${quantity.words.join(' nor ')}`;
-  if (path === 'observer.poles' || path === 'rotor_poles')
-    return Array.isArray(leaf) && leaf.length === (top === 'observer' ? 4 : 2) && leaf.every(isPole)
-      ? ''
-      : 'no poles of its kind';
+  if (path === 'rotor_poles')
+    return Array.isArray(leaf) && leaf.length === 2 && leaf.every(Number.isFinite) ? '' : 'not two real poles';
   if (machine && quantity && leaf !== undefined) return inRange(leaf, quantity) ? '' : 'not a number in its range';
   if (path === 'method')
     return !methods.length || methods.some((m) => m.name === leaf) ? '' : 'no method of this server';
@@ -138,10 +139,6 @@ function objection(path, leaf, base, { methods }, preset) {
 /** @param {Leaf} leaf @param {import('../model/quantities.js').Quantity} quantity */
 const inRange = (leaf, { min = -Infinity, max = Infinity }) =>
   leaf === null || (typeof leaf === 'number' && leaf >= min && leaf <= max);
-
-/** A real one, or one of a pair. @param {unknown} p */
-const isPole = (p) =>
-  [p].flatMap((v) => (v !== null && typeof v === 'object' ? Object.values(v) : [v])).every(Number.isFinite);
 
 /** @param {unknown} object @param {string} path @returns {unknown} */
 const at = (object, path) =>
@@ -175,7 +172,11 @@ function readDesign(parts, known, trouble, where = '') {
     if (key === 'p') {
       const poles = polesOf(text);
       if (poles) design.poles = poles;
-      else complain('p', 'not four poles in real or conjugate pairs');
+      else complain('p', NO_POLES);
+    } else if (key === 'q') {
+      const poles = polesOf(text);
+      if (poles) design.observer = { ...design.observer, poles };
+      else complain('q', NO_POLES);
     } else if (key === 'pi') {
       const [a, b, c, d] = text.split(',').map((v) => (v.trim() === '' ? NaN : Number(v)));
       const right =
@@ -203,6 +204,7 @@ function readDesign(parts, known, trouble, where = '') {
       else if (!setLeaf(design, path, leaf)) complain(key, 'unknown here');
     }
   }
+  if (design.observer) design.observer = { ...design.observer, poles: observerPoles(design) };
   return design;
 }
 

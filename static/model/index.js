@@ -78,4 +78,4 @@ export {
 } from './rig.js';
 export { bodyOf, designOf, evaluationOf, initialState, presetOf, requestOf, scenarioOf, Store } from './store.js';
 export { niceStep, ticks } from './ticks.js';
-export { extent, indexAt, isVoltage, motionOf, rangeOf, SIGNALS, trace, tracesOf } from './traces.js';
+export { extent, indexAt, isVoltage, motionOf, rangeOf, SIGNALS, trace, TRACES, tracesOf } from './traces.js';

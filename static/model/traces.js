@@ -12,10 +12,18 @@ import { niceStep } from './ticks.js';
 export const SIGNALS = ['theta', 'psi', 'V_p', 'V_y'];
 
 /** The traces of each plot, in drawing order. The played motion lies under the rest as a halo. */
-export const TRACES = ['played', 'theta-linear', 'psi-linear', 'psi', 'theta'];
+export const TRACES = ['played', 'theta-linear', 'psi-linear', 'psi', 'theta', 'psi-rotor', 'theta-rotor'];
 
 /** @param {Signal} signal */
 export const isVoltage = (signal) => signal === 'V_p' || signal === 'V_y';
+
+/**
+ * The speed of the motor's rotor, as the voltage that would hold it; of a rotor that takes time.
+ * @param {Step|undefined} step
+ * @param {Signal} signal
+ */
+const rotorTrace = (step, signal) =>
+  signal === 'V_p' ? step?.rotors?.v_p : signal === 'V_y' ? step?.rotors?.v_y : undefined;
 
 /** @param {Reply} reply @param {Motion} motion @returns {import('../types.js').StepPair|undefined} */
 export const motionOf = (reply, motion) => (motion === 'both' ? reply.step : (reply.axis_steps?.[motion] ?? undefined));
@@ -51,6 +59,8 @@ export function tracesOf(reply, motion, showLinear) {
     showLinear ? trace(steps.psi?.linear, s, true) : undefined,
     trace(steps.psi?.nonlinear, s, false),
     trace(steps.theta?.nonlinear, s, false),
+    rotorTrace(steps.psi?.nonlinear, s),
+    rotorTrace(steps.theta?.nonlinear, s),
   ];
   const plots = /** @type {Record<Signal, ReturnType<typeof of>>} */ (
     Object.fromEntries(SIGNALS.map((s) => [s, of(s)]))

@@ -32,7 +32,7 @@ export const unitOf = (signal) => (isVoltage(signal) ? 'V' : 'deg');
 export function linesOf({ reply, motion, showLinear, pins }, signal) {
   if (!reply) return [];
   const { t, plots } = tracesOf(reply, motion, showLinear);
-  const [played, linearPitch, linearYaw, yaw, pitch] = plots[signal];
+  const [played, linearPitch, linearYaw, yaw, pitch, rotorYaw, rotorPitch] = plots[signal];
   const line = (
     /** @type {string} */ name,
     /** @type {Kind} */ kind,
@@ -55,6 +55,8 @@ export function linesOf({ reply, motion, showLinear, pins }, signal) {
     ...line(STEPS.psi, 'yaw', yaw),
     ...line('pitch step, linear', 'pitch', linearPitch, true),
     ...line('yaw step, linear', 'yaw', linearYaw, true),
+    ...line('rotor’s speed, pitch step', 'pitch', rotorPitch, true),
+    ...line('rotor’s speed, yaw step', 'yaw', rotorYaw, true),
     ...ghosts,
     ...(motion === 'both' ? line(STEPS.both, 'played', played) : []),
   ];

@@ -6,7 +6,7 @@
  */
 import { marksOf } from './characteristics.js';
 import { fixed, say, t as word, typographic } from '../text/index.js';
-import { extent, indexAt, isVoltage, rangeOf, SIGNALS, tracesOf } from '../model/index.js';
+import { extent, indexAt, isVoltage, rangeOf, SIGNALS, TRACES, tracesOf } from '../model/index.js';
 import { button, h, pictureScale, setText, symbol } from '../ui/index.js';
 import { chartBody, ink, makeChart, scaled } from '../charts/index.js';
 import { PlotGhosts } from './ghosts.js';
@@ -34,6 +34,8 @@ const ABOUT = {
   V_y: { base: 'V', sub: 'y', title: 'yaw motor', unit: ' V' },
 };
 const AXIS_WIDTH = 42;
+/** How the speed of a rotor is drawn. */
+const ROTOR = [1.5, 2];
 const PLAYED = { theta: 'pitch step', psi: 'yaw step', both: 'both steps' };
 
 export class Plots {
@@ -86,6 +88,7 @@ export class Plots {
       `${about.title}: left and right move the time, plus and minus zoom, Escape shows the whole time`,
       (e) => this.#key(e),
     );
+    const turning = h('span', { 'data-testid': `turning-${signal}`, hidden: true }, '; dotted: its rotor’s speed');
     const first = signal === SIGNALS[0] ? [this.when, this.unzoom] : [];
     const menu = plotMenu(this.store, signal, `${about.title} over time`, () => ({
       x: this.#zoom ?? this.#time,
@@ -105,7 +108,7 @@ export class Plots {
         'figcaption',
         {},
         symbol(about.base, about.sub),
-        h('span', { class: 'what' }, `${about.title}, ${about.unit.trim() === '°' ? 'deg' : 'V'}`),
+        h('span', { class: 'what' }, `${about.title}, ${about.unit.trim() === '°' ? 'deg' : 'V'}`, turning),
         first,
         h('span', { class: 'values' }, values),
         menu,
@@ -134,8 +137,10 @@ export class Plots {
         line('yaw', 1.25, [2, 3]),
         line('yaw', 1.5),
         line('pitch', 2.4),
+        line('yaw', 1, ROTOR),
+        line('pitch', 1, ROTOR),
       ],
-      data: [[0, 1], ...Array(5).fill([null, null])],
+      data: [[0, 1], ...Array(TRACES.length).fill([null, null])],
       height: 120,
       padding: [scaled(6), scaled(12), 2, 0],
       scales: {
@@ -183,7 +188,7 @@ export class Plots {
       if (chart.cursor.left !== undefined && chart.cursor.left >= 0)
         this.onSeek(chart.posToVal(chart.cursor.left, 'x'));
     });
-    return { signal, chart, values, head, ghosts, marks };
+    return { signal, chart, values, head, ghosts, marks, turning };
   }
 
   /** @param {State} state @returns {boolean} whether anything was drawn */
@@ -203,11 +208,12 @@ export class Plots {
     this.#time = [0, end];
     if (whole && this.#zoom) this.#zoomTo(null);
     const empty = Array(data.t.length).fill(null);
-    for (const { signal, chart, ghosts, marks } of this.plots) {
+    for (const { signal, chart, ghosts, marks, turning } of this.plots) {
       ghosts.take(state.pins);
-      const [played, dashPitch, dashYaw, yaw, pitch] = data.plots[signal];
+      const [played, dashPitch, dashYaw, yaw, pitch, ...rotors] = data.plots[signal];
+      turning.hidden = !rotors.some(Boolean);
       this.#ranges[signal] = rangeOf({
-        solid: extent([played, yaw, pitch]),
+        solid: extent([played, yaw, pitch, ...rotors]),
         dashed: extent([dashPitch, dashYaw, ghosts.extent]),
         include: [0, referenceOf(state.reply, signal) ?? 0],
         limit: limitOf(state.reply, signal),

@@ -34,8 +34,17 @@ test('the halo follows the motion that is played; an axis without a step has no 
   const { plots } = tracesOf(reply, 'both', false);
   assert.deepEqual(
     plots.theta.map((v) => v !== undefined),
-    [true, false, false, false, true],
+    [true, false, false, false, true, false, false],
   );
+});
+
+test('the speeds of rotors that take time are traces of their motor’s plot', () => {
+  const step = pair(0.1);
+  const speeds = { v_p: Float32Array.of(0, 1), v_y: Float32Array.of(0, 2) };
+  const reply = { step, axis_steps: { theta: { ...step, nonlinear: { ...step.nonlinear, rotors: speeds } } } };
+  const { plots } = tracesOf(reply, 'both', true);
+  assert.deepEqual([plots.V_p[6], plots.V_y[6]], [speeds.v_p, speeds.v_y]);
+  assert.deepEqual([plots.theta[6], plots.V_p[5]], [undefined, undefined]);
 });
 
 test('a range holds all solid traces and is not moved by a small change', () => {
