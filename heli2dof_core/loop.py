@@ -74,7 +74,7 @@ class Loop(Frozen, Shown):
         """Rotors and friction of the rig; None of the paper's."""
         return self.design.actuators
 
-    @property
+    @cached_property
     def size(self) -> Sequence[int]:
         """As many zeros as the kernels' states of this loop: they are compiled for each number of them."""
         if self.estimator is not None:

@@ -2,8 +2,8 @@
  * The whole state as the fragment of an address, and back:
  * `#v1&preset=quanser-aero&p=-5,-4,-3+2j,-3-2j&step.theta=5deg`. Pure.
  *
- * Written is what differs from the preset's proposal. `p`: the four poles, `q`: the observer's. `pi`: k_p, T_i of pitch, k_p, T_i of yaw.
- * `set.…`: parameters; `limits.…`; `step.…`: references;
+ * Written is what differs from the preset's proposal. `p`: the four poles, `q`: the observer's. `pi`: k_p, T_i of
+ * pitch, k_p, T_i of yaw. `set.…`: parameters; `limits.…`; `step.…`: references;
  * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`,
  * `lag`, `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`.
  * `at`: the place on the page. A part that cannot be read is named and left out; the rest is restored.

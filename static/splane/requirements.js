@@ -92,9 +92,10 @@ export class RequirementsBar {
       /** @type {number} */ start,
       /** @type {string} */ title,
     ) => {
+      const least = key === 'lag';
       const made = new NumberField({
-        label: `${mark} at ${key === 'lag' ? 'least' : 'most'}, ${unit === 's' ? 'seconds' : 'percent'}; empty: not asked`,
-        mark: h('span', { title }, `${mark} ${key === 'lag' ? '≥' : '≤'}`),
+        label: `${mark} at ${least ? 'least' : 'most'}, ${unit === 's' ? 'seconds' : 'percent'}; empty: not asked`,
+        mark: h('span', { title }, `${mark} ${least ? '≥' : '≤'}`),
         unit,
         testid: `require-${key}`,
         ...RANGES[key],
