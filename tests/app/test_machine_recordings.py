@@ -77,6 +77,26 @@ def test_lag_and_thrust_are_found_and_go_back_into_a_request(client, sample, sen
         assert max(after.values()) < 0.6 * max(before.values()), driver
 
 
+def test_curves_come_back_with_the_point_where_they_are_matched(client):
+    """Another K_pp moves the trim; with what is replied the thrust curve stays what it was."""
+    curve = {"curve": "quadratic", "dead_zone": 0.5}
+    rig = {"rotors": {"pitch": {"tau": 0.1, **curve}, "yaw": {"tau": 0.12}}, "place_rotors": True}
+    made = client.post("/api/v1/recordings/sample", json={**rig, "length": 8.0, "deviation": 0.0, "seed": 2})
+    sent = upload(client, made.content)["id"]
+    thought = {"rotors": {"pitch": {"tau": 0.05, **curve}, "yaw": {"tau": 0.12}}}
+    found = identified(
+        client, {**thought, "recording": sent, "columns": COLUMNS, "free": ["rotors.pitch.tau", "K_pp"]}
+    )
+    K_pp, tau = found["estimates"]
+    assert abs(tau["value"] - 0.1) < 1.5 * (tau["high"] - tau["low"]) < 0.02 and tau["before"] == 0.05
+    pitch = found["rotors"]["pitch"]
+    trim = post(client, "evaluate", {})["trim"]["V_p"]
+    assert pitch == {"tau": tau["adopted"], **curve, "matched_at": pytest.approx(trim)}
+    new = {"parameters": {"K_pp": K_pp["adopted"]}, "rotors": found["rotors"]}
+    reply = post(client, f"recordings/{sent}/overlay", {**new, "columns": COLUMNS})
+    assert max(reply["rms"].values()) < 1.3e-3
+
+
 def test_references_drive_the_loop_with_its_rotors(client):
     digital = {"digital": {"sample_time": 0.005, "encoders": {"theta": 0, "psi": 0}}}
     body = {**RIG, "length": 10.0, "deviation": 0.0, "noise": 0.0, "scenario": digital}
