@@ -4,7 +4,7 @@
  * @typedef {import('../types.js').State} State
  * @typedef {import('../contract.js').Lag} Lag
  */
-import { say, significant } from '../text/index.js';
+import { say, significant, t } from '../text/index.js';
 import { bodyOf, lags, presetOf } from '../model/index.js';
 import { lagTrack } from '../net/index.js';
 import { button, h, setAttr, setText, svg } from '../ui/index.js';
@@ -12,6 +12,7 @@ import { toPixel } from '../splane/index.js';
 import { crossings } from './crossings.js';
 
 const REST_MS = 150;
+const AERO = 0.16;
 const ARROW = 'M -4 -3.5 L 4 0 L -4 3.5';
 
 export class LagPaths {
@@ -32,8 +33,8 @@ export class LagPaths {
         'data-testid': 'show-lag',
         'aria-label': 'Track of the rotors’ lag',
         title:
-          'Where the poles of the loop go as the rotors’ lag τ grows from nothing to the rig’s own, or to the 0.16 s ' +
-          'of a real Aero where the rig has none. A ring: there the loop becomes unstable',
+          say`Where the poles of the loop go as the rotors’ lag τ grows from nothing to the rig’s own, or to the ${AERO} s ` +
+          t('of a real Aero where the rig has none. A ring: there the loop becomes unstable'),
         onclick: () => store.set({ showLag: !isShown(store.state) }),
       },
       h('i', {}, 'τ'),

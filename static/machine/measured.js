@@ -50,7 +50,11 @@ export class MeasuredPart {
       testid: 'measured',
       options: [
         ['states', 'true states', 'as if all were measured'],
-        ['filtered', 'filtered rates', 'measured angles, and rates from second-order filters of 20 Hz, as the rig’s'],
+        [
+          'filtered',
+          'filtered rates',
+          say`measured angles, and rates from second-order filters of ${20} Hz, as the rig’s`,
+        ],
         ['observer', 'observer', 'states estimated from the measured angles and the voltages'],
       ],
       onChange: (measured) =>

@@ -59,7 +59,7 @@ export class PairEditor {
       h('legend', {}, shape(name), name),
       this.mode.node,
       this.fields.map((f) => f.node),
-      (this.verdict = h('p', { class: 'pair-verdict', hidden: true, 'data-testid': `verdict-${name}` })),
+      (this.verdict = h('p', { class: 'pair-verdict', hidden: true, 'data-testid': `${four.testid}verdict-${name}` })),
     );
     this.marks = this.fields.map((f) => /** @type {HTMLElement} */ (f.node.querySelector('.mark')));
   }

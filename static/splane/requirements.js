@@ -128,7 +128,7 @@ export class RequirementsBar {
       'lag',
       's',
       0.3,
-      'The loop shall stay stable with rotors that are so slow: an Aero’s need 0.16 s. Empty: not asked',
+      say`The loop shall stay stable with rotors that are so slow: an Aero’s need ${0.16} s. Empty: not asked`,
     );
     this.verdict = h('span', { class: 'asked-verdict', 'data-testid': 'requirements-verdict', role: 'status' });
     this.node = h(

@@ -214,6 +214,7 @@ def test_figures_are_the_servers_and_more_of_them_are_remembered(page: Page, app
         for row, value in expected.items():
             shown = number(page.get_by_test_id(f"metric-{row}-{axis}").inner_text())
             assert shown == pytest.approx(value, rel=5e-3, abs=5e-3), (row, axis)
+    assert number(page.get_by_test_id("metric-lag").inner_text()) == pytest.approx(reply["lag_margin"], abs=5e-3)
     disk = page.get_by_test_id("metric-disk").inner_text()
     assert disk.startswith(f"{reply['sensitivity']['disk_margin']:.2f}:")
     assert (
@@ -231,7 +232,7 @@ def test_figures_are_the_servers_and_more_of_them_are_remembered(page: Page, app
 def test_every_figure_says_what_it_is(page: Page):
     page.get_by_test_id("more-figures").click()
     titles = page.locator("[data-testid=metrics] tbody th").evaluate_all("nodes => nodes.map((n) => n.title)")
-    assert len(titles) == len(ESSENTIAL) + len(MORE) + 2
+    assert len(titles) == len(ESSENTIAL) + len(MORE) + 3  # and disk margin, sensitivity, lag margin
     assert all(len(title) > 20 for title in titles)
 
 

@@ -180,7 +180,7 @@ UNTRANSLATED = """(exceptions) => {
 
 def test_every_static_string_passes_through_the_words(chromium: Browser, app: App):
     with opened(chromium, app.url + "?lang=qps-ploc", size=(1920, 1080)) as page:
-        for testid in ("rig", "experiment", "more-figures"):
+        for testid in ("more-figures", "rig", "experiment"):
             page.get_by_test_id(testid).click()
         page.get_by_test_id("tour-open").click()
         expect(page.get_by_test_id("tour")).to_contain_text("⟦1 öf 5")
