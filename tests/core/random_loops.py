@@ -14,6 +14,7 @@ from heli2dof_core import (
     OuterLoop,
     PIGains,
     PoleSet,
+    Rotors,
     Spec,
     Structure,
     close_loop,
@@ -30,8 +31,11 @@ REMOVABLE = ("K_py", "K_yp", "B_p", "B_y", "m", "l", "K_s", "g")
 
 
 def random_spec(rng, *, edges: bool = True) -> Spec:
-    """A design on any preset; with `edges` parameters are 0, poles on the axis or at 0, and loops are off."""
-    own = Spec.from_preset([*PRESETS][rng.integers(len(PRESETS))])
+    """A design on any preset; with `edges` parameters are 0, poles on the axis or at 0, and loops are off.
+
+    Rotors follow at once; `whole_loops` has those that lag.
+    """
+    own = Spec.from_preset([*PRESETS][rng.integers(len(PRESETS))], rotors=Rotors())
     changes = {
         name: value * rng.uniform(0.5, 1.5) for name, value in own.parameters.as_dict().items() if value != 0
     }

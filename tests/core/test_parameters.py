@@ -68,6 +68,29 @@ def test_every_preset_is_stable_and_within_its_limits(name):
             assert axis.settling_time is not None
 
 
+@pytest.mark.parametrize(
+    ("name", "tau", "span"), [("quanser-aero", 0.156, ()), ("quanser-aero-2", 0.165, (0.162, 0.169))]
+)
+def test_the_aeros_fly_with_their_rotors_lag(name, tau, span):
+    """Measured on such rigs: 0.156 s (step 0 → 10 V of a first-generation Aero), 0.162 to 0.169 s (Aero 2)."""
+    own = preset(name)
+    assert [rotor.tau for rotor in own.rotors.both] == [tau, tau]
+    assert "Rotors' lag" in own.source and all(f"{bound:g}" in own.source for bound in span or (tau,))
+    report = evaluate(Spec.from_preset(own))
+    assert report.loop.lag_margin > 4 * tau
+    assert report.sensitivity.disk_margin > 0.7
+    assert min(each.phase_margin for each in report.margins) > math.radians(40)
+    speeds = report.step["nonlinear"].response.rotors
+    assert speeds is not None and abs(speeds - report.step["nonlinear"].response.voltages).max() > 0.5
+
+
+@pytest.mark.parametrize("name", [name for name in PRESETS if "aero" not in name])
+def test_the_other_rigs_are_the_papers(name):
+    """No source tells their rotors' lag."""
+    assert not preset(name).rotors.lag
+    assert Spec.from_preset(name).actuators is None
+
+
 def test_first_generation_aero_is_told_of_its_pairing():
     report = evaluate(Spec.from_preset(preset("quanser-aero")))
     assert report.interaction.rga[0, 0] == pytest.approx(0.299, abs=5e-4)

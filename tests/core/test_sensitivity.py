@@ -22,9 +22,7 @@ def loop_of(name):
 
 def opened(loop):
     """L(s) and S(s) at both motors, interconnected by python-control."""
-    n = len(loop.A)
-    B = np.zeros((n, 2))
-    B[:4] = loop.design.plant.B
+    B = loop.motors
     C_u = -loop.voltage_from_state
     L = control.ss(loop.A + B @ C_u, B, C_u, np.zeros((2, 2)))
     return L, control.feedback(control.ss([], [], [], np.eye(2)), L)
@@ -47,8 +45,7 @@ def test_sensitivity_of_the_presets_is_python_controls(name):
 def response(loop, frequencies):
     """S(jω) = I + ∂u/∂x (jω − A)⁻¹ B, shape (n, 2, 2)."""
     c = list(loop.connected)
-    B = np.zeros((len(c), 2))
-    B[:4] = loop.design.plant.B
+    B = loop.motors[c]
     pencil = 1j * frequencies[:, None, None] * np.eye(len(c)) - loop.A[np.ix_(c, c)]
     return np.eye(2) + loop.voltage_from_state[:, c] @ np.linalg.solve(pencil, B)
 
@@ -57,8 +54,7 @@ def rises_above(loop, level):
     """Whether σ(S(jω)) meets `level` > 1: the Hamiltonian matrix has an eigenvalue on the axis (Boyd et al. 1989)."""
     c = list(loop.connected)
     A, C, R = loop.A[np.ix_(c, c)], loop.voltage_from_state[:, c], level**2 - 1
-    B = np.zeros((len(c), 2))
-    B[:4] = loop.design.plant.B
+    B = loop.motors[c]
     drift = A + B @ C / R
     H = np.block([[drift, B @ B.T / R], [-(1 + 1 / R) * C.T @ C, -drift.T]])
     scale = np.sqrt(np.linalg.norm(C.T @ C) / np.linalg.norm(B @ B.T))  # balance between states and costates

@@ -12,6 +12,7 @@ from heli2dof_core import (
     PRESETS,
     Heli2DofError,
     InvalidInputError,
+    Rotors,
     Spec,
     Uncertainty,
     close_loop,
@@ -44,7 +45,9 @@ ON_THE_AXIS = [
 @pytest.mark.parametrize("name", PRESETS)
 def test_on_the_axis_is_not_stable_on_any_rig(name, poles):
     for structure in STRUCTURES:
-        spec = replace(Spec.from_preset(name, poles=poles, outer="none"), structure=structure)
+        spec = replace(
+            Spec.from_preset(name, poles=poles, outer="none", rotors=Rotors()), structure=structure
+        )
         report = evaluate(spec)
         codes = {finding.code for finding in report.findings}
         assert not report.loop.stable and report.margins is None and report.sensitivity is None
@@ -74,7 +77,9 @@ SLOW = [
 def test_slow_is_not_on_the_axis(name, poles):
     """However far the other poles lie; and the RGA is that of the closed form at 40 digits."""
     for structure in STRUCTURES:
-        spec = replace(Spec.from_preset(name, poles=poles, outer="none"), structure=structure)
+        spec = replace(
+            Spec.from_preset(name, poles=poles, outer="none", rotors=Rotors()), structure=structure
+        )
         report = evaluate(spec)
         assert report.loop.stable and report.margins is not None and report.sensitivity is not None
         assert not {"no_steady_state", "imaginary_axis"} & {finding.code for finding in report.findings}
@@ -153,7 +158,9 @@ def test_the_cloud_judges_as_the_loop_does():
 def test_what_rounding_of_the_gain_hides_is_at_zero_for_all():
     """A pair so slow beside the other that K cannot hold it: no steady state, no RGA, no margin, and it is told."""
     for structure in STRUCTURES:
-        spec = Spec.from_preset("quanser-aero-2", poles=[-2e-9, -2e-9, -300, -300], outer="none")
+        spec = Spec.from_preset(
+            "quanser-aero-2", poles=[-2e-9, -2e-9, -300, -300], outer="none", rotors=Rotors()
+        )
         report = evaluate(replace(spec, structure=structure))
         steady = report.design.steady_state is not None
         codes = {finding.code for finding in report.findings}
