@@ -91,7 +91,7 @@ class Loop(Frozen, Shown):
         law[:, at], A[np.ix_(at, at)], B[at] = self.voltage_from_state, self.A, self.B
         return frozen((law, A, B))
 
-    @property
+    @cached_property
     def states(self) -> tuple[Signal, ...]:
         """The loop's states."""
         known = (*STATES, *INTEGRALS, *ROTORS)
@@ -128,17 +128,17 @@ class Loop(Frozen, Shown):
 
     def polynomials_on(self, A: Floats, B: Floats, tau: Floats | None = None) -> Floats:
         """The same of another rig, 4×4 and 4×2, and with other time constants of its rotors, under this law."""
-        own, known = self.actuators, self.estimator
+        own = self.actuators
         if own is not None:
             B, tau = B * own.slope, own.tau if tau is None else tau
-        tau = np.zeros(2) if tau is None else tau
-        if known is None and not tau.any() and self.design.rotor_poles is None:
+        placed = self.design.rotor_poles is not None
+        if self.estimator is None and not placed and (tau is None or not tau.any()):
             f = np.empty(POLYNOMIALS)
             engine().polynomial_matrices(
                 A, B, np.ascontiguousarray(self.voltage_from_state[:, : 4 + self._z]), f
             )
             return frozen(f)
-        return whole_polynomials(A, B, tau, self.controller)
+        return whole_polynomials(A, B, np.zeros(2) if tau is None else tau, self.controller)
 
     @cached_property
     def controller(self) -> Floats:

@@ -207,17 +207,20 @@ def spec_of(body: Mapping[str, Any]) -> Spec:
         scenario=_scenario(body.get("scenario", {}), base),
         method=method,
         weights=_weights(body.get("weights", {}), bryson_weights(base.limits)),
-        rotors=Rotors(**_by_axis(ROTOR, base.rotors, body.get("rotors"))),
-        friction=AxisFriction(**_by_axis(FRICTION, base.friction, body.get("friction"))),
-        place_rotors=ROTORS.given(body).get("place_rotors", base.place_rotors),
+        rotors=_by_axis(ROTOR, base.rotors, body.get("rotors")),
+        friction=_by_axis(FRICTION, base.friction, body.get("friction")),
+        place_rotors=base.place_rotors if body.get("place_rotors") is None else body["place_rotors"],
         rotor_poles=_rotor_poles(body.get("rotor_poles"), base),
         observer=_observer(body.get("observer")),
     )
 
 
-def _by_axis(places: Mapping[str, Place], base: Any, given: Mapping[str, Any] | None) -> dict[str, Any]:
-    own = given or {}
-    return {axis: place.changed(getattr(base, axis), own.get(axis)) for axis, place in places.items()}
+def _by_axis(places: Mapping[str, Place], base: T, given: Mapping[str, Any] | None) -> T:
+    """Rotors or friction with what is given of each axis."""
+    if not given:
+        return base
+    own = {axis: place.changed(getattr(base, axis), given.get(axis)) for axis, place in places.items()}
+    return type(base)(**own)
 
 
 def _rotor_poles(given: Any, base: Preset) -> Any:

@@ -176,17 +176,13 @@ def loop_reply(loop: Loop) -> Reply:
 
 def step_reply(step: CoreStep, loop: Loop, common: Reply | None = None) -> Reply:
     """Trajectories and metrics of one response; the long arrays are NumPy's. `common` is `loop_reply`'s, if known."""
-    response = step.response
+    response, rotors = step.response, step.response.rotors
     return {
         **(common or loop_reply(loop)),
         "t": response.t,
         **{signal.name: response.angles[i] for i, signal in enumerate(OUTPUTS)},
         **{signal.name: response.voltages[i] for i, signal in enumerate(INPUTS)},
-        **(
-            {}
-            if response.rotors is None
-            else {"rotors": dict(zip(("v_p", "v_y"), response.rotors, strict=True))}
-        ),
+        **({} if rotors is None else {"rotors": dict(zip(("v_p", "v_y"), rotors, strict=True))}),
         "reference": dict(zip(("theta", "psi"), response.reference, strict=True)),
         "metrics": metrics_reply(step.metrics),
         "findings": findings_reply(step.findings),

@@ -100,6 +100,8 @@ class Response(Frozen, Shown):
     @property
     def rotors(self) -> Floats | None:
         """Speeds of both rotors, V, (2, samples), linear: deviations; None where both follow at once."""
+        if self.signals[-1].name in _PAPERS:  # rotors come behind
+            return None
         rows = dict(zip((signal.name for signal in self.signals), self.states, strict=False))
         if not any(rotor.name in rows for rotor in ROTORS):
             return None
@@ -123,6 +125,8 @@ class Response(Frozen, Shown):
         return f"{self.model}; θ {theta}, ψ {psi} rad; {len(self.t)} samples of {number(float(self.t[-1]))} s{codes}"
 
 
+_PAPERS = {signal.name for signal in (*STATES, *INTEGRALS)}
+"""The states of the paper's rig under its loops."""
 _GIVEN_UP = {
     OUT_OF_STEPS: "it takes too many steps; shorten the duration or loosen the tolerance",
     OUT_OF_SWITCHES: "it switches between limits without end",

@@ -33,8 +33,8 @@ export class LagPaths {
         'data-testid': 'show-lag',
         'aria-label': 'Track of the rotors’ lag',
         title:
-          say`Where the poles of the loop go as the rotors’ lag τ grows from nothing to the rig’s own, or to the ${AERO} s ` +
-          t('of a real Aero where the rig has none. A ring: there the loop becomes unstable'),
+          say`Where the poles of the loop go as the rotors’ lag τ grows from nothing to the rig’s own, or to ${AERO} s, ` +
+          t('a real Aero’s, where the rig has none. A ring: there the loop becomes unstable'),
         onclick: () => store.set({ showLag: !isShown(store.state) }),
       },
       h('i', {}, 'τ'),
