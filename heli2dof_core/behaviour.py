@@ -15,6 +15,7 @@ from .kernels.layout import BAND
 from .loop import Loop
 from .metrics import StepMetrics
 from .remarks import FAR_OUT
+from .rotors import USUAL_LAG
 from .scenario import Digital, Limits, Scenario
 from .signals import AXES, INPUTS, OUTPUTS
 from .simulation.response import Response
@@ -27,6 +28,8 @@ UNLIKE_OVERSHOOT = 10.0
 """The same for overshoot, percentage points."""
 SLOWER = 5.0
 """How many times slower than every placed pole a pole of the whole loop is remarked on."""
+AMPLE = 2.0
+"""Times `rotors.USUAL_LAG` that a loop should bear where the rig's rotors are said to follow at once."""
 DEAD_SAMPLES = 1.5
 """Dead time of a digital loop in samples: one to compute, half a sample's hold
 (Åström and Wittenmark, Computer-Controlled Systems, 1997, section 8)."""
@@ -96,8 +99,18 @@ def _on_delay(margins: tuple[Margins, Margins], scenario: Scenario) -> Iterator[
 
 
 def _on_lag(loop: Loop) -> Iterator[Finding]:
-    if loop.lag_margin is None:
+    own, limit = loop.actuators, loop.lag_margin
+    if limit is None:
         yield Finding("lag_unlimited", "info", "The loop stays stable however slow both rotors are.")
+    elif (own is None or not own.lags) and limit < AMPLE * USUAL_LAG:
+        short = limit < USUAL_LAG
+        yield Finding(
+            "lives_by_fast_rotors",
+            "warning" if short else "info",
+            f"{'The design lives by rotors that follow at once: t' if short else 'T'}he loop turns unstable once "
+            f"both rotors lag by {limit:.3g} s; an Aero's lag by {USUAL_LAG:g} s. Place slower poles or lower the "
+            "gains, or give the rig its rotors' lag and place them, too.",
+        )
 
 
 def _on_gain(loop: Loop, limits: Limits) -> Iterator[Finding]:

@@ -11,7 +11,9 @@ from .couplings import STRUCTURES, Structure
 from .design import FULL_RANK, Design
 from .errors import Heli2DofError, MethodUnavailableError, StructureUnavailableError
 from .evaluate import Report, evaluate, place
+from .figures import LOOP
 from .interaction import Interaction, interaction
+from .loop import lag_in_words
 from .metrics import settling_words
 from .placement.groups import splits
 from .placement.registry import METHODS
@@ -64,7 +66,7 @@ class Comparison(Shown):
     def tables(self) -> tuple[Table, ...]:
         """A row per method; and why some have no result."""
         refused = [(row.name, f"{row.unavailable}") for row in self.rows if row.unavailable is not None]
-        heads = ("", "‖K‖", "κ(V)", "λ₁₁", "θ settles (s)", "ψ settles (s)", "loop")
+        heads = ("", "‖K‖", "κ(V)", "λ₁₁", "θ settles (s)", "ψ settles (s)", LOOP["lag_margin"].head, "loop")
         return (
             Table.of("methods", heads, (_cells(row.name, row.report) for row in self.rows if row.report)),
             *((Table.of("not available", ("", "why"), refused),) if refused else ()),
@@ -80,6 +82,7 @@ def _cells(name: str, report: Report) -> tuple[str, ...]:
         number(report.design.eigenvector_condition),
         number(report.interaction.relative_gain),
         *settling,
+        lag_in_words(report.loop),
         "stable" if report.loop.stable else "unstable",
     )
 

@@ -15,6 +15,7 @@ from .design import Design
 from .eigenvalues import eigenvalues
 from .engine import engine
 from .estimators import FILTER_DAMPING, FILTER_FREQUENCY, Estimator
+from .figures import LOOP
 from .findings import Finding
 from .frozen import Frozen, frozen
 from .interop import state_space
@@ -25,7 +26,7 @@ from .rotors import Actuators
 from .scenario import OuterLoop
 from .scratch import scratch
 from .signals import AXES, INPUTS, INTEGRALS, OUTPUTS, ROTORS, STATES, Complexes, Floats, Signal
-from .tables import Shown, Table, number, poles
+from .tables import NOTHING, Shown, Table, number, poles
 
 if TYPE_CHECKING:
     import control
@@ -229,11 +230,11 @@ class Loop(Frozen, Shown):
         return f"{stability}, {kind}; poles {poles(self.poles.tolist())} rad/s"
 
     def tables(self) -> tuple[Table, ...]:
-        """The poles of the whole loop, slowest first, with their natural frequency and damping."""
+        """The poles of the whole loop, slowest first, with their natural frequency and damping; its lag margin."""
         rows = (
             (number(p), number(abs(p)), number(-p.real / abs(p) if p else None)) for p in self.poles.tolist()
         )
-        return (Table.of("whole loop", ("pole (rad/s)", "ωₙ (rad/s)", "ζ"), rows),)
+        return (Table.of("whole loop", ("pole (rad/s)", "ωₙ (rad/s)", "ζ"), rows), lag_table(self))
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
@@ -241,10 +242,23 @@ class Loop(Frozen, Shown):
         return tuple(_remarks(self))
 
 
+def lag_in_words(loop: Loop) -> str:
+    """The lag margin, s; in words where there is no limit, a dash where the loop is not stable."""
+    if loop.lag_margin is None:
+        return UNLIMITED if loop.stable else NOTHING
+    return number(loop.lag_margin)
+
+
+def lag_table(loop: Loop) -> Table:
+    """The loop's figures beside its poles."""
+    return Table.of("of the rotors", ("", "value"), [(LOOP["lag_margin"].head, lag_in_words(loop))])
+
+
 def _slowest_first(pole: complex) -> tuple[float, float]:
     return -pole.real, -pole.imag
 
 
+UNLIMITED = "unlimited"
 PAPERS, WITH_ROTORS, WITH_ESTIMATOR = SIZES
 
 

@@ -14,7 +14,8 @@ from .output import print_json, refusals, show
 @takes(*DESIGN)
 def gains(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     """Print K of u = −Kx + v and the poles that it gives."""
-    from heli2dof_core import place
+    from heli2dof_core import loop_of, place
+    from heli2dof_core.loop import lag_table
 
     from ..contract.design import DesignRequest, gains_of
 
@@ -23,7 +24,7 @@ def gains(as_json: bool, base: IO[str] | None, **values: Any) -> None:
         if as_json:
             return print_json(gains_of(spec))
         design = place(spec)
-        show(design.tables(), findings=design.findings)
+        show((*design.tables(), lag_table(loop_of(spec, design))), findings=design.findings)
     return None
 
 

@@ -6,11 +6,12 @@ from typing import Any
 
 from ..evaluate import Report
 from ..figures import LOOP
+from ..loop import UNLIMITED
 from ..rotors import Actuators
 from ..signals import AXES
 from ..spec import Spec
 from ..tables import number, poles
-from .report_figures import DASH, told
+from .report_figures import told
 
 _ROWS = (
     ("τ", "time constant of the rotor's speed v: τ v̇ = V − v", "tau", "s"),
@@ -71,12 +72,11 @@ def feedback_in_words(spec: Spec, report: Report) -> str:
 
 
 def lag_margin(report: Report) -> str:
-    """In words, where rotors lag."""
-    actuators, figure = report.design.actuators, LOOP["lag_margin"]
-    if actuators is None or not actuators.lags:
-        return ""
-    value = report.loop.lag_margin
-    return f"{figure.title}: {DASH if value is None else told(figure, value)}, the {figure.meaning}."
+    """In words, where the loop is stable."""
+    figure, value = LOOP["lag_margin"], report.loop.lag_margin
+    if value is None:
+        return f"{figure.title}: {UNLIMITED}." if report.loop.stable else ""
+    return f"{figure.title}: {told(figure, value)}, the {figure.meaning}."
 
 
 def words(spec: Spec, report: Report) -> dict[str, Any]:

@@ -20,6 +20,9 @@ def observer_gain(plant: Plant, poles: PoleSet, structure: Structure) -> Floats:
 def kalman_gain(A: Floats, B: Floats, voltage_noise: float, angle_noise: float) -> Floats:
     """L, 4×2, of the steady-state Kalman filter, by `control.lqe`.
 
+    It depends on the ratio of the densities alone. The equation is solved in the filter's own unit of time, in which
+    its terms are of one size: in seconds SciPy refuses it for ordinary rigs.
+
     Args:
         A: of the model, 4×4.
         B: of the model, 4×2.
@@ -31,14 +34,20 @@ def kalman_gain(A: Floats, B: Floats, voltage_noise: float, angle_noise: float) 
     """
     import control
 
-    eye = np.eye(2)
+    ratio = voltage_noise / angle_noise
+    stiffness, damping = (np.linalg.norm(A[2:, columns], 2) for columns in (slice(2), slice(2, 4)))
+    speed = max(np.sqrt(ratio * np.linalg.norm(B, 2)), np.sqrt(stiffness), damping)
+    units = np.array([1.0, 1.0, speed, speed])
+    own, driven = A * units / units[:, None] / speed, ratio * B / units[:, None] / speed
+    density = driven @ driven.T
+    density = (density + density.T) / 2.0  # symmetric to the last digit
     try:
-        L, _, poles = control.lqe(A, B, C, voltage_noise**2 * eye, angle_noise**2 * eye, method="scipy")
+        L, _, poles = control.lqe(own, np.eye(4), C, density, np.eye(2), method="scipy")
     except (ValueError, control.ControlArgument) as error:  # a LinAlgError is a ValueError
         raise _unsolved() from error
     if not (np.all(np.isfinite(L)) and np.all(np.real(poles) < 0)):
         raise _unsolved()
-    return np.array(L, dtype=np.float64)
+    return np.array(speed * units[:, None] * L, dtype=np.float64)
 
 
 def _unsolved() -> MethodUnavailableError:

@@ -22,6 +22,9 @@ const PLACES = {
   travel_stop: plot('theta'),
   diverges: plot('theta'),
   unlike_linear: testid('more-figures'),
+  lives_by_fast_rotors: testid('more-figures'),
+  lag_unlimited: testid('more-figures'),
+  rotors_unstable: LOOPS,
   not_settled: testid('duration'),
   slow_pole: LOOPS,
   reference_beyond_stop: testid('step-theta'),
@@ -95,7 +98,7 @@ export function remarksOf({ reply, problem }) {
     );
   };
   const stop = first(findings, ['reference_beyond_stop', 'travel_stop', 'starts_on_stop']);
-  const unstable = first(findings, ['pi_unstable', 'loop_unstable']);
+  const unstable = first(findings, ['pi_unstable', 'loop_unstable', 'rotors_unstable']);
   const open = first(findings, ['pitch_loop_open', 'yaw_loop_open']);
   return {
     loops: unstable

@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heli2dof_core import PRESETS, Digital, Disturbance, Spec, evaluate
-from heli2dof_core.behaviour import DEAD_SAMPLES, SLOWER
+from heli2dof_core import PRESETS, Digital, Disturbance, Rotor, Rotors, Spec, evaluate
+from heli2dof_core.behaviour import AMPLE, DEAD_SAMPLES, SLOWER
+from heli2dof_core.rotors import USUAL_LAG
 from heli2dof_core.tables import number
 
 OURS = {"short_delay_margin", "high_gain", "slow_pole", "not_settled", "unlike_linear"}
@@ -52,6 +53,57 @@ def test_the_delay_margin_is_held_against_the_sample_time():
         own = replace(spec, scenario=replace(spec.scenario, digital=digital, duration=0.1))
         assert ("short_delay_margin" in codes(own)) is short
     assert "pitch motor" in told(spec, "short_delay_margin")
+
+
+def lagged_poles(spec: Spec, tau: float) -> np.ndarray:
+    """The loop's poles by the matrix of its parts: rotors between law and rig, both PI loops closed."""
+    design, outer = evaluate(spec).design, spec.outer
+    A, B, C, kp = design.plant.A, design.plant.B, np.eye(2, 4), np.diag([outer.pitch.kp, outer.yaw.kp])
+    ki = kp @ np.diag([1 / outer.pitch.ti, 1 / outer.yaw.ti])
+    law = np.hstack((-design.K - kp @ C, ki))
+    whole = np.zeros((8, 8))
+    whole[:4, :4], whole[:4, 6:], whole[4:6, :4] = A, B, -C
+    whole[6:, :6], whole[6:, 6:] = law / tau, -np.eye(2) / tau
+    return np.linalg.eigvals(whole)
+
+
+@pytest.mark.parametrize(
+    ("kp", "ti", "severity"),
+    [
+        (60, 0.1, "warning"),
+        (30, 0.06, "warning"),
+        (30, 0.1, "info"),
+        (14, 0.08, "info"),
+        (12, 0.08, None),
+        (5, 0.3, None),
+    ],
+)
+def test_a_design_that_lives_by_fast_rotors_is_told_of_it(kp: float, ti: float, severity: str | None):
+    """Warned of where an Aero's rotors would do it, noted below twice their lag, and no word above."""
+    spec = Spec.from_preset(pitch=(kp, ti), yaw=(kp, ti))
+    report = evaluate(spec)
+    limit = report.loop.lag_margin
+    assert limit is not None
+    rightmost = [np.max(lagged_poles(spec, share * limit).real) for share in (0.999, 1.001)]
+    assert rightmost[0] < 0 < rightmost[1]
+    found = [f for f in report.findings if f.code == "lives_by_fast_rotors"]
+    expected = "warning" if limit < USUAL_LAG else "info" if limit < AMPLE * USUAL_LAG else None
+    assert [f.severity for f in found] == ([] if expected is None else [expected]) and expected == severity
+    assert all(f"{limit:.3g} s; an Aero's lag by {USUAL_LAG:g} s" in f.message for f in found)
+    own = Rotor(0.5 * limit)
+    assert "lives_by_fast_rotors" not in codes(
+        spec.changed(rotors=Rotors(own, own))
+    )  # the rig's own is known
+
+
+def test_who_lives_by_no_rotors_is_told_so():
+    """Low gains, which the rig's own damping bears whatever the rotors do."""
+    spec = Spec.from_preset(poles=[-0.4412, -0.1094, -0.07397, -1.229], outer="none")
+    assert "lag_unlimited" in codes(spec)
+    design = evaluate(spec).design
+    for tau in np.geomspace(1e-2, 1e4, 61):
+        A = np.block([[design.plant.A, design.plant.B], [-design.K / tau, -np.eye(2) / tau]])
+        assert np.max(np.linalg.eigvals(A).real) < 0
 
 
 @pytest.mark.parametrize(

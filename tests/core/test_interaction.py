@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import control
 import numpy as np
 import pytest
 import sympy as sp
@@ -14,6 +15,8 @@ from heli2dof_core import (
     InvalidInputError,
     Parameters,
     PoleSet,
+    Rotor,
+    Rotors,
     Spec,
     Structure,
     close_loop,
@@ -255,3 +258,27 @@ def test_thrust_constants_follow_from_the_components():
     heavier = replace(rig.components, m_p=0.5)
     moved = Parameters.from_components(heavier, J_p=0.04, J_y=0.04, m=1.4, B_p=0.8, B_y=0.3)
     assert moved.l > rig.parameters.l
+
+
+@pytest.mark.parametrize("place_rotors", [False, True])
+def test_the_rga_of_lagging_rotors_is_python_controls_frequency_response(place_rotors):
+    """Series of rotors and rig under the state feedback; at ω = 0 the lag does not count."""
+    tau, changes = (0.05, 0.16), {"poles": [-4, -5, -3 + 2j, -3 - 2j]}
+    lagging = Rotors(*map(Rotor, tau))
+    spec = Spec.from_preset(rotors=lagging, place_rotors=place_rotors, **changes)
+    placed, frequencies = place(spec), np.array([0.0, 0.3, 1.0, 4.0, 20.0])
+    rig = control.ss(placed.plant.A, placed.plant.B, np.eye(4), np.zeros((4, 2)))
+    motors = control.ss(-np.diag(1 / np.array(tau)), np.diag(1 / np.array(tau)), np.eye(2), np.zeros((2, 2)))
+    both = control.append(control.series(motors, rig), motors)  # the speeds once more, as outputs
+    both = control.ss(both.A, both.B @ np.vstack((np.eye(2), np.eye(2))), both.C, 0)
+    K = placed.K if place_rotors else np.hstack((placed.K, np.zeros((2, 2))))
+    closed = control.feedback(both, control.ss([], [], [], K))
+    G = np.moveaxis(closed(1j * frequencies), -1, 0)[:, :2]
+    theirs = G * np.swapaxes(np.linalg.inv(G), -1, -2)
+    np.testing.assert_allclose(rga_over_frequency(placed, frequencies), theirs, rtol=1e-8, atol=1e-10)
+    static = interaction(placed).rga
+    np.testing.assert_allclose(theirs[0].real, static, rtol=1e-8)
+    if not place_rotors:
+        plain = Spec.from_preset(**changes)
+        np.testing.assert_allclose(static, interaction(place(plain)).rga, rtol=1e-9)
+        assert abs(rga_over_frequency(place(plain), frequencies)[3] - theirs[3]).max() > 1e-3

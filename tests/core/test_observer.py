@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
+import control
+import mpmath
 import numpy as np
 import pytest
 import sympy as sp
+from scipy.linalg import solve_continuous_are
 from scipy.signal import place_poles as scipy_place
 
-from heli2dof_core import InvalidInputError, PoleSet, Structure, design, plant, pole_error, preset
+from heli2dof_core import (
+    InvalidInputError,
+    MethodUnavailableError,
+    PoleSet,
+    Structure,
+    design,
+    plant,
+    pole_error,
+    preset,
+)
 from heli2dof_core.compiled import observer_gain
 from heli2dof_core.couplings import STRUCTURES
+from heli2dof_core.estimators import Observer, observe
 from heli2dof_core.symbolic import names as n
 from heli2dof_core.symbolic.names import PARAMETERS as P
 from heli2dof_core.symbolic.observer import dual, indices, observer
@@ -83,3 +96,53 @@ def test_scipy_places_the_dual_with_the_same_poles():
     theirs = scipy_place(model.A.T, C.T, wanted.array.real).gain_matrix.T
     for gain in (L, theirs):
         assert pole_error(wanted.array, np.linalg.eigvals(model.A - gain @ C)) < 1e-6
+
+
+def stabilizing(A, Q, R):
+    """P of AP + PAᵀ − PCᵀR⁻¹CP + Q = 0 from the stable subspace of the Hamiltonian matrix, at 50 digits."""
+    with mpmath.workdps(50):
+        A, Q, C_, inverse = (mpmath.matrix(M.tolist()) for M in (A, Q, C, np.linalg.inv(R)))
+        H = mpmath.zeros(8)
+        H[:4, :4], H[:4, 4:], H[4:, :4], H[4:, 4:] = A.T, -C_.T * inverse * C_, -Q, -A
+        values, vectors = mpmath.eig(H)
+        stable = [i for i in range(8) if mpmath.re(values[i]) < 0]
+        assert len(stable) == 4
+        X = mpmath.zeros(8, 4)
+        for column, i in enumerate(stable):
+            X[:, column] = vectors[:, i]
+        P = X[4:, :] * X[:4, :] ** -1
+        return np.array([[float(mpmath.re(P[i, j])) for j in range(4)] for i in range(4)])
+
+
+def test_a_kalman_filter_is_that_of_the_riccati_equation():
+    """L = P Cᵀ R⁻¹ for random rigs and densities: by mpmath, and by python-control and SciPy where these solve it."""
+    rng, solved = np.random.default_rng(31), 0
+    for i in range(60):
+        model, poles, *_ = random_design(rng)
+        placed = design(model, poles, Structure("axis-decoupled"))
+        voltage, angle = 10 ** rng.uniform(-2, 2), 10 ** rng.uniform(-5, -1)
+        L = observe(placed, Observer(method="kalman", voltage_noise=voltage, angle_noise=angle)).L
+        Q, R = voltage**2 * model.B @ model.B.T, angle**2 * np.eye(2)
+        if i < 10:
+            theirs = stabilizing(model.A, Q, R) @ C.T / angle**2
+            np.testing.assert_allclose(L, theirs, rtol=1e-9, atol=1e-9 * np.max(np.abs(theirs)))
+        try:
+            X = solve_continuous_are(model.A.T, C.T, (Q + Q.T) / 2, R)
+            gain, *_ = control.lqe(model.A, np.eye(4), C, (Q + Q.T) / 2, R, method="scipy")
+        except (ValueError, control.ControlArgument):  # in seconds they often cannot
+            continue
+        for theirs in (X @ C.T / angle**2, np.asarray(gain)):
+            np.testing.assert_allclose(L, theirs, rtol=1e-6, atol=1e-6 * np.max(np.abs(theirs)))
+        solved += 1
+    assert solved > 20
+
+
+def test_densities_far_apart_have_a_filter_too():
+    """Over 21 decades of their ratio every filter is stable; one that trusts no measurement at all is refused."""
+    placed = design(plant(preset().parameters), PoleSet([-4, -5, -3 + 2j, -3 - 2j]), Structure())
+    for voltage, angle in ((1e-3, 1.0), (1.0, 1e-6), (1e6, 1e-6), (1e6, 1e-12)):
+        L = observe(placed, Observer(method="kalman", voltage_noise=voltage, angle_noise=angle)).L
+        assert L is not None and np.max(np.linalg.eigvals(placed.plant.A - L @ C).real) < 0
+    with pytest.raises(MethodUnavailableError) as caught:
+        observe(placed, Observer(method="kalman", voltage_noise=1e-9, angle_noise=1e3))
+    assert caught.value.field == "observer.angle_noise"

@@ -10,6 +10,8 @@ import pytest
 from heli2dof_core import (
     InvalidInputError,
     PoleSet,
+    Rotor,
+    Rotors,
     Spec,
     Uncertainty,
     close_loop,
@@ -102,3 +104,35 @@ def test_bad_uncertainties_are_refused_with_their_field(change, field):
     with pytest.raises(InvalidInputError) as caught:
         Uncertainty(**change)
     assert caught.value.field == field
+
+
+def test_uncertain_lags_judge_as_the_eigenvalues_of_each_rig_do(spec):
+    """The share that is stable, rig by rig, from the loop's parts and LAPACK."""
+    lagging = spec.changed(rotors=Rotors(Rotor(0.15), Rotor(0.15)))
+    uncertainty = Uncertainty({"tau_p": 0.4, "tau_y": 0.4}, samples=300, seed=2)
+    found = cloud(lagging, uncertainty)
+    placed, outer = place(spec), spec.outer
+    kp = np.diag([outer.pitch.kp, outer.yaw.kp])
+    C, ki = np.eye(2, 4), kp @ np.diag([1 / outer.pitch.ti, 1 / outer.yaw.ti])
+    law, stable = np.hstack((-placed.K - kp @ C, ki)), 0
+    for poles in found.loop_poles:
+        # the sum of the poles tells 1/τ_p + 1/τ_y; both from the characteristic polynomial at a point, too
+        total = -np.sum(poles).real + np.trace(placed.plant.A)
+        product = np.prod(poles).real  # det of the whole, which is det(B-path) / (τ_p τ_y)
+        unit = _whole(placed, law, C, 1.0, 1.0)
+        inverse = product / np.linalg.det(unit)
+        a, b = np.roots([1.0, -total, inverse])
+        whole = _whole(placed, law, C, 1 / a, 1 / b), _whole(placed, law, C, 1 / b, 1 / a)
+        assert min(pole_error(poles, np.linalg.eigvals(each)) for each in whole) < 1e-5
+        assert all(0.6 * 0.15 <= 1 / rate.real <= 1.4 * 0.15 for rate in (a, b))
+        stable += np.max(poles.real) < 0
+    assert 0.05 < found.share_stable < 0.95
+    assert found.share_stable == pytest.approx(stable / 300, abs=1e-9)
+
+
+def _whole(placed, law, C, tau_p, tau_y):
+    """Rig, integrals of the errors, rotors: 8×8."""
+    A, lag = np.zeros((8, 8)), np.diag([1 / tau_p, 1 / tau_y])
+    A[:4, :4], A[:4, 6:], A[4:6, :4] = placed.plant.A, placed.plant.B, -C
+    A[6:, :6], A[6:, 6:] = lag @ law, -lag
+    return A

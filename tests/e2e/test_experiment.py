@@ -10,6 +10,7 @@ from playwright.sync_api import Browser, Page, expect
 from tests.browser import opened, settled, state
 from tests.e2e.conftest import App
 from tests.e2e.test_page import PLOTS, TRACES
+from tests.e2e.test_rig import entered
 
 ESSENTIAL = ("rise", "settling", "overshoot", "error", "coupling", "V_p", "V_y", "margin", "delay")
 MORE = ("undershoot", "iae", "itae", "effort-V_p", "effort-V_y")
@@ -255,6 +256,9 @@ def test_what_limits_cost_stands_beside_the_linear_model(page: Page, app: App):
     page.get_by_test_id("experiment").click()
     page.get_by_test_id("experiment-saturation").uncheck()
     until(page, "s.saturation === false")
+    for axis in ("pitch", "yaw"):  # gentle loops, of which nothing else is to be said
+        entered(page, f"kp-{axis}", "12")
+        entered(page, f"ti-{axis}", "0.08")
     expect(page.get_by_test_id("findings")).to_contain_text("Voltage limits are off")
 
 

@@ -9,6 +9,8 @@ from tests.e2e.conftest import App
 from tests.e2e.test_rig import entered, until
 
 SLOW = "#v1&p=-1,-1.5,-2,-2.5"
+AMPLE = "#v1&pi=12,0.08,12,0.08"
+"""Bears rotors twice as slow as an Aero's, and nothing is to be said of it."""
 
 
 def test_slow_poles_under_pi_are_told_at_the_loops_and_lead_to_the_remedy(page: Page, app: App):
@@ -57,7 +59,16 @@ def test_a_missed_requirement_is_in_the_summary_and_leads_to_its_pole(page: Page
     expect(finding).to_have_count(0)
 
 
-def test_an_unwise_design_is_not_green(page: Page):
+def test_a_design_that_needs_quick_rotors_is_told_so_and_stays_green(page: Page):
+    note = page.locator("#strip .list [data-code=lives_by_fast_rotors] button")
+    expect(note).to_contain_text("once both rotors lag by 0.165 s; an Aero's lag by 0.16 s")
+    expect(page.get_by_test_id("verdict")).to_have_class("verdict stable")
+    note.click()
+    expect(page.get_by_test_id("more-figures")).to_be_focused()
+
+
+def test_an_unwise_design_is_not_green(page: Page, app: App):
+    reopened(page, app.url + AMPLE)
     expect(page.get_by_test_id("findings")).to_contain_text("No warnings.")
     entered(page, "pole-field-0", "-900")
     until(page, "s.findings.includes('high_gain') && s.findings.includes('short_delay_margin')")
