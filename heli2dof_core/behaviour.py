@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from itertools import chain
 from math import degrees, radians
 
-import numpy as np
-
 from .figures import AxisMetrics, Margins
 from .findings import Finding
 from .kernels.layout import BAND
@@ -114,22 +112,26 @@ def _on_lag(loop: Loop) -> Iterator[Finding]:
 
 
 def _on_gain(loop: Loop, limits: Limits) -> Iterator[Finding]:
-    if float(np.max(np.abs(loop.design.closed_loop_poles))) > FAR_OUT:
+    if max(map(abs, loop.design.closed_loop_poles.tolist())) > FAR_OUT:
         return  # said of the poles already
-    volts = np.abs(loop.design.K[:, :2]) * radians(1.0)
-    bounds = np.array([limits.V_p, limits.V_y])
-    motor, axis = np.unravel_index(int(np.argmax(volts / bounds[:, None])), volts.shape)
-    if volts[motor, axis] > bounds[motor]:
+    rows = zip(AXES, (limits.V_p, limits.V_y), loop.design.K.tolist(), strict=True)
+    asked = [
+        (radians(abs(gain)), bound, motor, axis)
+        for motor, bound, row in rows
+        for axis, gain in zip(AXES, row[:2], strict=True)
+    ]
+    volts, bound, motor, axis = max(asked, key=lambda each: each[0] / each[1])
+    if volts > bound:
         yield Finding(
             "high_gain",
             "warning",
-            f"One degree of {AXES[axis]} error asks the {AXES[motor]} motor for {volts[motor, axis]:.3g} V; its "
-            f"limit is {bounds[motor]:g} V. Place slower poles.",
+            f"One degree of {axis} error asks the {motor} motor for {volts:.3g} V; its limit is {bound:g} V. "
+            "Place slower poles.",
         )
 
 
 def _on_slow_poles(loop: Loop) -> Iterator[Finding]:
-    placed = float(np.max(loop.design.closed_loop_poles.real))
+    placed = max(pole.real for pole in loop.design.closed_loop_poles.tolist())
     slowest = float(loop.connected_poles[0].real)
     if loop.has_integrators and placed < SLOWER * slowest:
         yield Finding(

@@ -167,7 +167,8 @@ def _measured(loop: Loop, response: Response, calm: Response | None = None) -> S
     metrics = step_metrics(response, calm)
     if calm is not None and metrics.axes:
         response = replace(response, findings=(*response.findings, _CALM))
-    return Step(response, metrics, merged(loop.design.findings, loop.findings, response.findings))
+    known = loop.all_findings
+    return Step(response, metrics, merged(known, response.findings) if response.findings else known)
 
 
 _CALM = Finding(
@@ -176,6 +177,13 @@ _CALM = Finding(
     "The steps' figures (rise, settling, overshoot, errors) are those without the disturbance; the motors' "
     "include it.",
 )
+
+
+def _without(scenario: Scenario, axis: str) -> Scenario:
+    """The scenario without the reference of an axis: all else was checked when it was made."""
+    own = object.__new__(Scenario)
+    vars(own).update(vars(scenario) | {axis: None})
+    return own
 
 
 def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = None) -> Report:
@@ -194,7 +202,7 @@ def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = No
     scenarios = {"": scenario}
     if each_axis:
         scenarios |= {
-            name: replace(scenario, **{other: None})
+            name: _without(scenario, other)
             for name, other in (("theta", "psi"), ("psi", "theta"))
             if getattr(scenario, name) is not None
         }

@@ -16,12 +16,12 @@ from .eigenvalues import eigenvalues
 from .engine import engine
 from .estimators import FILTER_DAMPING, FILTER_FREQUENCY, Estimator
 from .figures import LOOP
-from .findings import Finding
+from .findings import Finding, merged
 from .frozen import Frozen, frozen
 from .interop import state_space
 from .kernels.layout import OWN, PI, PLAIN, POLYNOMIALS, SIZES, STATIC
 from .loop_polynomials import controller_numbers, whole_polynomials
-from .remarks import lag_instability, loop_instability
+from .remarks import lag_instability, loop_instability, loop_remarks
 from .rotors import Actuators
 from .scenario import OuterLoop
 from .scratch import scratch
@@ -77,14 +77,14 @@ class Loop(Frozen, Shown):
 
     @cached_property
     def size(self) -> Sequence[int]:
-        """As many zeros as the kernels' states of this loop: they are compiled for each number of them."""
+        """As many zeros as the kernels' states of this loop: compiled for each number of them."""
         if self.estimator is not None:
             return WITH_ESTIMATOR
         return PAPERS if self.actuators is None or self.actuators.plain else WITH_ROTORS
 
     @cached_property
     def padded(self) -> tuple[Floats, Floats, Floats]:
-        """∂u/∂ states, A and B with the states at their places in the kernels' arrays; the paper's rig as it is."""
+        """∂u/∂ states, A and B with the states at their places in the kernels' arrays."""
         n = len(self.size)
         if n == PLAIN:
             return self.voltage_from_state, self.A, self.B
@@ -100,7 +100,7 @@ class Loop(Frozen, Shown):
 
     @property
     def has_integrators(self) -> bool:
-        """Whether the errors are integrated: by PI controllers or by the method's own action."""
+        """Whether the errors are integrated: by PI loops or the method itself."""
         return self.integral is not None
 
     @property
@@ -134,10 +134,9 @@ class Loop(Frozen, Shown):
             B, tau = B * own.slope, own.tau if tau is None else tau
         placed = self.design.rotor_poles is not None
         if self.estimator is None and not placed and (tau is None or not tau.any()):
-            f = np.empty(POLYNOMIALS)
-            engine().polynomial_matrices(
-                A, B, np.ascontiguousarray(self.voltage_from_state[:, : 4 + self._z]), f
-            )
+            f, law = np.empty(POLYNOMIALS), self.voltage_from_state
+            law = law if own is None else np.ascontiguousarray(law[:, : 4 + self._z])
+            engine().polynomial_matrices(A, B, law, f)
             return frozen(f)
         return whole_polynomials(A, B, np.zeros(2) if tau is None else tau, self.controller)
 
@@ -241,6 +240,11 @@ class Loop(Frozen, Shown):
         """Remarks on the whole loop."""
         return tuple(_remarks(self))
 
+    @cached_property
+    def all_findings(self) -> tuple[Finding, ...]:
+        """Remarks on the design and on the whole loop."""
+        return merged(self.design.findings, self.findings)
+
 
 def lag_in_words(loop: Loop) -> str:
     """The lag margin, s; in words where there is no limit, a dash where the loop is not stable."""
@@ -303,22 +307,9 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
     if not loop.stable and (loop.has_integrators or loop.design.stable):
         yield _instability(loop)
     if loop.has_integrators and loop.design.integral is None:
-        for name, gains, integral in zip(
-            AXES, (loop.outer.pitch, loop.outer.yaw), loop.integral_by_axis, strict=True
-        ):
-            if gains.kp == 0:
-                words = f"The {name} loop is open: its gain is 0. Its integrator drives nothing and does not count."
-                yield Finding(f"{name}_loop_open", "warning", words)
-            elif not integral.any():
-                words = f"The {name} loop does not integrate: its controller's integral reaches no motor."
-                yield Finding(f"{name}_loop_open", "warning", words)
-        if loop.outer.decoupler and not loop.design.steady_state_determinant:
-            yield Finding(
-                "no_decoupler",
-                "warning",
-                "A placed pole lies at 0: without steady state there is no static decoupler, and the PI loops act "
-                "without one. Move the pole.",
-            )
+        lacking = loop.outer.decoupler and not loop.design.steady_state_determinant
+        kp = (loop.outer.pitch.kp, loop.outer.yaw.kp)
+        yield from loop_remarks(kp, loop.integral_by_axis, no_decoupler=lacking)
     damping = min((-p.real / abs(p) for p in loop.connected_poles.tolist() if p != 0), default=1.0)
     if loop.stable and damping < 0.2:
         yield Finding(

@@ -124,7 +124,7 @@ def match_poles(wanted: Sequence[complex] | Complexes, found: Sequence[complex] 
         For each of `wanted`, the index in `found` of its partner (bottleneck assignment: the
         smallest threshold under which a perfect matching exists, by augmenting paths).
     """
-    a, b = [list(poles) for poles in (wanted, found)]
+    a, b = [poles.tolist() if isinstance(poles, np.ndarray) else list(poles) for poles in (wanted, found)]
     if len(a) != len(b):
         raise ValueError(f"{len(a)} and {len(b)} poles cannot be matched")
     rows = [[abs(p - q) for q in b] for p in a]

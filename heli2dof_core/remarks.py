@@ -11,7 +11,7 @@ import numpy as np
 from .findings import Finding
 from .kernels.layout import ROUNDING
 from .plant import NEARLY_PARALLEL, Plant
-from .signals import Complexes, Floats
+from .signals import AXES, Complexes, Floats
 from .tables import conjugates
 
 COINCIDENT = 1e-6
@@ -130,6 +130,32 @@ def lag_instability(lag: float, limit: float) -> Finding:
         f"The rotors' lag of {lag:.3g} s makes the helicopter unstable: with this design both may need less than "
         f"{limit:.3g} s. Place slower poles or lower the gains, or place the rotors, too.",
     )
+
+
+def loop_remarks(kp: Sequence[float], integral: Floats, *, no_decoupler: bool) -> Iterator[Finding]:
+    """Which PI loops are open, and whether there is a static decoupler.
+
+    Args:
+        kp: of pitch's and yaw's loop, V/rad.
+        integral: what each axis' integral drives, 2×2, V/(rad·s), rows are the axes of the errors.
+        no_decoupler: whether one is asked for that does not exist, as there is no steady state.
+    """
+    for name, gain, driven in zip(AXES, kp, integral.tolist(), strict=True):
+        if gain == 0:
+            words = (
+                f"The {name} loop is open: its gain is 0. Its integrator drives nothing and does not count."
+            )
+            yield Finding(f"{name}_loop_open", "warning", words)
+        elif not any(driven):
+            words = f"The {name} loop does not integrate: its controller's integral reaches no motor."
+            yield Finding(f"{name}_loop_open", "warning", words)
+    if no_decoupler:
+        yield Finding(
+            "no_decoupler",
+            "warning",
+            "A placed pole lies at 0: without steady state there is no static decoupler, and the PI loops act "
+            "without one. Move the pole.",
+        )
 
 
 def loop_instability(poles: Complexes, closed: Sequence[str], *, aims: bool, placed: bool) -> Finding:

@@ -22,7 +22,7 @@ from .placement.registry import METHODS
 from .poles import PoleSet
 from .presets import DEFAULT, Preset, preset
 from .quantities import Field, quantities_of
-from .rotors import AxisFriction, Friction, Rotor, Rotors
+from .rotors import Friction, Rotor
 from .scenario import Digital, Disturbance, Limits, OuterLoop, PIGains, Scenario
 from .signals import AXES, INPUTS, OUTPUTS, STATES, Signal
 from .spec import Spec
@@ -193,6 +193,11 @@ def spec_of(body: Mapping[str, Any]) -> Spec:
         Heli2DofError: a value is out of its range or unknown; its field is the core's (see `path_of`).
     """
     _require_known(body, _tree())
+    return judged_spec(body)
+
+
+def judged_spec(body: Mapping[str, Any]) -> Spec:
+    """As `spec_of`, of a body whose fields' names a schema has judged already."""
     base = preset(body.get("preset", DEFAULT))
     method, loops = body.get("method", FULL_RANK), body.get("loops", {})
     require_known(method, METHODS, "method")  # also where another is used

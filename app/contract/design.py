@@ -42,7 +42,7 @@ from heli2dof_core.request import (
     ROTOR,
     ROTORS,
     STRUCTURE,
-    spec_of,
+    judged_spec,
 )
 from heli2dof_core.scenario import OuterLoop
 from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
@@ -178,7 +178,7 @@ class DesignRequest(asked(STRUCTURE, OUTER, ROTORS)):
         Raises:
             Heli2DofError: a value is out of its range or unknown; its field is the JSON path.
         """
-        return spec_of(self.model_dump(exclude_unset=True, include=NAMES))
+        return judged_spec(self.model_dump(exclude_unset=True, include=NAMES))
 
 
 class ObserverGains(Model):

@@ -19,7 +19,7 @@ from heli2dof_core.request import (
     SCENARIO,
 )
 from heli2dof_core.scenario import Model as RigModel
-from heli2dof_core.signals import INPUTS, INTEGRALS, OUTPUTS, STATES
+from heli2dof_core.signals import INTEGRALS, OUTPUTS, STATES
 
 from .design import DesignRequest, ObserverGains, observer_reply
 from .fields import asked
@@ -180,8 +180,10 @@ def step_reply(step: CoreStep, loop: Loop, common: Reply | None = None) -> Reply
     return {
         **(common or loop_reply(loop)),
         "t": response.t,
-        **{signal.name: response.angles[i] for i, signal in enumerate(OUTPUTS)},
-        **{signal.name: response.voltages[i] for i, signal in enumerate(INPUTS)},
+        "theta": response.theta,
+        "psi": response.psi,
+        "V_p": response.V_p,
+        "V_y": response.V_y,
         **({} if rotors is None else {"rotors": dict(zip(("v_p", "v_y"), rotors, strict=True))}),
         "reference": dict(zip(("theta", "psi"), response.reference, strict=True)),
         "metrics": metrics_reply(step.metrics),

@@ -215,7 +215,9 @@ def test_figures_are_the_servers_and_more_of_them_are_remembered(page: Page, app
         for row, value in expected.items():
             shown = number(page.get_by_test_id(f"metric-{row}-{axis}").inner_text())
             assert shown == pytest.approx(value, rel=5e-3, abs=5e-3), (row, axis)
-    assert number(page.get_by_test_id("metric-lag").inner_text()) == pytest.approx(reply["lag_margin"], abs=5e-3)
+    assert number(page.get_by_test_id("metric-lag").inner_text()) == pytest.approx(
+        reply["lag_margin"], abs=5e-3
+    )
     disk = page.get_by_test_id("metric-disk").inner_text()
     assert disk.startswith(f"{reply['sensitivity']['disk_margin']:.2f}:")
     assert (
