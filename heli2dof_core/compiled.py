@@ -104,10 +104,12 @@ def names_with_rotors(
         *own.items(),
     ]
     arguments = [*given, *PARAMETERS.values(), theta_0, tau_p, tau_y, phi_p, phi_y, *([c] if shifted else [])]
-    function = sp.lambdify(
-        arguments, [*own], modules="math", cse=lambda shown: (chain, shown)
-    )  # each by the last
-    return tuple(map(str, own)), function
+
+    def by_turns(shown: Any) -> Any:  # each from those before it, as lambdify takes what subexpressions were found
+        return chain, shown
+
+    turns: Any = by_turns
+    return tuple(map(str, own)), sp.lambdify(arguments, [*own], modules="math", cse=turns)
 
 
 @cache

@@ -13,7 +13,7 @@ from .frozen import Frozen
 from .placement.with_rotors import cubic
 from .plant import plant
 from .poles import PoleSet
-from .rotors import USUAL_LAG, Rotor, Rotors
+from .rotors import USUAL_LAG, Actuators, Rotor, Rotors
 from .signals import AXES, Complexes, Floats
 from .spec import Spec
 
@@ -65,7 +65,8 @@ def rotor_steps(spec: Spec) -> RotorSteps:
     """Six states of the spec's rig, placed by its method; where it has no lag, with the usual one."""
     assumed = tuple(axis for axis in AXES if getattr(spec.rotors, axis).tau == 0)
     lagging = replace(spec, rotors=Rotors(*map(_lagging, spec.rotors.both)), place_rotors=True)
-    act, rig = lagging.actuators, plant(spec.parameters, spec.theta_0)
+    rig = plant(spec.parameters, spec.theta_0)
+    act = lagging.actuators or Actuators.none(rig)
     pairs = {"tau": act.tau, "phi": act.slope, "v_d": act.dead_zone, "s": act.square}
     names = {
         f"{name}_{axis[0]}": float(x)

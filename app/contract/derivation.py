@@ -72,7 +72,6 @@ class SymbolicRotors(Derived):
 
     lag_pitch: Formula = Field(description="τ_p v̇_p = V_p − v_p")
     lag_yaw: Formula
-    torque: Formula = Field(description="what φ(v) is multiplied by, N·m/V")
     thrust: Formula = Field(description="φ(v_j) of a quadratic curve with a dead zone")
     slope: Formula = Field(description="φ′(v_j) beyond the dead zone")
     B: Formula

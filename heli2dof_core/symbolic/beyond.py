@@ -27,7 +27,6 @@ from .names import (
     tau_p,
     tau_y,
 )
-from .names import PARAMETERS as P
 from .observer import indices as observability_indices
 from .reading import Reading, read_gain, read_observer
 from .rotors import indices as indices_with_rotors
@@ -150,7 +149,6 @@ def _rotors() -> dict[str, Any]:
     return {
         "lag_pitch": lag[0],
         "lag_yaw": lag[1],
-        "torque": sp.Matrix([[P["K_pp"], P["K_py"]], [P["K_yp"], P["K_yy"]]]),
         "thrust": scale * sp.sign(v) * sp.Max(sp.Abs(v) - dead, 0) ** 2,
         "slope": slope,
     }

@@ -1,6 +1,6 @@
 """Gains beyond the paper's model as a person reads them: the plant's entries are letters, what recurs has a name.
 
-In physical letters an entry of the six-state K takes a line and a half. With b_ij and ν for the entries of A⁺, each is
+In physical letters an entry of the six-state K takes a line and a half. With b_ij and ν for entries of A⁺, each is
 a sum of few terms: thrusts, divided by thrusts, times a polynomial in the desired coefficients and the rig's own.
 Those polynomials recur, so each gets a name, h₁, h₂ …, where it is longer than one product.
 """
@@ -198,7 +198,7 @@ class _Writer:
         return content * shared.subs(_RATES) * name
 
 
-def _monomial_out(polynomial: Any) -> tuple[sp.Rational, Any, sp.Expr]:
+def _monomial_out(polynomial: Any) -> tuple[sp.Expr, Any, sp.Expr]:
     """Its content, signed so that the rest leads with a positive number; the rest; what all its terms share."""
     content, rest = polynomial.primitive()
     if rest.LC < 0:

@@ -86,8 +86,15 @@ const fileOf = async (path, design) => (await answerOf(path, { method: 'POST', b
 export const getPresets = () => call('api/v1/presets');
 /** @returns {Promise<import('../types.js').Method[]>} */
 export const getMethods = () => call('api/v1/methods');
-/** @param {string} coupling @param {string} lead @returns {Promise<import('../contract.js').Symbolic>} */
-export const getSymbolic = (coupling, lead) => call(`api/v1/symbolic?${new URLSearchParams({ coupling, lead })}`);
+/** A structure's formulas; shifted: its shift c is a letter. @typedef {{coupling: string, lead: string, shifted?: boolean}} Member */
+const symbolic = (/** @type {Member} */ { coupling, lead, shifted = false }, rest = {}) =>
+  call(`api/v1/symbolic?${new URLSearchParams({ coupling, lead, ...(shifted && { shifted: 'true' }), ...rest })}`);
+/** @param {Member} member @returns {Promise<import('../contract.js').Symbolic>} */
+export const getSymbolic = (member) => symbolic(member);
+/** Six states. @param {Member} member @returns {Promise<import('../contract.js').SymbolicRotors>} */
+export const getSymbolicRotors = (member) => symbolic(member, { model: 'rotors' });
+/** @param {Member} member @returns {Promise<import('../contract.js').SymbolicObserver>} */
+export const getSymbolicObserver = (member) => symbolic(member, { what: 'L' });
 /**
  * @param {Asked<import('../contract.js').DesignRequest>} design
  * @returns {Promise<import('../contract.js').Suggestion>}

@@ -10,6 +10,8 @@ export {
   getPresets,
   getRigViews,
   getSymbolic,
+  getSymbolicObserver,
+  getSymbolicRotors,
   hubAddress,
   identifyAddress,
   joinRecordings,
