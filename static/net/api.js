@@ -86,15 +86,8 @@ const fileOf = async (path, design) => (await answerOf(path, { method: 'POST', b
 export const getPresets = () => call('api/v1/presets');
 /** @returns {Promise<import('../types.js').Method[]>} */
 export const getMethods = () => call('api/v1/methods');
-/** A structure's formulas; shifted: its shift c is a letter. @typedef {{coupling: string, lead: string, shifted?: boolean}} Member */
-const symbolic = (/** @type {Member} */ { coupling, lead, shifted = false }, rest = {}) =>
-  call(`api/v1/symbolic?${new URLSearchParams({ coupling, lead, ...(shifted && { shifted: 'true' }), ...rest })}`);
-/** @param {Member} member @returns {Promise<import('../contract.js').Symbolic>} */
-export const getSymbolic = (member) => symbolic(member);
-/** Six states. @param {Member} member @returns {Promise<import('../contract.js').SymbolicRotors>} */
-export const getSymbolicRotors = (member) => symbolic(member, { model: 'rotors' });
-/** @param {Member} member @returns {Promise<import('../contract.js').SymbolicObserver>} */
-export const getSymbolicObserver = (member) => symbolic(member, { what: 'L' });
+/** @template T @param {Record<string, string>} query @returns {Promise<T>} */
+export const getSymbolic = (query) => call(`api/v1/symbolic?${new URLSearchParams(query)}`);
 /**
  * @param {Asked<import('../contract.js').DesignRequest>} design
  * @returns {Promise<import('../contract.js').Suggestion>}

@@ -10,8 +10,6 @@ export {
   getPresets,
   getRigViews,
   getSymbolic,
-  getSymbolicObserver,
-  getSymbolicRotors,
   hubAddress,
   identifyAddress,
   joinRecordings,

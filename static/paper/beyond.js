@@ -3,9 +3,9 @@
  * chapter's formulas are fetched when it is first seen.
  */
 import { FULL_RANK, nameOf } from '../model/index.js';
-import { getSymbolicObserver, getSymbolicRotors } from '../net/index.js';
 import { h, Lazy, Matrix, setText, symbol, wide } from '../ui/index.js';
 import { assumedWords, BEYOND, DEFINED, EDGE, lagWords, STEPS } from './beyond_words.js';
+import { ofObserver, ofRotors } from './derived.js';
 import { copying, defined, Entries } from './entries.js';
 import { mark } from './equations.js';
 import { chapter, typeset } from './forms.js';
@@ -20,7 +20,8 @@ import { CHAPTERS } from './words.js';
  * @typedef {import('../contract.js').SymbolicObserver} SymbolicObserver
  * @typedef {import('./symbols.js').Term} Term
  * @typedef {import('./walk.js').Walk} Walk
- * @typedef {{learn: (part: import('./symbols.js').Part, terms: Term[]) => void, mark: (node: Element, chapter: string)
+ * @typedef {import('./symbols.js').Part} Part
+ * @typedef {{learn: (part: Part, terms: Term[]) => void, mark: (node: Element, chapter: string)
  *   => void}} Cards
  */
 const STATES = ['θ', 'ψ', 'θ̇', 'ψ̇'].map((s) => () => symbol(s));
@@ -62,7 +63,11 @@ function step(name, inChapter, ...content) {
   );
 }
 
-/** @param {string} caption @param {[string, Formula][]} formulas what stands before each, as rich text @param {string} label */
+/**
+ * @param {string} caption
+ * @param {[string, Formula][]} formulas with what stands before each, as rich text
+ * @param {string} label
+ */
 const forms = (caption, formulas, label) =>
   h(
     'figure',
@@ -97,11 +102,11 @@ export class Beyond {
     observer.append(b);
     const wait = 'Deriving…';
     this.lazy = [
-      new Lazy(six, a, store, { wait, body: memberOf, ask: getSymbolicRotors, show: (f) => this.#six(a, f, store) }),
+      new Lazy(six, a, store, { wait, body: memberOf, ask: ofRotors, show: (f) => this.#six(a, f, store) }),
       new Lazy(observer, b, store, {
         wait,
         body: memberOf,
-        ask: getSymbolicObserver,
+        ask: ofObserver,
         show: (f) => this.#observer(b, f),
       }),
     ];
@@ -173,8 +178,7 @@ export class Beyond {
     const marks = new Map(f.symbols.map((s) => [s.name, s.mathml]));
     const entries = new Entries(f.entries.K, 'k6-formulas', copying(f, 'beyond'), marks);
     const states = [...STATES, ...SPEEDS];
-    const rates = () =>
-      made(['θ̇', 'ψ̇', 'θ̈', 'ψ̈'].map((s) => () => symbol(s)).concat(SPEEDS.map((_, j) => () => symbol('v̇', 'py'[j]))));
+    const rates = () => [...['θ̇', 'ψ̇', 'θ̈', 'ψ̈'].map((s) => symbol(s)), symbol('v̇', 'p'), symbol('v̇', 'y')];
     const A = numbers('paper-A6', 'A', rates(), made(states), '');
     const B = numbers('paper-B6', 'B', rates(), motors(), '');
     const K = numbers('paper-K6', 'K', motors(), made(states), 'θ, ψ: V/rad; rates: V·s/rad; v: V/V');
@@ -318,7 +322,7 @@ export class Beyond {
     this.#known('observer', 'observer', f.symbols, root);
   }
 
-  /** @param {import('./symbols.js').Part} part @param {string} inChapter @param {Term[]} symbols @param {Element} root */
+  /** @param {Part} part @param {string} inChapter @param {Term[]} symbols @param {Element} root */
   #known(part, inChapter, symbols, root) {
     this.cards.learn(
       part,

@@ -33,7 +33,7 @@ export const BEYOND = [
     name: 'six',
     title: 'The rotors',
     text:
-      'The remedy is to put into the model what was left out. Each rotor’s speed becomes a state, $v$_p and $v$_y, ' +
+      'The remedy is to put into the model what was left out. Each rotor’s speed becomes a state, v_p and v_y, ' +
       'and the same construction that placed four poles places six: the chain of integrators behind each input is ' +
       'one longer, so the controllability indices are (3, 3), each diagonal block carries a cubic, and $K$ has two ' +
       'more columns, which feed back the rotors’ speeds. An Aero measures them by tachometers; elsewhere an ' +

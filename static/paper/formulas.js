@@ -4,8 +4,8 @@
  */
 import { messageOf } from '../text/index.js';
 import { bodyOf, FULL_RANK, presetOf } from '../model/index.js';
-import { getSymbolic, getSymbolicObserver, getSymbolicRotors } from '../net/index.js';
 import { formula, h, Lazy, whileSeen } from '../ui/index.js';
+import { ofObserver, ofPaper, ofRotors } from './derived.js';
 import { copying, defined, Entries } from './entries.js';
 import { memberOf } from './structure.js';
 import { SymbolCards } from './symbol_cards.js';
@@ -89,8 +89,8 @@ export class FormulasPanel {
     if (!this.body.childElementCount) this.body.append(h('p', {}, 'Deriving…'));
     try {
       const [symbolic, observer] = await Promise.all([
-        wanted.six ? getSymbolicRotors(wanted) : getSymbolic(wanted),
-        wanted.observed ? getSymbolicObserver(wanted) : null,
+        wanted.six ? ofRotors(wanted) : ofPaper(wanted),
+        wanted.observed ? ofObserver(wanted) : null,
       ]);
       if (structure === this.#structure) this.#show(wanted, symbolic, observer);
     } catch (error) {

@@ -1,7 +1,7 @@
 /** The formulas of the structure that is chosen, beside those of the paper's own. */
 import { FULL_RANK, nameOf } from '../model/index.js';
-import { getSymbolic } from '../net/index.js';
 import { h } from '../ui/index.js';
+import { ofPaper } from './derived.js';
 import { rich } from './rich.js';
 import { typeset } from './forms.js';
 
@@ -44,7 +44,7 @@ export function structureOf(design) {
 /** @param {ReturnType<typeof structureOf>} structure */
 export const askStructure = async (structure) => ({
   structure,
-  formulas: structure ? await getSymbolic(structure) : null,
+  formulas: structure ? await ofPaper(structure) : null,
 });
 
 export class StructureForms {
