@@ -152,7 +152,8 @@ def observer_gain_names() -> tuple[Name, ...]:
 
 
 LATEX: dict[sp.Symbol, str] = {
-    sp.Symbol(n.name): n.latex for n in (*NAMES, *ROTOR_NAMES, *ROTOR_SIGNALS, *OBSERVER_NAMES, *MATRIX_NAMES)
+    **{sp.Symbol(n.name): n.latex for n in (*NAMES, *ROTOR_NAMES, *ROTOR_SIGNALS, *OBSERVER_NAMES)},
+    **{sp.Symbol(n.name, commutative=False): n.latex for n in MATRIX_NAMES},
 }
 """Symbol → LaTeX, for SymPy's printer."""
 

@@ -6,7 +6,7 @@ import { FULL_RANK, nameOf } from '../model/index.js';
 import { h, Lazy, Matrix, setText, symbol, wide } from '../ui/index.js';
 import { assumedWords, BEYOND, DEFINED, EDGE, lagWords, STEPS } from './beyond_words.js';
 import { ofObserver, ofRotors } from './derived.js';
-import { copying, defined, Entries } from './entries.js';
+import { copying, defined, Entries, nonzero } from './entries.js';
 import { mark } from './equations.js';
 import { chapter, typeset } from './forms.js';
 import { clean, figure, polesText } from './math.js';
@@ -85,6 +85,23 @@ const forms = (caption, formulas, label) =>
 
 const live = (/** @type {import('../ui/dom.js').Children} */ ...parts) =>
   h('div', { class: 'live' }, h('p', { class: 'live-caption' }, 'on the present rig'), ...parts);
+
+/**
+ * What the letters stand for, those of a kind together.
+ * @param {Record<string, Formula>} all
+ * @param {Map<string, string>} marks MathML by name
+ */
+const letters = (all, marks) =>
+  h(
+    'div',
+    { class: 'letters' },
+    DEFINED.flatMap(([title, kind]) => {
+      const own = Object.entries(all).filter(([name]) => (/^[dh](?=_)/.exec(name)?.[0] ?? '') === kind);
+      return own.length
+        ? [h('div', { class: 'definitions' }, h('p', {}, title), defined(Object.fromEntries(own), marks))]
+        : [];
+    }),
+  );
 
 export class Beyond {
   /** @type {Walk|null} */ #walk = null;
@@ -176,7 +193,7 @@ export class Beyond {
   /** @param {HTMLElement} root @param {SymbolicRotors} f @param {import('../model/store.js').Store} store */
   #six(root, f, store) {
     const marks = new Map(f.symbols.map((s) => [s.name, s.mathml]));
-    const entries = new Entries(f.entries.K, 'k6-formulas', copying(f, 'beyond'), marks);
+    const entries = new Entries(nonzero(f.entries.K), 'k6-formulas', copying(f, 'beyond'), marks);
     const states = [...STATES, ...SPEEDS];
     const rates = () => [...['θ̇', 'ψ̇', 'θ̈', 'ψ̈'].map((s) => symbol(s)), symbol('v̇', 'p'), symbol('v̇', 'y')];
     const A = numbers('paper-A6', 'A', rates(), made(states), '');
@@ -258,8 +275,13 @@ export class Beyond {
       step(
         'gain',
         'six',
-        h('figure', { class: 'form derived explained' }, h('figcaption', {}, `derived: ${structure}`), entries.node),
-        h('div', { class: 'definitions' }, h('p', { class: 'unit-line' }, DEFINED), defined(f.definitions, marks)),
+        h(
+          'figure',
+          { class: 'form derived explained' },
+          h('figcaption', {}, `derived: ${structure}; an entry that is not here is 0`),
+          entries.node,
+        ),
+        letters(f.definitions, marks),
         live(
           scrolled(K, 'K of six states'),
           h('p', { class: 'unit-line' }, 'θ, ψ: V/rad; rates: V·s/rad; v: V/V'),
@@ -276,12 +298,7 @@ export class Beyond {
   /** @param {HTMLElement} root @param {SymbolicObserver} f */
   #observer(root, f) {
     const marks = new Map(f.symbols.map((s) => [s.name, s.mathml]));
-    const entries = new Entries(
-      Object.fromEntries(Object.entries(f.entries.L).filter(([, e]) => e.sympy !== '0')),
-      'l-formulas',
-      copying(f, 'beyond'),
-      marks,
-    );
+    const entries = new Entries(nonzero(f.entries.L), 'l-formulas', copying(f, 'beyond'), marks);
     const L = numbers('paper-L', 'L', made(STATES), made(STATES.slice(0, 2)), '1/s, and 1/s² below');
     const poles = h('p', { class: 'live-line', 'data-testid': 'paper-observer-poles' });
     this.#fill.observer = [
@@ -311,10 +328,10 @@ export class Beyond {
         h(
           'figure',
           { class: 'form derived explained' },
-          h('figcaption', {}, 'derived; all other entries are 0'),
+          h('figcaption', {}, 'derived; an entry that is not here is 0'),
           entries.node,
         ),
-        h('div', { class: 'definitions' }, h('p', { class: 'unit-line' }, DEFINED), defined(f.definitions, marks)),
+        letters(f.definitions, marks),
         live(L.node, h('p', { class: 'unit-line' }, '1/s, and 1/s² below'), poles),
       ),
       step('separation', 'observer', forms('derived, of [x, e]', [['', f.separation]], 'Separation')),

@@ -55,7 +55,13 @@ export const BEYOND = [
   },
 ];
 
-export const DEFINED = 'The letters stand for';
+/** Kinds of letters by what their names begin with. @type {[string, string][]} */
+export const DEFINED = [
+  ['The rig’s own:', ''],
+  ['Asked for, the coefficients of both cubics:', 'd'],
+  ['Groups of terms:', 'h'],
+];
+
 export const STEPS = {
   lag: [
     'Each rotor’s speed is a state',

@@ -37,14 +37,20 @@ export class Entries {
     return h(
       'div',
       { class: 'entry' },
-      mark
-        ? h('span', { class: 'sym scroll' }, formula(mark), '\u00a0=')
-        : h('span', { class: 'sym' }, h('i', {}, name[0]), `${SUB[i]}${SUB[j]} =`),
-      h('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': label }, formula(entry.mathml)),
+      mark ? null : h('span', { class: 'sym' }, h('i', {}, name[0]), `${SUB[i]}${SUB[j]} =`),
+      h(
+        'div',
+        { class: `scroll ${mark ? 'equation' : ''}`, tabindex: 0, role: 'group', 'aria-label': label },
+        mark ? [formula(mark), h('span', {}, '=')] : null,
+        formula(entry.mathml),
+      ),
       h('span', { class: 'equals' }, '= ', cell, ' ', tool),
     );
   }
 }
+
+/** Without those that are 0 for any rig. @param {Record<string, Formula>} entries */
+export const nonzero = (entries) => Object.fromEntries(Object.entries(entries).filter(([, e]) => e.sympy !== '0'));
 
 /**
  * What the short names stand for.

@@ -150,6 +150,7 @@ export class PaperPanel {
     ];
     for (const { status } of this.#lazy) live.rig.after(status);
     live.render(this.store.state);
+    beyond.render(this.store.state);
     const at = place();
     if (at) requestAnimationFrame(() => location.replace(`#${at}`)); // now there is something to lead to
   }
