@@ -105,7 +105,9 @@ def names_with_rotors(
     ]
     arguments = [*given, *PARAMETERS.values(), theta_0, tau_p, tau_y, phi_p, phi_y, *([c] if shifted else [])]
 
-    def by_turns(shown: Any) -> Any:  # each from those before it, as lambdify takes what subexpressions were found
+    def by_turns(
+        shown: Any,
+    ) -> Any:  # each from those before it, as lambdify takes what subexpressions were found
         return chain, shown
 
     turns: Any = by_turns

@@ -187,11 +187,14 @@ class _Writer:
         content, rest, shared = _monomial_out(polynomial)
         if len(rest) == 1 or not where:
             return (content * shared * sp.factor(rest.as_expr())).subs(_RATES)
-        if rest not in self._known:
-            self._known[rest] = sp.Symbol(f"h_{len(self._known) + 1}")
+        key = frozenset(
+            rest.terms()
+        )  # an element's own hash is that of an earlier state where it was made in place
+        if key not in self._known:
+            self._known[key] = sp.Symbol(f"h_{len(self._known) + 1}")
             value = sp.collect(rest.as_expr(), (a, nu_p, nu_y, _rate_p, _rate_y)).subs(_RATES)
-            self.groups[self._known[rest]] = value
-        name = self._known[rest]
+            self.groups[self._known[key]] = value
+        name = self._known[key]
         places = self._where.setdefault(name, [])
         if where not in places:
             places.append(where)

@@ -86,8 +86,8 @@ export const STEPS = {
   ],
   limit: [
     'Back to the paper',
-    'As $τ$ goes to 0 and the third pole of each axis to −1/$τ$, the first four columns go to the paper’s $K$, and ' +
-      'the last two to 0.',
+    'Rotors that are alike, with a $τ$ that goes to 0 and the third pole of each axis at −1/$τ$: the first four columns ' +
+      'go to the paper’s $K$, the last two to 0.',
   ],
   observer: ['A model that runs along', 'Its rate: the model’s own, and a correction by what it got wrong.'],
   dual: [
@@ -122,6 +122,5 @@ export function lagWords({ stable, lag_margin: margin, gains }) {
 /** Which rotors' lag is not the design's own. @param {string[]} assumed axes */
 export const assumedWords = (assumed) =>
   assumed.length
-    ? `With ${USUAL_LAG} s for ${assumed.length > 1 ? 'both rotors, which have' : `${assumed[0]}’s rotor, which has`} ` +
-      'no lag in the design.'
+    ? `With ${USUAL_LAG} s for ${assumed.map((axis) => `${axis}’s`).join(' and ')} rotor, without lag in the design.`
     : '';
