@@ -109,7 +109,7 @@ export const STEPS = {
 
 /** What a design's lag margin says of it. @param {Judged} reply */
 export function lagWords({ stable, lag_margin: margin, gains }) {
-  if (!stable) return 'The present design’s loop is not stable, whatever the rotors do.';
+  if (!stable) return 'The present design’s loop is not stable as it is.';
   if (margin === undefined) return 'The present design’s loop stays stable, however slow the rotors are.';
   const until = `The present design’s loop is stable up to a lag of ${figure(margin, 3)} s.`;
   if (gains.K[0].length > 4) return `${until} Its model has the rotors in it.`;

@@ -75,7 +75,7 @@ ALIKE = [(structure, 1) for structure in STRUCTURES]
 def test_six_states_become_the_papers_four_as_the_lag_goes_to_nothing(structure, slower):
     """With the third poles at −1/τ, exactly: a rational function of τ at τ = 0.
 
-    Rotors that are not alike have their poles by motor, not by axis, as the input-diagonal structure alone places them.
+    Rotors that are not alike have their poles by motor, not by axis, as the input-diagonal structure places them.
     """
     tau, found = sp.Symbol("tau"), read_gain(structure)
     values = rationals() | {n.phi_p: 1, n.phi_y: 1}
