@@ -1,4 +1,4 @@
-"""What is replied of the derivation beyond the paper's model: formulas of six states and the observer, and numbers."""
+"""What is replied beyond the paper's model: formulas of six states and of the observer, and their numbers."""
 
 from __future__ import annotations
 

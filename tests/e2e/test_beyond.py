@@ -1,8 +1,9 @@
-"""Where the paper's model ends, as the page shows it: the lag margin, six states and the observer, with their values."""
+"""Where the paper's model ends, on the page: the lag margin, six states and the observer, with their values."""
 
 from __future__ import annotations
 
 import json
+import re
 
 import pytest
 from playwright.sync_api import Browser, Locator, Page, WebSocketRoute, expect
@@ -55,7 +56,7 @@ def test_hovered_entries_of_six_states_are_the_replys(page: Page, app: App):
     K = page.request.post(app.url + "api/v1/gains", data=LAG).json()["K"]
     shown = root.get_by_test_id("value-k_16")
     expect(shown).not_to_have_text("–")
-    assert number(shown.inner_text()) == pytest.approx(K[0][5], rel=1e-5)
+    assert number(shown.inner_text()) == pytest.approx(K[0][5], rel=1e-4)
     for name, value in (("k_11", K[0][0]), ("k_26", K[1][5])):
         found = hovered(page, root.locator(f"#eq-beyond-gain [data-symbol={name}]").first)
         assert found == pytest.approx(value, rel=1e-5)
@@ -114,7 +115,7 @@ def test_formulas_are_those_of_six_states_where_the_rotors_are_placed(chromium: 
         socket.on_message(lambda message: server.send(changed(message)))
 
     with opened(chromium, app.url) as page:
-        page.route_web_socket("**/api/v1/live", relayed)
+        page.route_web_socket(re.compile("/api/v1/live"), relayed)
         page.reload()
         settled(page)
         K = state(page)["K"]
@@ -123,7 +124,7 @@ def test_formulas_are_those_of_six_states_where_the_rotors_are_placed(chromium: 
         cell = page.get_by_test_id("formulas").get_by_test_id("value-k_15")
         cell.wait_for()
         expect(cell).not_to_have_text("–")
-        assert number(cell.inner_text()) == pytest.approx(K[0][4], rel=1e-5)
+        assert number(cell.inner_text()) == pytest.approx(K[0][4], rel=1e-4)
         assert (
             page.get_by_test_id("formula-A").is_visible() and page.get_by_test_id("formula-RGA").count() == 0
         )
@@ -142,7 +143,8 @@ def test_nothing_sticks_out_of_the_window(chromium: Browser, app: App, size: tup
                 root.get_by_test_id("beyond-step").first.wait_for()
             assert page.evaluate("document.documentElement.scrollWidth") <= size[0]
             wide = root.evaluate(
-                """(e) => [...e.querySelectorAll('article, .live, .entry, .definition, table.matrix')].filter((n) =>
-                  !n.closest('.scroll') && n.getBoundingClientRect().right > innerWidth + 1).map((n) => n.className)"""
+                """(e) => [...e.querySelectorAll('article, .live, .entry, .definition, table.matrix')]
+                  .filter((n) => !n.closest('.scroll') && n.getBoundingClientRect().right > innerWidth + 1)
+                  .map((n) => n.className)"""
             )
             assert wide == []
