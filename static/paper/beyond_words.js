@@ -86,8 +86,8 @@ export const STEPS = {
   ],
   limit: [
     'Back to the paper',
-    'Rotors that are alike, with a $τ$ that goes to 0 and the third pole of each axis at −1/$τ$: the first four columns ' +
-      'go to the paper’s $K$, the last two to 0.',
+    'Rotors that are alike, with a $τ$ that goes to 0 and the third pole of each axis at −1/$τ$: the first four ' +
+      'columns go to the paper’s $K$, the last two to 0.',
   ],
   observer: ['A model that runs along', 'Its rate: the model’s own, and a correction by what it got wrong.'],
   dual: [

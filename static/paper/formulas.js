@@ -67,10 +67,11 @@ export class FormulasPanel {
     const { design, reply } = state;
     this.lazy.render(state);
     if (!design || !this.#visible) return;
+    const observer = reply?.observer ?? reply?.gains.observer; // what the loop has, or what the design has besides
     const wanted = {
       ...memberOf({ ...design, method: FULL_RANK }),
       six: (reply?.gains.K[0].length ?? 4) > 4,
-      observed: Boolean(reply?.observer),
+      observed: Boolean(observer),
     };
     const structure = JSON.stringify(wanted);
     if (structure !== this.#structure) {
@@ -80,7 +81,7 @@ export class FormulasPanel {
     // another method's K is not this formula's, and neither is that of the other model
     const own = reply && design.method === FULL_RANK && wanted.six === this.#six;
     this.#K?.render(own ? reply.gains.K : undefined);
-    this.#L?.render(reply?.observer?.L);
+    this.#L?.render(design.observer?.method === 'kalman' ? undefined : observer?.L);
   }
 
   /** @param {Wanted} wanted @param {string} structure */

@@ -122,7 +122,8 @@ def test_formulas_are_those_of_six_states_where_the_rotors_are_placed(chromium: 
         assert len(K[0]) == 6
         page.locator("#formulas").scroll_into_view_if_needed()
         cell = page.get_by_test_id("formulas").get_by_test_id("value-k_15")
-        cell.wait_for()
+        cell.wait_for(state="attached")
+        page.locator("#formulas").evaluate("(e) => e.scrollIntoView()")  # what is above has grown meanwhile
         expect(cell).not_to_have_text("–")
         assert number(cell.inner_text()) == pytest.approx(K[0][4], rel=1e-4)
         assert (
