@@ -98,6 +98,13 @@ OBSERVER_NAMES: tuple[Name, ...] = tuple(
 )
 """What the observer's derivation has besides (`observer`)."""
 
+CUBIC_NAMES: tuple[Name, ...] = tuple(
+    Name(f"d_{i}{k}", f"d_{{{i}{k}}}", f"{which} coefficient of d{sub}(s), {axis}’s desired cubic", unit)
+    for i, sub, axis in ((1, "₁", "pitch"), (2, "₂", "yaw"))
+    for k, (which, unit) in enumerate((("constant", "1/s³"), ("linear", "1/s²"), ("quadratic", "1/s")))
+)
+"""What d₁₀ … d₂₂ are where the rotors are placed, too."""
+
 ROTOR_SIGNALS: tuple[Name, ...] = (
     *(
         Name(f"v_{j}{dot}", rf"{sign}_{j}", f"{what} of the {motor} motor's rotor, as a voltage", unit)
