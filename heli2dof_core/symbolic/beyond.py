@@ -13,6 +13,7 @@ from ..couplings import Sought, Structure
 from ..tables import Shown
 from .linearization import linear_model
 from .names import (
+    CUBIC_NAMES,
     MATRIX_NAMES,
     NAMES,
     OBSERVER_NAMES,
@@ -90,7 +91,8 @@ def rotor_formulas(structure: Structure, *, shifted: bool = False) -> GainFormul
     slopes, lag = sp.diag(phi_p, phi_y), sp.diag(1 / tau_p, 1 / tau_y)
     A = sp.Matrix(sp.BlockMatrix([[model.A, model.B * slopes], [sp.zeros(2, 4), -lag]]).as_explicit())
     own = {"A": A, "B": sp.zeros(4, 2).col_join(lag)}
-    names = (*NAMES, *ROTOR_NAMES, *ROTOR_SIGNALS, *reading.names)
+    cubics = {name.name: name for name in CUBIC_NAMES}
+    names = (*(cubics.get(n.name, n) for n in (*NAMES, *ROTOR_NAMES)), *ROTOR_SIGNALS, *reading.names)
     indices = indices_with_rotors()
     return _gathered("K", structure, reading, own=own, equations=_rotors(), indices=indices, names=names)
 

@@ -6,7 +6,7 @@ import { messageOf } from '../text/index.js';
 import { bodyOf, FULL_RANK, presetOf } from '../model/index.js';
 import { formula, h, Lazy, whileSeen } from '../ui/index.js';
 import { ofObserver, ofPaper, ofRotors } from './derived.js';
-import { copying, defined, Entries } from './entries.js';
+import { copying, defined, Entries, nonzero } from './entries.js';
 import { memberOf } from './structure.js';
 import { SymbolCards } from './symbol_cards.js';
 import { walk } from './walk.js';
@@ -106,7 +106,7 @@ export class FormulasPanel {
     this.#six = six;
     const of = /** @type {Partial<Symbolic & SymbolicRotors>} */ (symbolic);
     const copy = copying(symbolic);
-    this.#K = new Entries(symbolic.entries.K, 'k-formulas', copy);
+    this.#K = new Entries(nonzero(symbolic.entries.K), 'k-formulas', copy);
     const cards = OTHERS.flatMap(([key, title]) => {
       const own = of[key];
       return own
@@ -133,21 +133,23 @@ export class FormulasPanel {
         h(
           'tbody',
           {},
-          symbolic.symbols.map((s) =>
-            h(
-              'tr',
-              {},
+          symbolic.symbols
+            .filter(({ name }) => !/^k_/.test(name))
+            .map((s) =>
               h(
-                'th',
-                { scope: 'row' },
-                s.mathml
-                  ? [h('span', { class: 'sr' }, s.name), h('span', { 'aria-hidden': 'true' }, formula(s.mathml))]
-                  : s.name,
+                'tr',
+                {},
+                h(
+                  'th',
+                  { scope: 'row' },
+                  s.mathml
+                    ? [h('span', { class: 'sr' }, s.name), h('span', { 'aria-hidden': 'true' }, formula(s.mathml))]
+                    : s.name,
+                ),
+                h('td', {}, s.meaning),
+                h('td', {}, s.unit),
               ),
-              h('td', {}, s.meaning),
-              h('td', {}, s.unit),
             ),
-          ),
         ),
       ),
     );
@@ -162,6 +164,7 @@ export class FormulasPanel {
           copy('K', symbolic.K),
         ),
         this.#K.node,
+        zeros(symbolic.entries.K),
         h('div', { class: 'definitions' }, 'with', defined(symbolic.definitions, marks)),
       ),
       ...this.#observer(observer),
@@ -186,7 +189,7 @@ export class FormulasPanel {
     this.#L = null;
     if (!observer) return [];
     const copy = copying(observer);
-    this.#L = new Entries(observer.entries.L, 'l-card', copy);
+    this.#L = new Entries(nonzero(observer.entries.L), 'l-card', copy);
     const marks = new Map(observer.symbols.map((s) => [s.name, s.mathml]));
     return [
       h(
@@ -194,8 +197,15 @@ export class FormulasPanel {
         { class: 'card gains observer' },
         h('h3', {}, 'Observer L, x̂′ = Ax̂ + Bu + L(y − Cx̂) ', copy('L', observer.L)),
         this.#L.node,
+        zeros(observer.entries.L),
         h('div', { class: 'definitions' }, 'with', defined(observer.definitions, marks)),
       ),
     ];
   }
 }
+
+/** @param {Record<string, import('../contract.js').Formula>} entries */
+const zeros = (entries) =>
+  Object.values(entries).some((e) => e.sympy === '0')
+    ? h('p', { class: 'aside' }, 'An entry that is not here is 0.')
+    : null;

@@ -150,6 +150,11 @@ def test_definitions_stand_on_those_before_them_and_end_in_the_rigs_own_letters(
         known.add(name)
     assert found.written_out().free_symbols <= known
     assert {x.name for x in found.symbols} >= {str(x) for x in found.gain.free_symbols}
+    for f in (found, observer_formulas()):
+        assert len({x.name for x in f.symbols}) == len(f.symbols)
+    units = {x.name: x.unit for x in found.symbols}
+    for i in (1, 2):
+        assert [units[f"d_{i}{k}"] for k in range(3)] == ["1/s³", "1/s²", "1/s"]
     assert found.indices == (3, 3) and observer_formulas().indices == (2, 2)
 
 
