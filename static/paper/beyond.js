@@ -94,11 +94,14 @@ const live = (/** @type {import('../ui/dom.js').Children} */ ...parts) =>
 const letters = (all, marks) =>
   h(
     'div',
-    { class: 'letters' },
+    {},
     DEFINED.flatMap(([title, kind]) => {
       const own = Object.entries(all).filter(([name]) => (/^[dh](?=_)/.exec(name)?.[0] ?? '') === kind);
       return own.length
-        ? [h('div', { class: 'definitions' }, h('p', {}, title), defined(Object.fromEntries(own), marks))]
+        ? [
+            h('p', { class: 'unit-line' }, title),
+            h('div', { class: 'definitions' }, defined(Object.fromEntries(own), marks)),
+          ]
         : [];
     }),
   );
@@ -166,12 +169,12 @@ export class Beyond {
     const sign = (/** @type {number} */ v) => (v > 0 ? '+' : '') + v.toFixed(2).replace('-', '−');
     return h(
       'div',
-      { class: 'eq-body lag' },
+      { class: 'eq-body' },
       wide(
         'The first design’s poles by the rotors’ lag',
         h(
           'table',
-          { class: 'paper-table lag-table', 'data-testid': 'paper-lag-table' },
+          { class: 'paper-table', 'data-testid': 'paper-lag-table' },
           h(
             'tbody',
             {},
