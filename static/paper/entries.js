@@ -59,7 +59,13 @@ export const nonzero = (entries) => Object.fromEntries(Object.entries(entries).f
  */
 export const defined = (definitions, marks) =>
   Object.entries(definitions).map(([name, d]) =>
-    h('div', { class: 'definition' }, formula(marks.get(name)), h('span', {}, '='), formula(d.mathml)),
+    h(
+      'div',
+      { class: 'definition scroll', tabindex: 0, role: 'group', 'aria-label': name },
+      formula(marks.get(name)),
+      h('span', {}, '='),
+      formula(d.mathml),
+    ),
   );
 
 /**
