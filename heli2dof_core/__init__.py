@@ -35,7 +35,7 @@ from .errors import (
 from .estimators import Estimator, Observer
 from .evaluate import Report, Step, evaluate, loop_of, place, simulate
 from .findings import Finding
-from .formulas import formulas
+from .formulas import formulas, observer_formulas, rotor_formulas
 from .interaction import Interaction, interaction, rga_over_frequency
 from .loop import Loop, close_loop
 from .metrics import StepMetrics
@@ -132,6 +132,7 @@ __all__ = [
     "loop_of",
     "match_poles",
     "niederlinski_index",
+    "observer_formulas",
     "place",
     "place_poles",
     "plant",
@@ -140,6 +141,7 @@ __all__ = [
     "read_recording",
     "relative_gain_array",
     "rga_over_frequency",
+    "rotor_formulas",
     "simulate",
     "spec_of",
     "suggest_pi",

@@ -78,6 +78,43 @@ def observer_gain(structure: Structure, *, shifted: bool = False) -> Callable[..
 
 
 @cache
+def names_with_rotors(
+    structure: Structure, *, shifted: bool = False
+) -> tuple[tuple[str, ...], Callable[..., Sequence[float]]]:
+    """Names of the six-state K's letters and groups, and f(…, phi_p, phi_y) → what they are worth.
+
+    The arguments before are those of `gain_with_rotors`, but thrust constants as they are, and the slopes by
+    themselves; with `shifted` the shift c comes last.
+    """
+    import sympy as sp
+
+    from .symbolic.linearization import linear_model
+    from .symbolic.names import PARAMETERS, c, cos_0, phi_p, phi_y, sin_0, tau_p, tau_y, theta_0
+    from .symbolic.reading import read_gain
+    from .symbolic.rotors import COEFFICIENTS
+
+    given = [d for triple in COEFFICIENTS for d in triple]
+    own = {
+        name: x for name, x in read_gain(structure, shifted=shifted).definitions.items() if name not in given
+    }
+    chain = [
+        (sin_0, sp.sin(theta_0)),
+        (cos_0, sp.cos(theta_0)),
+        *linear_model().definitions.items(),
+        *own.items(),
+    ]
+    arguments = [*given, *PARAMETERS.values(), theta_0, tau_p, tau_y, phi_p, phi_y, *([c] if shifted else [])]
+
+    def by_turns(
+        shown: Any,
+    ) -> Any:  # each from those before it, as lambdify takes what subexpressions were found
+        return chain, shown
+
+    turns: Any = by_turns
+    return tuple(map(str, own)), sp.lambdify(arguments, [*own], modules="math", cse=turns)
+
+
+@cache
 def construction(structure: Structure, *, shifted: bool = False) -> Callable[..., tuple[Matrix, Matrix, Any]]:
     """f(*parameters, theta_0[, c]) → T (4×4), Q (2×2), (α, β₀, γ, a), of the structure's basis."""
     from .symbolic.full_rank import full_rank

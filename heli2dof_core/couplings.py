@@ -15,6 +15,10 @@ from .quantities import Quantity, documented, require_valid
 
 Coupling = Literal["triangular", "input-diagonal", "axis-decoupled"]
 Lead = Literal["pitch", "yaw"]
+Modelled = Literal["paper", "rotors"]
+"""What a gain is derived for: the paper's four states, or six with both rotors' speeds."""
+Sought = Literal["K", "L"]
+"""The gain of the state feedback, or of the observer."""
 
 _MEANINGS = {
     "triangular, pitch leads": "pitch has exactly its own pair and drives yaw: the paper’s",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from .couplings import Coupling, Lead, Structure
 
 if TYPE_CHECKING:
+    from .symbolic.beyond import GainFormulas
     from .symbolic.formulas import Formulas
 
 
@@ -26,5 +27,48 @@ def formulas(coupling: Coupling = "triangular", lead: Lead = "pitch", *, shifted
         InvalidInputError: there is no such structure, or none with a shift.
     """
     from .symbolic.formulas import derive
+
+    return derive(Structure(coupling, lead), shifted=shifted)
+
+
+def rotor_formulas(
+    coupling: Coupling = "triangular", lead: Lead = "pitch", *, shifted: bool = False
+) -> GainFormulas:
+    """The rig with its rotors: their equations, six states, and the K that places all of them, as SymPy objects.
+
+    >>> f = rotor_formulas("axis-decoupled")
+    >>> f.gain.shape, f.indices, f.gain[0, 1]
+    ((2, 6), (3, 3), -b_12*d_20*tau_p/Delta)
+
+    Args:
+        coupling: structure of the closed loop.
+        lead: the axis that leads where it is triangular.
+        shifted: leave the basis' shift c a symbol.
+
+    Raises:
+        InvalidInputError: there is no such structure, or none with a shift.
+    """
+    from .symbolic.beyond import rotor_formulas as derive
+
+    return derive(Structure(coupling, lead), shifted=shifted)
+
+
+def observer_formulas(
+    coupling: Coupling = "axis-decoupled", lead: Lead = "pitch", *, shifted: bool = False
+) -> GainFormulas:
+    """The observer's equations and its gain L by duality, as SymPy objects; with or without rotors it is the same.
+
+    >>> observer_formulas().gain[0, 0]
+    -nu_p - q_1 - q_2
+
+    Args:
+        coupling: structure of the estimate's errors.
+        lead: the axis that leads where it is triangular.
+        shifted: leave the basis' shift c a symbol.
+
+    Raises:
+        InvalidInputError: there is no such structure, or none with a shift.
+    """
+    from .symbolic.beyond import observer_formulas as derive
 
     return derive(Structure(coupling, lead), shifted=shifted)

@@ -10,6 +10,7 @@ from .compiled import construction
 from .controllability import controllability_matrix, scan
 from .couplings import Structure
 from .design import Design
+from .errors import InvalidInputError
 from .frozen import Frozen
 from .signals import Floats
 
@@ -47,9 +48,21 @@ class Walkthrough(Frozen):
 
 
 def walk_through(design: Design) -> Walkthrough:
-    """The steps of a design: all of them for full-rank placement, else those of the plant and of K."""
+    """The steps of a design: all of them for full-rank placement, else those of the plant and of K.
+
+    Raises:
+        InvalidInputError: the design places the rotors, too, which the paper's steps know nothing of.
+    """
+    if design.rotor_poles is not None:
+        raise InvalidInputError(
+            "the paper’s derivation has four states",
+            field="place_rotors",
+            hint="Leave it out here; rotor_steps tells of six states.",
+        )
     plant, structure = design.plant, design.structure
-    family = Structure() if structure is None else structure.family
+    family = (
+        Structure("axis-decoupled") if structure is None else structure.family
+    )  # whose T divides by nothing
     shift = () if structure is None or structure.shift is None else (structure.shift,)
     values = (*plant.parameters.as_dict().values(), plant.theta_0)
     T, Q, constants = construction(family, shifted=bool(shift))(*values, *shift)

@@ -734,6 +734,18 @@ export interface ObserverGains {
   poles: Complex[];
 }
 
+/** The observer in numbers: the design's, or the usual one. */
+export interface ObserverSteps {
+  /** whether the design's feedback acts on its estimate */
+  used: boolean;
+  /** 4×2, 1/s and 1/s² */
+  L: number[][];
+  /** q₁ … q₄; left out of a Kalman filter */
+  asked?: Complex[];
+  /** of A − LC, rad/s */
+  poles: Complex[];
+}
+
 /** Added to the file's angles after their signs, in its unit. */
 export interface Offsets {
   /** to pitch, in the file's unit */
@@ -1146,6 +1158,28 @@ export interface RotorPair {
   yaw: Rotor;
 }
 
+/** Six states in numbers, as model=rotors names them; without K where there is none. */
+export interface RotorSteps {
+  /** whether the design itself places the rotors */
+  placed: boolean;
+  /** axes whose rotor has no lag in the design, and the usual one here */
+  assumed: string[];
+  /** letters and groups of the formulas, SI */
+  names: Record<string, number>;
+  /** p₅ and p₆, rad/s */
+  rotor_poles: number[];
+  /** 6×6, SI */
+  A?: number[][];
+  /** 6×2, SI */
+  B?: number[][];
+  /** 2×6, by the design's method */
+  K?: number[][];
+  /** of A − BK, rad/s */
+  poles?: Complex[];
+  /** why there is no K */
+  refused?: string;
+}
+
 /**
  * The rotors' speeds, as the voltages that would hold them, V; left out where they follow at once.
  *
@@ -1351,13 +1385,20 @@ export interface Symbol {
   unit: string;
 }
 
-/** All formulas of one structure; definitions say what the short names stand for. */
+/** All formulas of one structure of the paper's four states. */
 export interface Symbolic {
   A: Formula;
-  B: Formula;
-  controllability_matrix: Formula;
+  /** of the canonical form; of (Aᵀ, Cᵀ) for L */
   T: Formula;
   Q: Formula;
+  entries: Record<string, Record<string, Formula>>;
+  /** in an order in which each stands on those before it */
+  definitions: Record<string, Formula>;
+  /** one per input; of (Aᵀ, Cᵀ) for L */
+  controllability_indices: number[];
+  symbols: Symbol[];
+  B: Formula;
+  controllability_matrix: Formula;
   A_bar: Formula;
   B_bar: Formula;
   K_bar: Formula;
@@ -1369,11 +1410,27 @@ export interface Symbolic {
   G_0: Formula;
   RGA: Formula;
   RGA_s: Formula;
+}
+
+/** what=L: the observer, whose gain is placed by duality; it is the same in both models. */
+export interface SymbolicObserver {
+  A: Formula;
+  /** of the canonical form; of (Aᵀ, Cᵀ) for L */
+  T: Formula;
+  Q: Formula;
   entries: Record<string, Record<string, Formula>>;
+  /** in an order in which each stands on those before it */
   definitions: Record<string, Formula>;
-  /** one per input */
+  /** one per input; of (Aᵀ, Cᵀ) for L */
   controllability_indices: number[];
   symbols: Symbol[];
+  /** the estimate's rate */
+  observer: Formula;
+  /** matrix of the loop in [x, x − x̂] */
+  separation: Formula;
+  C: Formula;
+  /** 1/s, and 1/s² below, columns θ, ψ; rows θ, ψ, θ̇, ψ̇ */
+  L: Formula;
 }
 
 /** Any system ẋ = Ax + Bu of up to six states, row by row; nothing in it is ever run as code. */
@@ -1408,6 +1465,30 @@ export interface SymbolicPlacementReply {
   /** by its name the letter as the formulas have it: gamma_, where SymPy has a meaning for gamma */
   letters: Record<string, Formula>;
   findings: Finding[];
+}
+
+/** model=rotors: six states, with both rotors' speeds, and the K that places all of them. */
+export interface SymbolicRotors {
+  A: Formula;
+  /** of the canonical form; of (Aᵀ, Cᵀ) for L */
+  T: Formula;
+  Q: Formula;
+  entries: Record<string, Record<string, Formula>>;
+  /** in an order in which each stands on those before it */
+  definitions: Record<string, Formula>;
+  /** one per input; of (Aᵀ, Cᵀ) for L */
+  controllability_indices: number[];
+  symbols: Symbol[];
+  /** τ_p v̇_p = V_p − v_p */
+  lag_pitch: Formula;
+  lag_yaw: Formula;
+  /** φ(v_j) of a quadratic curve with a dead zone */
+  thrust: Formula;
+  /** φ′(v_j) beyond the dead zone */
+  slope: Formula;
+  B: Formula;
+  /** V/rad, V·s/rad and V/V, columns θ, ψ, θ̇, ψ̇, v_p, v_y; rows V_p, V_y */
+  K: Formula;
 }
 
 /** Diagonals of Q, R and of the integrals' weight; ones where left out. */
@@ -1460,7 +1541,7 @@ export interface Volts {
 }
 
 /**
- * The derivation in numbers for one design.
+ * The derivation in numbers for one design: the paper's four states, then what follows.
  *
  * Another method than full-rank's has no coefficients, T, Q, A_bar, B_bar, K_bar and closed_loop_bar. G_0 and rga are
  * left out where a pole is 0.
@@ -1505,6 +1586,9 @@ export interface Walkthrough {
   G_0?: number[][];
   /** RGA at s = 0; rows θ, ψ, columns V_p, V_y */
   rga?: number[][];
+  rotors: RotorSteps;
+  /** left out where there is none */
+  observer?: ObserverSteps;
 }
 
 /** Weights of the quadratic methods that differ from Bryson's rule for the preset's limits. */

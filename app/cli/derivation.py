@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import click
+
+from heli2dof_core.couplings import Modelled, Sought
 
 from .fields import DESIGN
 from .output import print_json, refusals, show
@@ -13,19 +17,26 @@ _STRUCTURE = [option for option in DESIGN if option.path in ("coupling", "lead")
 
 @click.command()
 @click.argument("names", nargs=-1)
+@click.option("--model", type=click.Choice(get_args(Modelled)), default="paper", help="Four states, or six.")
+@click.option("--what", type=click.Choice(get_args(Sought)), default="K", help="State feedback, or observer.")
 @click.option("--shifted", is_flag=True, help="Leave the shift c of the basis a symbol.")
 @click.option("--notation", type=click.Choice(_NOTATIONS), default="sympy", help="How formulas are written.")
 @click.option("--json", "as_json", is_flag=True, help="Print the REST API's reply, with all of them.")
 def symbolic(
     names: tuple[str, ...],
     *,
+    model: Modelled,
+    what: Sought,
     shifted: bool,
     notation: str,
     as_json: bool,
     coupling: str | None,
     lead: str | None,
 ) -> None:
-    """Print the derived formulas NAMES, such as K, RGA or G_0; K if none is named."""
+    """Print the derived formulas NAMES, such as K, RGA or G_0; the gain if none is named.
+
+    With --model rotors or --what L the gain is written in letters and groups, which can be named as well: b_11, h_1.
+    """
     with refusals(as_json):
         from heli2dof_core import InvalidInputError, Structure
         from heli2dof_core.symbolic.render import symbolic_report
@@ -33,7 +44,7 @@ def symbolic(
         from ..contract.derivation import symbolic_reply
 
         structure = Structure(coupling or "triangular", lead or "pitch")  # pyright: ignore[reportArgumentType]
-        report = symbolic_report(structure, shifted=shifted)
+        report = symbolic_report(structure, shifted=shifted, model=model, what=what)
         formulas = {**report.formulas, **report.definitions}
         for name in names:
             if name not in formulas:
@@ -43,7 +54,7 @@ def symbolic(
                 )
         if as_json:
             return print_json(symbolic_reply(report))
-        for name in names or ("K",):
+        for name in names or (what,):
             text = getattr(formulas[name], notation)
             click.echo(f"{name} = {text}" if notation == "sympy" else text)
     return None

@@ -4,10 +4,17 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Response
 
-from heli2dof_core import Structure, place
-from heli2dof_core.couplings import Coupling, Lead
+from heli2dof_core import Structure
+from heli2dof_core.couplings import Coupling, Lead, Modelled, Sought
 
-from ..contract.derivation import Symbolic, Walkthrough, symbolic_reply, walkthrough_reply
+from ..contract.derivation import (
+    Symbolic,
+    SymbolicObserver,
+    SymbolicRotors,
+    Walkthrough,
+    symbolic_reply,
+    walkthrough_reply,
+)
 from ..contract.design import DesignRequest
 from ..contract.encoding import json_bytes, json_response
 from ..contract.model import Reply, described
@@ -20,23 +27,33 @@ def build_router(compute: Compute) -> APIRouter:
     """The routes symbolic, symbolic/place, walkthrough and paper under /api/v1."""
     router = APIRouter(prefix="/api/v1", tags=["derivation"])
 
-    @router.get("/symbolic", **described(Symbolic, "The formulas, derived"))
+    @router.get(
+        "/symbolic",
+        **described(Symbolic | SymbolicRotors | SymbolicObserver, "The formulas, derived"),
+    )
     async def symbolic(
-        coupling: Coupling = "triangular", lead: Lead = "pitch", shifted: bool = False
+        coupling: Coupling = "triangular",
+        lead: Lead = "pitch",
+        shifted: bool = False,
+        model: Modelled = "paper",
+        what: Sought = "K",
     ) -> Response:
         def work() -> bytes:
             from heli2dof_core.symbolic.render import symbolic_report
 
-            return json_bytes(symbolic_reply(symbolic_report(Structure(coupling, lead), shifted=shifted)))
+            structure = Structure(coupling, lead)
+            return json_bytes(
+                symbolic_reply(symbolic_report(structure, shifted=shifted, model=model, what=what))
+            )
 
-        found = await compute.run_once(("symbolic", coupling, lead, shifted), work)
+        found = await compute.run_once(("symbolic", coupling, lead, shifted, model, what), work)
         return Response(found, media_type="application/json")
 
     @router.post(
         "/walkthrough", **described(Walkthrough, "The derivation in numbers, from constants to the RGA")
     )
     async def walkthrough(request: DesignRequest) -> Response:
-        return json_response(await compute.run_slow(lambda: walkthrough_reply(place(request.to_spec()))))
+        return json_response(await compute.run_slow(lambda: walkthrough_reply(request.to_spec())))
 
     @router.post(
         "/symbolic/place",

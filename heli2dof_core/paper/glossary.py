@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..components import COMPONENT_INFO
-from ..symbolic.names import NAMES
+from ..symbolic.names import NAMES, gain_names
 from .equation import Chapter
 
 _ENERGIES: tuple[Chapter, ...] = ("mechanics",)
@@ -39,20 +39,10 @@ def _components() -> list[Term]:
     return terms
 
 
-def _gains() -> list[Term]:
-    motors, states = ("pitch motor", "yaw motor"), ("θ", "ψ", "θ̇", "ψ̇")
-    units = ("V/rad", "V/rad", "V·s/rad", "V·s/rad")
-    return [
-        Term(f"k_{i}{j}", f"k_{{{i}{j}}}", f"feedback from {state} to the {motor}", unit)
-        for i, motor in enumerate(motors, 1)
-        for j, (state, unit) in enumerate(zip(states, units, strict=True), 1)
-    ]
-
-
 TERMS: tuple[Term, ...] = (
     *(Term(n.name, n.latex, n.meaning, n.unit) for n in NAMES if n.name not in ("sin_0", "cos_0")),
     *_components(),
-    *_gains(),
+    *(Term(n.name, n.latex, n.meaning, n.unit) for n in gain_names()),
     Term("beta", r"\beta", "effective inertia about yaw at θ = 0, J_y + m l²", "kg·m²"),
     Term("theta_ddot", r"\ddot\theta", "pitch acceleration", "rad/s²"),
     Term("psi_ddot", r"\ddot\psi", "yaw acceleration", "rad/s²"),

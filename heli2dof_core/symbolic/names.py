@@ -34,6 +34,9 @@ theta_0 = sp.Symbol("theta_0")
 sin_0, cos_0 = sp.symbols("sin_0 cos_0")  # plain symbols keep θ₀ ≠ 0 harmless for polynomials
 alpha, beta_0, gamma_, a = sp.symbols("alpha beta_0 gamma_ a")
 tau_p, tau_y = sp.symbols("tau_p tau_y")
+phi_p, phi_y = sp.symbols("phi_p phi_y")
+b_11, b_12, b_21, b_22 = sp.symbols("b_11 b_12 b_21 b_22")
+nu_p, nu_y, Delta = sp.symbols("nu_p nu_y Delta")
 p_1, p_2, p_3, p_4, p_5, p_6 = sp.symbols("p_1 p_2 p_3 p_4 p_5 p_6")
 q_1, q_2, q_3, q_4 = sp.symbols("q_1 q_2 q_3 q_4")
 d_10, d_11, d_12, d_20, d_21, d_22 = sp.symbols("d_10 d_11 d_12 d_20 d_21 d_22")
@@ -78,15 +81,87 @@ ROTOR_NAMES: tuple[Name, ...] = (
     Name("p_6", "p_6", "desired pole 6, yaw's third", "rad/s"),
     Name("d_12", "d_{12}", "quadratic coefficient of d₁(s), a cubic where the rotors are placed", "1/s"),
     Name("d_22", "d_{22}", "quadratic coefficient of d₂(s), a cubic where the rotors are placed", "1/s"),
+    Name("phi_p", r"\varphi'_p", "slope of the pitch motor's thrust curve at the trim", "1"),
+    Name("phi_y", r"\varphi'_y", "slope of the yaw motor's thrust curve at the trim", "1"),
+    Name("b_11", "b_{11}", "pitch acceleration by the pitch rotor's speed v_p", "rad/(s²·V)"),
+    Name("b_12", "b_{12}", "pitch acceleration by the yaw rotor's speed v_y", "rad/(s²·V)"),
+    Name("b_21", "b_{21}", "yaw acceleration by the pitch rotor's speed v_p", "rad/(s²·V)"),
+    Name("b_22", "b_{22}", "yaw acceleration by the yaw rotor's speed v_y", "rad/(s²·V)"),
+    Name("nu_p", r"\nu_p", "damping of pitch, B_p by the effective inertia", "1/s"),
+    Name("nu_y", r"\nu_y", "damping of yaw, B_y by the effective inertia", "1/s"),
+    Name("Delta", r"\Delta", "determinant of the rotors' effects b₁₁ … b₂₂", "(rad/(s²·V))²"),
 )
-"""What the six-state derivation has besides (`rotors`); d₁₀ … d₂₁ are those of cubics there."""
+"""What the six-state derivation has besides (`rotors`, `reading`); d₁₀ … d₂₁ are those of cubics there."""
 
 OBSERVER_NAMES: tuple[Name, ...] = tuple(
     Name(f"q_{i}", f"q_{i}", f"desired pole {i} of the observer", "rad/s") for i in (1, 2, 3, 4)
 )
 """What the observer's derivation has besides (`observer`)."""
 
-LATEX: dict[sp.Symbol, str] = {sp.Symbol(n.name): n.latex for n in (*NAMES, *ROTOR_NAMES, *OBSERVER_NAMES)}
+CUBIC_NAMES: tuple[Name, ...] = tuple(
+    Name(f"d_{i}{k}", f"d_{{{i}{k}}}", f"{which} coefficient of d{sub}(s), {axis}’s desired cubic", unit)
+    for i, sub, axis in ((1, "₁", "pitch"), (2, "₂", "yaw"))
+    for k, (which, unit) in enumerate((("constant", "1/s³"), ("linear", "1/s²"), ("quadratic", "1/s")))
+)
+"""What d₁₀ … d₂₂ are where the rotors are placed, too."""
+
+ROTOR_SIGNALS: tuple[Name, ...] = (
+    *(
+        Name(f"v_{j}{dot}", rf"{sign}_{j}", f"{what} of the {motor} motor's rotor, as a voltage", unit)
+        for j, motor in (("p", "pitch"), ("y", "yaw"))
+        for dot, sign, what, unit in (
+            ("", "v", "speed", "V"),
+            ("_dot", r"\dot v", "rate of the speed", "V/s"),
+        )
+    ),
+    Name("v_j", "v_j", "speed of either rotor, as a voltage: pitch's, yaw's", "V"),
+    Name("v_d", "v_d", "speed up to which a quadratic curve gives no thrust: pitch's, yaw's", "V"),
+    Name("s_j", "s_j", "scale of a quadratic curve, so that it meets the linear one: pitch's, yaw's", "1/V"),
+)
+"""What the rotors' own equations are written in; a letter with index j stands for either motor's."""
+
+MATRIX_NAMES: tuple[Name, ...] = (
+    Name("x", "x", "state [θ, ψ, θ̇, ψ̇], from rest at θ₀", ""),
+    Name("x_hat", r"\hat{x}", "estimate of the state", ""),
+    Name("x_hat_dot", r"\dot{\hat{x}}", "rate of the estimate", ""),
+    Name("e", "e", "error of the estimate, x − x̂", ""),
+    Name("u", "u", "voltages [V_p, V_y], from the trim", "V"),
+    Name("y", "y", "measured angles [θ, ψ]", "rad"),
+    Name("A", "A", "system matrix", ""),
+    Name("B", "B", "input matrix", ""),
+    Name("C", "C", "output matrix: the angles are measured", "1"),
+    Name("K", "K", "state feedback", ""),
+    Name("L", "L", "observer's gain", ""),
+)
+"""Vectors and matrices by one letter each, as the observer's equations are written."""
+
+
+def gain_names(columns: int = 4) -> tuple[Name, ...]:
+    """k₁₁ … of K, with the states that its columns stand for."""
+    motors, states = ("pitch motor", "yaw motor"), ("θ", "ψ", "θ̇", "ψ̇", "v_p", "v_y")
+    units = ("V/rad", "V/rad", "V·s/rad", "V·s/rad", "V/V", "V/V")
+    return tuple(
+        Name(f"k_{i}{j}", f"k_{{{i}{j}}}", f"feedback from {state} to the {motor}", unit)
+        for i, motor in enumerate(motors, 1)
+        for j, (state, unit) in enumerate(zip(states[:columns], units[:columns], strict=True), 1)
+    )
+
+
+def observer_gain_names() -> tuple[Name, ...]:
+    """l₁₁ … of L."""
+    return tuple(
+        Name(
+            f"l_{i}{j}", f"l_{{{i}{j}}}", f"correction of the estimated {state} by the error of {angle}", unit
+        )
+        for i, (state, unit) in enumerate((("θ", "1/s"), ("ψ", "1/s"), ("θ̇", "1/s²"), ("ψ̇", "1/s²")), 1)
+        for j, angle in enumerate("θψ", 1)
+    )
+
+
+LATEX: dict[sp.Symbol, str] = {
+    **{sp.Symbol(n.name): n.latex for n in (*NAMES, *ROTOR_NAMES, *ROTOR_SIGNALS, *OBSERVER_NAMES)},
+    **{sp.Symbol(n.name, commutative=False): n.latex for n in MATRIX_NAMES},
+}
 """Symbol → LaTeX, for SymPy's printer."""
 
 COEFFICIENTS_OF_POLES: dict[sp.Symbol, sp.Expr] = {

@@ -12,7 +12,8 @@ from functools import cache
 import sympy as sp
 from latex2mathml.converter import convert
 
-from ..couplings import Structure
+from ..couplings import Modelled, Sought, Structure
+from .beyond import GainFormulas, observer_formulas, rotor_formulas
 from .formulas import derive
 from .full_rank import indices
 from .linearization import linear_model
@@ -39,10 +40,11 @@ class SymbolicReport:
 
     Attributes:
         formulas: A, B, controllability_matrix, T, Q, A_bar (T A T⁻¹), B_bar (T B), K_bar (Q K T⁻¹),
-            K, closed_loop (A − BK), canonical_closed_loop (T (A − BK) T⁻¹), G, G_0, RGA at s = 0, RGA_s.
-        entries: per matrix of K, RGA and G its entries, such as ``k_11``.
-        definitions: what the short names α, β₀, γ, a stand for.
-        controllability_indices: σ, one per input.
+            K, closed_loop (A − BK), canonical_closed_loop (T (A − BK) T⁻¹), G, G_0, RGA at s = 0, RGA_s;
+            beyond the paper's model those of `beyond.GainFormulas`.
+        entries: per matrix of K, RGA and G, or K or L, its entries, such as ``k_11``.
+        definitions: what the short names α, β₀, γ, a stand for; beyond the paper's model all letters and groups.
+        controllability_indices: σ, one per input; of (Aᵀ, Cᵀ) for the observer.
         symbols: every symbol that occurs, with meaning and unit.
         notation: the same symbols as formulas, by name.
     """
@@ -56,11 +58,17 @@ class SymbolicReport:
 
 
 @cache
-def symbolic_report(structure: Structure, *, shifted: bool = False) -> SymbolicReport:
+def symbolic_report(
+    structure: Structure, *, shifted: bool = False, model: Modelled = "paper", what: Sought = "K"
+) -> SymbolicReport:
     """Derives and renders everything symbolic for one structure of the closed loop.
 
-    With `shifted` the shift c of the basis stays a symbol.
+    With `shifted` the shift c of the basis stays a symbol. The observer's L is the same in both models.
     """
+    if what == "L":
+        return _beyond(observer_formulas(structure, shifted=shifted))
+    if model == "rotors":
+        return _beyond(rotor_formulas(structure, shifted=shifted))
     derived = derive(structure, shifted=shifted)
     matrices: dict[str, sp.Matrix] = {name: getattr(derived, name) for name in _REPORTED}
     short = {str(name): value for name, value in linear_model().definitions.items()}
@@ -72,18 +80,37 @@ def symbolic_report(structure: Structure, *, shifted: bool = False) -> SymbolicR
     return SymbolicReport(
         formulas={name: formula(matrix) for name, matrix in matrices.items()},
         entries={
-            name: {
-                f"{letter}_{i + 1}{j + 1}": formula(matrices[name][i, j])
-                for i in range(matrices[name].rows)
-                for j in range(matrices[name].cols)
-            }
+            name: _entries(matrices[name], letter)
             for name, letter in (("K", "k"), ("G", "g"), ("RGA", "lambda"))
         },
         definitions={name: formula(value) for name, value in short.items()},
         controllability_indices=indices(),
         symbols=symbols,
-        notation={name.name: formula(sp.Symbol(name.name)) for name in symbols},
+        notation={name.name: formula_of_name(name) for name in symbols},
     )
+
+
+def _beyond(derived: GainFormulas) -> SymbolicReport:
+    """Formulas of a gain beyond the paper's model."""
+    sought = derived.sought
+    return SymbolicReport(
+        formulas={name: formula(value) for name, value in (derived.equations | derived.matrices).items()},
+        entries={sought: _entries(derived.gain, sought.lower())},
+        definitions={str(name): formula(value) for name, value in derived.definitions.items()},
+        controllability_indices=derived.indices,
+        symbols=derived.symbols,
+        notation={name.name: formula_of_name(name) for name in derived.symbols},
+    )
+
+
+def _entries(matrix: sp.MatrixBase, letter: str) -> dict[str, Formula]:
+    cells = [(i, j) for i in range(matrix.rows) for j in range(matrix.cols)]
+    return {f"{letter}_{i + 1}{j + 1}": formula(matrix[i, j]) for i, j in cells}
+
+
+def formula_of_name(name: Name) -> Formula:
+    """A symbol by itself."""
+    return Formula(name.name, name.latex, convert(name.latex))
 
 
 def formula_of_letters(expression: sp.Expr | sp.Matrix, letters: Mapping[str, sp.Symbol]) -> Formula:

@@ -86,8 +86,8 @@ const fileOf = async (path, design) => (await answerOf(path, { method: 'POST', b
 export const getPresets = () => call('api/v1/presets');
 /** @returns {Promise<import('../types.js').Method[]>} */
 export const getMethods = () => call('api/v1/methods');
-/** @param {string} coupling @param {string} lead @returns {Promise<import('../contract.js').Symbolic>} */
-export const getSymbolic = (coupling, lead) => call(`api/v1/symbolic?${new URLSearchParams({ coupling, lead })}`);
+/** @template T @param {Record<string, string>} query @returns {Promise<T>} */
+export const getSymbolic = (query) => call(`api/v1/symbolic?${new URLSearchParams(query)}`);
 /**
  * @param {Asked<import('../contract.js').DesignRequest>} design
  * @returns {Promise<import('../contract.js').Suggestion>}

@@ -1,6 +1,7 @@
 /** The table of contents: chapters, and of the chapter that is being read its steps. */
 import { h } from '../ui/index.js';
 import { anchorOf, shortOf } from './math.js';
+import { BEYOND } from './beyond_words.js';
 import { CHAPTERS, MARKS } from './words.js';
 
 /** @typedef {import('./math.js').Equation} Equation */
@@ -36,7 +37,9 @@ export function contents(equations, ...more) {
           h('div', { class: 'stops' }, equations.filter((e) => e.chapter === name).map(stop)),
         ),
       ),
-      APPENDIX.map(([id, title]) => h('li', {}, h('a', { href: `#${id}` }, title))),
+      [...BEYOND.map(({ name, title }) => [`paper-${name}`, title]), ...APPENDIX].map(([id, title]) =>
+        h('li', {}, h('a', { href: `#${id}` }, title)),
+      ),
     ),
     more,
   );

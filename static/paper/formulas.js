@@ -1,17 +1,23 @@
 /**
- * K and the RGA as typeset formulas, each entry of K beside its present value. Fetched once per structure, when first
- * seen.
+ * K and the RGA as typeset formulas, each entry of K beside its present value: of four states, or of six where the
+ * rotors are placed; with an observer its L. Fetched once per structure, when first seen.
  */
-import { messageOf, significant } from '../text/index.js';
+import { messageOf } from '../text/index.js';
 import { bodyOf, FULL_RANK, presetOf } from '../model/index.js';
-import { getSymbolic } from '../net/index.js';
-import { copyButton, formula, h, Lazy, setText, whileSeen } from '../ui/index.js';
+import { formula, h, Lazy, whileSeen } from '../ui/index.js';
+import { ofObserver, ofPaper, ofRotors } from './derived.js';
+import { copying, defined, Entries, nonzero } from './entries.js';
+import { memberOf } from './structure.js';
 import { SymbolCards } from './symbol_cards.js';
 import { walk } from './walk.js';
 
-const SUB = '₀₁₂₃₄';
-/** @typedef {import('../contract.js').Symbolic} Symbolic */
-/** @type {[import('../types.js').KeysOf<Symbolic, import('../contract.js').Formula>, string][]} */
+/**
+ * @typedef {import('../contract.js').Symbolic} Symbolic
+ * @typedef {import('../contract.js').SymbolicRotors} SymbolicRotors
+ * @typedef {import('../contract.js').SymbolicObserver} SymbolicObserver
+ * @typedef {ReturnType<typeof memberOf> & {six: boolean, observed: boolean}} Wanted
+ */
+/** @type {[import('../types.js').KeysOf<Symbolic & SymbolicRotors, import('../contract.js').Formula>, string][]} */
 const OTHERS = [
   ['RGA', 'Relative gain array at s = 0'],
   ['A', 'System matrix A'],
@@ -26,7 +32,9 @@ const OTHERS = [
 export class FormulasPanel {
   #structure = '';
   #visible = false;
-  /** @type {{cell: Node, i: number, j: number}[]} */ #values = [];
+  #six = false;
+  /** @type {Entries|null} */ #K = null;
+  /** @type {Entries|null} */ #L = null;
   /** @type {import('./walk.js').Walk|null} */ #walk = null;
 
   /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
@@ -59,23 +67,33 @@ export class FormulasPanel {
     const { design, reply } = state;
     this.lazy.render(state);
     if (!design || !this.#visible) return;
-    const structure = `${design.coupling}/${design.lead}`;
+    const observer = reply?.observer ?? reply?.gains.observer; // what the loop has, or what the design has besides
+    const wanted = {
+      ...memberOf({ ...design, method: FULL_RANK }),
+      six: (reply?.gains.K[0].length ?? 4) > 4,
+      observed: Boolean(observer),
+    };
+    const structure = JSON.stringify(wanted);
     if (structure !== this.#structure) {
       this.#structure = structure;
-      this.#load(design.coupling, design.lead, structure);
+      this.#load(wanted, structure);
     }
-    for (const { cell, i, j } of this.#values)
-      // another method's K is not this formula's
-      setText(cell, reply && design.method === FULL_RANK ? significant(reply.gains.K[i][j], 6) : '–');
+    // another method's K is not this formula's, and neither is that of the other model
+    const own = reply && design.method === FULL_RANK && wanted.six === this.#six;
+    this.#K?.render(own ? reply.gains.K : undefined);
+    this.#L?.render(design.observer?.method === 'kalman' ? undefined : observer?.L);
   }
 
-  /** @param {string} coupling @param {string} lead @param {string} structure */
-  async #load(coupling, lead, structure) {
+  /** @param {Wanted} wanted @param {string} structure */
+  async #load(wanted, structure) {
     this.body.setAttribute('aria-busy', 'true');
     if (!this.body.childElementCount) this.body.append(h('p', {}, 'Deriving…'));
     try {
-      const symbolic = await getSymbolic(coupling, lead);
-      if (structure === this.#structure) this.#show(symbolic);
+      const [symbolic, observer] = await Promise.all([
+        wanted.six ? ofRotors(wanted) : ofPaper(wanted),
+        wanted.observed ? ofObserver(wanted) : null,
+      ]);
+      if (structure === this.#structure) this.#show(wanted, symbolic, observer);
     } catch (error) {
       this.#structure = '';
       this.body.replaceChildren(h('p', { class: 'failure' }, `The formulas could not be fetched: ${messageOf(error)}`));
@@ -83,40 +101,28 @@ export class FormulasPanel {
     this.body.removeAttribute('aria-busy');
   }
 
-  /** @param {Symbolic} symbolic */
-  #show(symbolic) {
-    this.#values = [];
-    const known = Object.fromEntries(Object.entries(symbolic.definitions ?? {}).map(([name, d]) => [name, d.sympy]));
-    const copy = (/** @type {string} */ name, /** @type {import('../contract.js').Formula} */ f) =>
-      copyButton(
-        `formula-${name}`,
-        () => [{ name, latex: f.latex, sympy: f.sympy, definitions: known }],
-        `Copy the formula of ${name}`,
-      );
-    const entries = Object.entries(symbolic.entries?.K ?? {});
-    const gains = entries.length
-      ? h(
-          'div',
-          { class: 'entries', 'data-testid': 'k-formulas' },
-          entries.map(([name, entry]) => this.#entry(name, entry, copy(name, entry))),
-        )
-      : h('div', { class: 'scroll', 'data-testid': 'k-formulas' }, formula(symbolic.K?.mathml));
-    const cards = OTHERS.filter(([key]) => symbolic[key]?.mathml).map(([key, title]) =>
-      h(
-        'section',
-        { class: `card ${key === 'RGA' ? 'wide' : ''}` },
-        h('h3', {}, title, ' ', copy(key, symbolic[key])),
-        h(
-          'div',
-          { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': title, 'data-testid': `formula-${key}` },
-          formula(symbolic[key].mathml),
-        ),
-      ),
-    );
-    const marks = new Map((symbolic.symbols ?? []).map((s) => [s.name, s.mathml]));
-    const definitions = Object.entries(symbolic.definitions ?? {}).map(([name, d]) =>
-      h('div', { class: 'definition' }, formula(marks.get(name)), h('span', {}, '='), formula(d.mathml)),
-    );
+  /** @param {Wanted} wanted @param {Symbolic|SymbolicRotors} symbolic @param {SymbolicObserver|null} observer */
+  #show({ six }, symbolic, observer) {
+    this.#six = six;
+    const of = /** @type {Partial<Symbolic & SymbolicRotors>} */ (symbolic);
+    const copy = copying(symbolic);
+    this.#K = new Entries(nonzero(symbolic.entries.K), 'k-formulas', copy);
+    const cards = OTHERS.flatMap(([key, title]) => {
+      const own = of[key];
+      return own
+        ? h(
+            'section',
+            { class: `card ${key === 'RGA' ? 'wide' : ''}` },
+            h('h3', {}, title, ' ', copy(key, own)),
+            h(
+              'div',
+              { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': title, 'data-testid': `formula-${key}` },
+              formula(own.mathml),
+            ),
+          )
+        : [];
+    });
+    const marks = new Map(symbolic.symbols.map((s) => [s.name, s.mathml]));
     const symbols = h(
       'section',
       { class: 'card' },
@@ -127,21 +133,23 @@ export class FormulasPanel {
         h(
           'tbody',
           {},
-          (symbolic.symbols ?? []).map((s) =>
-            h(
-              'tr',
-              {},
+          symbolic.symbols
+            .filter(({ name }) => !/^k_/.test(name))
+            .map((s) =>
               h(
-                'th',
-                { scope: 'row' },
-                s.mathml
-                  ? [h('span', { class: 'sr' }, s.name), h('span', { 'aria-hidden': 'true' }, formula(s.mathml))]
-                  : s.name,
+                'tr',
+                {},
+                h(
+                  'th',
+                  { scope: 'row' },
+                  s.mathml
+                    ? [h('span', { class: 'sr' }, s.name), h('span', { 'aria-hidden': 'true' }, formula(s.mathml))]
+                    : s.name,
+                ),
+                h('td', {}, s.meaning),
+                h('td', {}, s.unit),
               ),
-              h('td', {}, s.meaning),
-              h('td', {}, s.unit),
             ),
-          ),
         ),
       ),
     );
@@ -149,33 +157,55 @@ export class FormulasPanel {
       h(
         'section',
         { class: 'card gains' },
-        h('h3', {}, 'State feedback K, u = −Kx + v ', symbolic.K ? copy('K', symbolic.K) : null),
-        gains,
-        h('div', { class: 'definitions' }, 'with', definitions),
+        h(
+          'h3',
+          {},
+          `State feedback K, u = −Kx + v${six ? ', x with both rotors’ speeds' : ''} `,
+          copy('K', symbolic.K),
+        ),
+        this.#K.node,
+        zeros(symbolic.entries.K),
+        h('div', { class: 'definitions' }, 'with', defined(symbolic.definitions, marks)),
       ),
+      ...this.#observer(observer),
       ...cards,
       symbols,
     );
-    this.cards.learn(symbolic.symbols ?? []);
-    for (const part of this.body.querySelectorAll('.card')) this.cards.mark(part);
+    this.cards.learn([
+      ...symbolic.symbols.map((s) => (six ? { ...s, part: /** @type {const} */ ('rotors') } : s)),
+      ...(observer?.symbols ?? []).map((s) => ({
+        ...s,
+        chapters: ['observer'],
+        part: /** @type {const} */ ('observer'),
+      })),
+    ]);
+    for (const part of this.body.querySelectorAll('.card'))
+      this.cards.mark(part, part.matches('.observer') ? 'observer' : '');
     this.render(this.store.state);
   }
 
-  /** @param {string} name like k_12 @param {{mathml: string}} entry @param {Node} tool */
-  #entry(name, entry, tool) {
-    const [i, j] = [...(name.match(/\d/g) ?? ['1', '1'])].map((d) => Number(d));
-    const cell = h('output', { class: 'value' });
-    this.#values.push({ cell, i: i - 1, j: j - 1 });
-    return h(
-      'div',
-      { class: 'entry' },
-      h('span', { class: 'sym' }, h('i', {}, 'k'), `${SUB[i]}${SUB[j]} =`),
+  /** The card of an observer's L. @param {SymbolicObserver|null} observer */
+  #observer(observer) {
+    this.#L = null;
+    if (!observer) return [];
+    const copy = copying(observer);
+    this.#L = new Entries(nonzero(observer.entries.L), 'l-card', copy);
+    const marks = new Map(observer.symbols.map((s) => [s.name, s.mathml]));
+    return [
       h(
-        'div',
-        { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': `k${SUB[i]}${SUB[j]}` },
-        formula(entry.mathml),
+        'section',
+        { class: 'card gains observer' },
+        h('h3', {}, 'Observer L, x̂′ = Ax̂ + Bu + L(y − Cx̂) ', copy('L', observer.L)),
+        this.#L.node,
+        zeros(observer.entries.L),
+        h('div', { class: 'definitions' }, 'with', defined(observer.definitions, marks)),
       ),
-      h('span', { class: 'equals' }, '= ', cell, ' ', tool),
-    );
+    ];
   }
 }
+
+/** @param {Record<string, import('../contract.js').Formula>} entries */
+const zeros = (entries) =>
+  Object.values(entries).some((e) => e.sympy === '0')
+    ? h('p', { class: 'aside' }, 'An entry that is not here is 0.')
+    : null;

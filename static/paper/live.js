@@ -207,9 +207,11 @@ export class LiveNumbers {
     });
     const whose = key === 'K' ? h('p', { class: 'unit-line', hidden: true }) : null;
     if (whose)
-      this.#fill.push(({ asked, refused }) => {
-        whose.hidden = Boolean(refused) || asked.method === FULL_RANK;
-        setText(whose, `As ${nameOf(asked)} computes it, not by this formula.`);
+      this.#fill.push(({ asked, refused, rotors }) => {
+        const six = Boolean(rotors?.placed);
+        whose.hidden = Boolean(refused) || (asked.method === FULL_RANK && !six);
+        const other = asked.method === FULL_RANK ? '' : `As ${nameOf(asked)} computes it, not by this formula. `;
+        setText(whose, other + (six ? 'Four states: the design places the rotors, too, see “The rotors”.' : ''));
       });
     return h(
       'div',

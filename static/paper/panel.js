@@ -10,6 +10,7 @@ import { countsOf } from './math.js';
 import { rich } from './rich.js';
 import { SymbolCards, SymbolList } from './symbol_cards.js';
 import { walk } from './walk.js';
+import { Beyond } from './beyond.js';
 import { consequence } from './consequence.js';
 import { contents, follow } from './contents.js';
 import { PaperCurves } from './curves.js';
@@ -21,7 +22,7 @@ import { numbers } from './numbers.js';
 import { askStructure, StructureForms, structureOf } from './structure.js';
 import { MARKS, MEANINGS } from './words.js';
 
-/** @typedef {import('./math.js').Paper} Paper */
+/** @typedef {import('./math.js').Paper} Paper @typedef {import('./symbols.js').Term[]} Symbols */
 /** The place in this section to which the address leads. */
 const place = () => placeIn(location.hash)?.match(/^(paper|eq|fig|table|erratum)\b.*/)?.[0];
 const WAIT =
@@ -37,6 +38,8 @@ function print() {
 
 export class PaperPanel {
   /** @type {LiveNumbers|null} */ #live = null;
+  /** @type {Beyond|null} */ #beyond = null;
+  /** @type {Record<string, import('./symbols.js').Term[]>} by part */ #terms = {};
   /** @type {{render: (state: import('../types.js').State) => void, status: HTMLElement}[]} */ #lazy = [];
   /** @type {import('./walk.js').Walk|null} */ #walk = null;
 
@@ -60,7 +63,14 @@ export class PaperPanel {
   render(state) {
     this.lazy.render(state);
     this.#live?.render(state);
+    this.#beyond?.render(state);
     for (const lazy of this.#lazy) lazy.render(state);
+  }
+
+  /** What the symbols of a part mean, beside those of the others. @param {string} part @param {Symbols} terms */
+  #learn(part, terms) {
+    this.#terms[part] = terms;
+    this.cards.learn(Object.values(this.#terms).flat());
   }
 
   /** What the symbols are worth. @returns {import('./symbols.js').Now} */
@@ -75,12 +85,16 @@ export class PaperPanel {
 
   /** @param {Paper} paper */
   #show(paper) {
-    this.cards.learn(paper.symbols);
+    this.#learn('paper', paper.symbols);
     const live = (this.#live = new LiveNumbers());
     const curves = new PaperCurves(() => this.store.state.presets.find((p) => p.name.endsWith('manual'))?.limits.theta);
     const figures = new Map(paper.figures.map((f) => [`Fig. ${f.number}`, f]));
     const chosen = new StructureForms((part, chapter) => this.cards.mark(part, chapter));
     const list = new SymbolList(paper.symbols);
+    const beyond = (this.#beyond = new Beyond(this.store, {
+      learn: (part, terms) => this.#learn(part, terms),
+      mark: (node, chapter) => this.cards.mark(node, chapter),
+    }));
     const text = h(
       'div',
       { class: 'paper-text' },
@@ -93,6 +107,7 @@ export class PaperPanel {
         },
         structure: (e) => chosen.at(e),
       }),
+      beyond.chapters,
       numbers(paper),
       errata(paper),
       consequence(paper),
@@ -120,6 +135,7 @@ export class PaperPanel {
     const show = (/** @type {import('./walk.js').Walk} */ answer) => {
       this.#walk = answer;
       live.show(answer);
+      beyond.show(answer);
       list.render(this.#now());
       this.cards.refresh();
     };
@@ -134,6 +150,7 @@ export class PaperPanel {
     ];
     for (const { status } of this.#lazy) live.rig.after(status);
     live.render(this.store.state);
+    beyond.render(this.store.state);
     const at = place();
     if (at) requestAnimationFrame(() => location.replace(`#${at}`)); // now there is something to lead to
   }

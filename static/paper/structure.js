@@ -1,7 +1,7 @@
 /** The formulas of the structure that is chosen, beside those of the paper's own. */
 import { FULL_RANK, nameOf } from '../model/index.js';
-import { getSymbolic } from '../net/index.js';
 import { h } from '../ui/index.js';
+import { ofPaper } from './derived.js';
 import { rich } from './rich.js';
 import { typeset } from './forms.js';
 
@@ -25,19 +25,26 @@ const NAMES = {
   RGA: 'RGA =',
 };
 
-/**
- * The structure whose formulas are missing: none where it is the paper's, or where another method has no structure.
- * @param {Design} design
- */
-export const structureOf = ({ method, coupling, lead }) =>
-  method === FULL_RANK && (coupling !== 'triangular' || lead !== 'pitch')
-    ? { coupling, lead: coupling === 'triangular' ? lead : /** @type {const} */ ('pitch') }
-    : null;
+/** The structure that formulas are wanted of: the paper's where another method has none. @param {Design} design */
+export const memberOf = ({ method, coupling, lead, shift }) =>
+  method === FULL_RANK
+    ? {
+        coupling,
+        lead: coupling === 'triangular' ? lead : /** @type {const} */ ('pitch'),
+        shifted: typeof shift === 'number' && coupling !== 'axis-decoupled',
+      }
+    : { coupling: /** @type {const} */ ('triangular'), lead: /** @type {const} */ ('pitch'), shifted: false };
+
+/** The structure whose formulas are missing: none where it is the paper's. @param {Design} design */
+export function structureOf(design) {
+  const member = memberOf(design);
+  return member.coupling === 'triangular' && member.lead === 'pitch' && !member.shifted ? null : member;
+}
 
 /** @param {ReturnType<typeof structureOf>} structure */
 export const askStructure = async (structure) => ({
   structure,
-  formulas: structure ? await getSymbolic(structure.coupling, structure.lead) : null,
+  formulas: structure ? await ofPaper(structure) : null,
 });
 
 export class StructureForms {

@@ -207,7 +207,7 @@ function signFor(term) {
 
 /** @param {Term} term @param {Now} now @returns {Node[]} */
 function cardOf(term, now) {
-  const { text, matrix, of } = worthOf(term.name, now);
+  const { text, matrix, of } = worthOf(term.name, now, term.part);
   const sign = signFor(term);
   const value = matrix ? small(matrix) : h('span', { class: 'worth' }, text ?? 'no value for this rig');
   return [

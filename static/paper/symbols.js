@@ -4,7 +4,8 @@
  *
  * @typedef {Pick<Element, 'localName'|'textContent'> & {children: ArrayLike<MathElement>, nextElementSibling:
  *   MathElement|null}} MathElement as much of an element as is looked at
- * @typedef {import('../contract.js').Symbol & {chapters?: string[]}} Term
+ * @typedef {'rotors'|'observer'} Part of the derivation, where the paper's model ends
+ * @typedef {import('../contract.js').Symbol & {chapters?: string[], part?: Part}} Term
  * @typedef {import('./walk.js').Walk} Walk
  * @typedef {{parameters: Record<string, number>, components: Record<string, number>, walk: Walk|null}} Now
  * @typedef {{text?: string, matrix?: number[][], of?: string}} Worth
@@ -107,6 +108,13 @@ const SIGNALS = new Set([
   'lagrangian',
   'coriolis',
   'gravity',
+  'v_p',
+  'v_y',
+  'v_p_dot',
+  'v_y_dot',
+  'v_j',
+  'x_hat',
+  'e',
 ]);
 const INERTIAS = { beta: (/** @type {Record<string, number>} */ p) => p.J_y + p.m * p.l ** 2 };
 
@@ -116,13 +124,60 @@ function matrixIn(walk, name) {
   return Array.isArray(found) ? found : undefined;
 }
 
-/** What a symbol is worth on the present rig. @param {string} name @param {Now} now @returns {Worth} */
-export function worthOf(name, { parameters, components, walk }) {
-  const number = (/** @type {number|undefined} */ v) => (v === undefined ? {} : { text: figure(v, 6) });
+const number = (/** @type {number|undefined} */ v) => (v === undefined ? {} : { text: figure(v, 6) });
+const PAIRS = { v_d: 'v_d', s_j: 's' };
+
+/**
+ * What a symbol is worth in a part beyond the paper's model; nothing where it is what it is elsewhere.
+ * @param {string} name
+ * @param {Walk} walk
+ * @param {Part} part
+ * @returns {Worth|undefined}
+ */
+function worthBeyond(name, walk, part) {
+  if (walk.refused !== undefined) return undefined;
+  const at = (/** @type {number[][]|undefined} */ m, /** @type {RegExpExecArray} */ [, i, j]) =>
+    number(m?.[Number(i) - 1]?.[Number(j) - 1]);
+  if (part === 'observer') {
+    const { observer } = walk;
+    const entry = /^l_(\d)(\d)$/.exec(name);
+    if (entry) return at(observer?.L, entry);
+    const pole = /^q_(\d)$/.exec(name);
+    if (pole) return observer ? { text: complex((observer.asked ?? observer.poles)[Number(pole[1]) - 1], 3) } : {};
+    if (name === 'L') return observer ? { matrix: clean(observer.L) } : {};
+    if (name === 'C') return { text: 'the first two rows of the identity' };
+  }
+  const { names, K, rotor_poles: thirds } = walk.rotors;
+  if (part === 'observer') return /^nu_[py]$/.test(name) ? number(names[name]) : undefined;
+  const entry = /^k_(\d)(\d)$/.exec(name);
+  if (entry) return at(K, entry);
+  if (name === 'p_5' || name === 'p_6') return number(thirds[name === 'p_5' ? 0 : 1]);
+  if (name in PAIRS) {
+    const own = PAIRS[/** @type {keyof typeof PAIRS} */ (name)];
+    const both = [names[`${own}_p`], names[`${own}_y`]];
+    return names.s_p || names.s_y
+      ? { text: both.map((v) => figure(v)).join(', ') }
+      : { text: 'both curves are linear' };
+  }
+  if (name in names) return number(names[name]);
+  return /^(h|d)_/.test(name) ? {} : undefined;
+}
+
+/**
+ * What a symbol is worth on the present rig.
+ * @param {string} name
+ * @param {Now} now
+ * @param {Part} [part] of the derivation in which it stands, beyond the paper's model
+ * @returns {Worth}
+ */
+export function worthOf(name, { parameters, components, walk }, part) {
+  const beyond = part && walk && worthBeyond(name, walk, part);
+  if (beyond) return beyond;
   if (name in parameters) return number(parameters[name]);
   if (name in components) return number(components[name]);
   if (name === 'beta') return number(INERTIAS.beta(parameters));
   const asked = walk?.asked;
+  if (name === 'c') return typeof asked?.shift === 'number' ? number(asked.shift) : {};
   if (name === 'theta_0') return number(asked?.operating_point?.theta);
   const pole = /^p_(\d)$/.exec(name);
   if (pole) return asked ? { text: complex(asked.poles[Number(pole[1]) - 1], 3) } : {};

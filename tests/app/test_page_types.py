@@ -30,6 +30,12 @@ def test_the_pages_types_are_current():
     assert PAGE.read_text("utf-8") == module()
 
 
+def may_be(value: Any, schema: Mapping[str, Any]) -> bool:
+    """Whether a value can be this one of several kinds: an object has no other fields than its own."""
+    fields = KNOWN.get(schema.get("$ref", "").removeprefix(REF), {}).get("properties")
+    return not (fields and isinstance(value, dict)) or set(value) <= set(fields)
+
+
 def misplaced(value: Any, schema: Mapping[str, Any], place: str = "") -> Iterator[str]:
     """Where something is null that the types say is left out, or left out that they say is null."""
     if name := schema.get("$ref", "").removeprefix(REF):
@@ -46,7 +52,12 @@ def misplaced(value: Any, schema: Mapping[str, Any], place: str = "") -> Iterato
         own = schema.get("additionalProperties", {})
         yield from (x for key, part in value.items() for x in misplaced(part, own, f"{place}.{key}"))
     if value is not None:
-        yield from (x for part in schema.get("anyOf", ()) for x in misplaced(value, part, place))
+        yield from (
+            x
+            for part in schema.get("anyOf", ())
+            if may_be(value, part)
+            for x in misplaced(value, part, place)
+        )
 
 
 def replied(path: str, verb: str) -> Mapping[str, Any]:

@@ -34,6 +34,7 @@ from heli2dof_core.recordings.samples import sample_recording
 from heli2dof_core.symbolic.linearization import linear_model
 from heli2dof_core.symbolic.mechanics import mechanics
 from heli2dof_core.walkthrough import walk_through
+from heli2dof_core.walkthrough_beyond import observer_steps, rotor_steps
 from tests.core.recorded_run import RUN
 
 SPEC = Spec.from_preset(heli.preset())
@@ -85,6 +86,8 @@ def evaluations() -> Iterator[Any]:
         for model in ("linear", "nonlinear"):
             yield heli.simulate(report.loop, spec, model)
         yield walk_through(report.design)
+        yield rotor_steps(spec)
+        yield observer_steps(spec)
     yield heli.cloud(SPEC, Uncertainty(samples=40))
 
 

@@ -152,7 +152,7 @@ def test_errata_stand_at_their_steps_and_every_step_has_its_sentence(page: Page,
         own = page.locator(f"article[data-number='{step['number']}'] #erratum-{erratum['name']}")
         assert own.count() == 1
         assert own.locator(".proof").is_visible()
-    sentences = page.locator("article.eq .plainly").all_inner_texts()
+    sentences = page.locator("[data-testid=paper-equation] .plainly").all_inner_texts()
     assert len(sentences) == len(paper["equations"]) and all(sentences)
 
 

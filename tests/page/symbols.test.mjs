@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { inverseOf, mixingOf } from '../../static/model/loop_values.js';
+import { assumedWords, lagWords } from '../../static/paper/beyond_words.js';
 import { Glossary, signOf, symbolsIn, worthOf } from '../../static/paper/symbols.js';
 
 /** A little of an element: what the server's MathML needs. @param {string} source */
@@ -185,4 +186,52 @@ test('an entry of A or B is worth its own number, not the matrix', () => {
   assert.equal(worthOf('A_44', now).text, '−3.49');
   assert.equal(worthOf('B_31', now).text, '2.36');
   assert.equal(worthOf('A', now).matrix.length, 4);
+});
+
+test('beyond the paper’s model a symbol is worth what it is in that part', () => {
+  const walk = /** @type {any} */ ({
+    asked: { poles: [{ re: -1, im: 0 }], shift: 0.3 },
+    constants: { a: 2, alpha: 0.08 },
+    K: [[1, 2, 3, 4]],
+    rotors: {
+      names: { d_10: 7, h_1: 1.5, nu_p: 9, s_p: 0, s_y: 0, v_d_p: 0, v_d_y: 0 },
+      rotor_poles: [-15, -16],
+      K: [[1, 2, 3, 4, 5, 6]],
+    },
+    observer: { L: [[70, 0]], asked: [{ re: -40, im: 0 }], poles: [] },
+    coefficients: { d_10: 3 },
+    controllability_indices: [2, 2],
+  });
+  const now = { parameters: { K_pp: 0.2 }, components: {}, walk };
+  const text = (/** @type {string} */ name, /** @type {any} */ part) => worthOf(name, now, part).text;
+  assert.equal(text('d_10', 'rotors'), '7'); // a cubic’s
+  assert.equal(text('d_10'), '3');
+  assert.equal(text('k_16', 'rotors'), '6');
+  assert.equal(text('h_1', 'rotors'), '1.5');
+  assert.deepEqual(worthOf('h_9', now, 'rotors'), {}); // of another structure
+  assert.equal(text('p_6', 'rotors'), '−16');
+  assert.equal(text('K_pp', 'rotors'), '0.2');
+  assert.equal(text('a', 'rotors'), '2');
+  assert.equal(text('c', 'rotors'), '0.3');
+  assert.equal(text('s_j', 'rotors'), 'both curves are linear');
+  const curved = { ...walk, rotors: { ...walk.rotors, names: { ...walk.rotors.names, s_p: 0.5, v_d_p: 1 } } };
+  assert.equal(worthOf('v_d', { ...now, walk: curved }, 'rotors').text, '1, 0');
+  assert.equal(text('l_11', 'observer'), '70');
+  assert.match(text('q_1', 'observer') ?? '', /^−40/);
+  assert.equal(text('nu_p', 'observer'), '9');
+  assert.deepEqual(worthOf('L', now, 'observer').matrix, [[70, 0]]);
+  assert.deepEqual(worthOf('l_11', { ...now, walk: { ...walk, observer: undefined } }, 'observer'), {});
+});
+
+test('what the lag margin says of a design', () => {
+  const said = (/** @type {any} */ reply) => lagWords({ stable: true, gains: { K: [[1, 2, 3, 4]] }, ...reply });
+  assert.match(said({ lag_margin: 0.1648 }), /0\.165 s.*at the edge/);
+  assert.match(said({ lag_margin: 0.05 }), /lives by rotors that do not lag/);
+  assert.match(said({ lag_margin: 1.2 }), /1\.2 s\. A real rig’s are 0\.16 s/);
+  assert.match(said({ lag_margin: 0.05, gains: { K: [[1, 2, 3, 4, 5, 6]] } }), /has the rotors in it/);
+  assert.match(said({}), /however slow/);
+  assert.match(said({ stable: false, lag_margin: 0.1 }), /not stable/);
+  assert.equal(assumedWords([]), '');
+  assert.match(assumedWords(['yaw']), /for yaw’s rotor/);
+  assert.match(assumedWords(['pitch', 'yaw']), /for pitch’s and yaw’s rotor/);
 });
