@@ -28,13 +28,15 @@ export class LagPaths {
     this.layer = svg('g', { class: 'lag-paths', 'data-testid': 'lag-paths', 'aria-hidden': 'true' });
     plane.svg.prepend(this.layer);
     this.words = h('div', { class: 'cloud-words lag-words', 'data-testid': 'lag-words', role: 'status' });
+    const title = [
+      t('Where the poles of the loop go as the rotors’ lag τ grows from nothing to the rig’s own'),
+      say`or to ${AERO} s, a real Aero’s, where the rig has none. A ring: there the loop becomes unstable`,
+    ].join(', ');
     this.toggle = button(
       {
         'data-testid': 'show-lag',
         'aria-label': 'Track of the rotors’ lag',
-        title:
-          say`Where the poles of the loop go as the rotors’ lag τ grows from nothing to the rig’s own, or to ${AERO} s, ` +
-          t('a real Aero’s, where the rig has none. A ring: there the loop becomes unstable'),
+        title,
         onclick: () => store.set({ showLag: !isShown(store.state) }),
       },
       h('i', {}, 'τ'),
@@ -46,7 +48,7 @@ export class LagPaths {
 
   /** @param {State} state */
   render(state) {
-    const { design, dragging, connection } = state;
+    const { design, answered, problem, dragging, connection } = state;
     if (!design) return;
     const shown = isShown(state);
     setAttr(this.toggle, 'aria-pressed', String(shown));
@@ -55,7 +57,8 @@ export class LagPaths {
       this.#key = '';
       this.#put(null); // it is of another design
     }
-    if (!shown || dragging || connection === 'lost' || key === this.#key) return;
+    // what the server has refused has no track, and what it has not answered yet may be refused
+    if (!shown || dragging || problem || design !== answered || connection === 'lost' || key === this.#key) return;
     this.#key = key;
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#ask(key), REST_MS);

@@ -22,9 +22,6 @@ const PLACES = {
   travel_stop: plot('theta'),
   diverges: plot('theta'),
   unlike_linear: testid('more-figures'),
-  lives_by_fast_rotors: testid('more-figures'),
-  lag_unlimited: testid('more-figures'),
-  rotors_unstable: LOOPS,
   not_settled: testid('duration'),
   slow_pole: LOOPS,
   reference_beyond_stop: testid('step-theta'),
@@ -39,8 +36,8 @@ const PLACES = {
   own_integral_action: testid('method'),
   nearly_uncontrollable: testid('rig-K_pp'),
   lives_by_fast_rotors: testid('show-lag'),
-  rotors_unstable: testid('show-lag'),
-  lag_unlimited: testid('metric-lag'),
+  rotors_unstable: testid('place-rotors'),
+  lag_unlimited: testid('more-figures'),
   lag_margin_missed: testid('require-lag'),
 };
 

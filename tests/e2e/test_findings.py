@@ -64,7 +64,7 @@ def test_a_design_that_needs_quick_rotors_is_told_so_and_stays_green(page: Page)
     expect(note).to_contain_text("once both rotors lag by 0.165 s; an Aero's lag by 0.16 s")
     expect(page.get_by_test_id("verdict")).to_have_class("verdict stable")
     note.click()
-    expect(page.get_by_test_id("more-figures")).to_be_focused()
+    expect(page.get_by_test_id("show-lag")).to_be_focused()
 
 
 def test_an_unwise_design_is_not_green(page: Page, app: App):
