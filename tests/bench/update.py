@@ -22,6 +22,7 @@ from threadpoolctl import ThreadpoolController, threadpool_limits
 from heli2dof_core import Scenario, Spec, Uncertainty, close_loop, cloud, evaluate, place, preset
 from heli2dof_core.engine import engine, warm_up
 from heli2dof_core.kernels.layout import PAPER, WORKSPACE
+from heli2dof_core.rotors import Rotor, Rotors
 from heli2dof_core.scenario import Digital
 from heli2dof_core.simulation.digital import simulate_digital
 from heli2dof_core.simulation.linear import simulate_linear
@@ -47,6 +48,8 @@ def spec_of(duration: float = 5.0, samples: int = 501, rtol: float = 1e-6) -> Sp
 
 def jobs() -> dict[str, dict[str, Callable[[], object]]]:
     spec = spec_of()
+    slow = spec.changed(rotors=Rotors(Rotor(0.16), Rotor(0.16)), place_rotors=True)
+    seen = slow.changed(measured="observer")
     job, loop = peers.Job(spec), close_loop(place(spec), spec.outer)
     system = NonlinearLoop.of(loop, spec.limits, spec.scenario)
     t, states, w = np.linspace(0, 5, 501), np.empty((501, 6)), np.empty(WORKSPACE)
@@ -71,6 +74,8 @@ def jobs() -> dict[str, dict[str, Callable[[], object]]]:
             "heli2dof, evaluate": lambda: evaluate(spec),
             "heli2dof, evaluate and every remark": lambda: evaluate(spec).findings,
             "heli2dof, evaluate with each axis alone (the page)": lambda: evaluate(spec, each_axis=True),
+            "the same, rotors that lag": lambda: evaluate(slow, each_axis=True),
+            "the same, rotors and an observer": lambda: evaluate(seen, each_axis=True),
         },
         "Nonlinear response, 5 s, 501 points, rtol 1e-6": {
             "SciPy solve_ivp (RK45)": lambda: peers.by_solve_ivp(job, loop.design.K),
