@@ -12,6 +12,7 @@ from .design import Design
 from .eigenvalues import eigenvalues
 from .errors import InvalidInputError
 from .loop import Loop, close_loop
+from .placement.with_rotors import require_slopes
 from .scenario import OuterLoop, PIGains
 from .signals import AXES, Complexes
 from .tables import Shown, Table, number
@@ -62,6 +63,7 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
 
     Raises:
         InvalidInputError: a placed pole is not stable, or no gain complies.
+        UncontrollableError: a thrust curve has no slope at the trim.
     """
     G_0 = design.steady_state
     if not design.stable or G_0 is None:
@@ -106,6 +108,7 @@ def _inner_poles(design: Design) -> Complexes:
     """Of the inner loop with the rig's rotors, rad/s: those placed, unless the design does not know these."""
     if design.actuators is None or design.rotor_poles is not None:
         return design.closed_loop_poles
+    require_slopes(design.actuators.slope)
     found = np.array(eigenvalues(inner_loop(design)[0]), dtype=np.complex128)
     if not max(found.real) < 0:
         raise InvalidInputError(

@@ -20,7 +20,7 @@ from heli2dof_core import (
     place,
     suggest_pi,
 )
-from heli2dof_core.errors import InvalidInputError
+from heli2dof_core.errors import InvalidInputError, UncontrollableError
 from heli2dof_core.evaluate import loop_of
 
 CURVED = Rotors(Rotor(0.1, "quadratic", 1.0), Rotor(0.1, "quadratic", 1.0))
@@ -110,3 +110,5 @@ def test_suggested_values_know_the_rotors():
     with pytest.raises(InvalidInputError, match="rotors make the inner loop unstable") as refused:
         suggest_pi(place(spec.changed(poles=[-12, -10, -9.25, -8.76], rotors=Rotors(Rotor(2.0), Rotor(2.0)))))
     assert refused.value.hint is not None and "place the rotors" in refused.value.hint
+    with pytest.raises(UncontrollableError, match="does not change"):
+        suggest_pi(place(Spec.from_preset("quanser-aero", rotors=CURVED)))
