@@ -13,7 +13,7 @@ from .kernels.layout import BAND
 from .loop import Loop
 from .metrics import StepMetrics
 from .remarks import FAR_OUT
-from .rotors import USUAL_LAG
+from .rotors import USUAL_LAG, Actuators
 from .scenario import Digital, Limits, Scenario
 from .signals import AXES, INPUTS, OUTPUTS
 from .simulation.response import Response
@@ -72,7 +72,7 @@ def behaviour_remarks(
             _on_gain(loop, limits),
             _on_slow_poles(loop),
             _on_settling(loop, axes),
-            () if scenario.disturbance else _on_models(axes, scenario),
+            () if scenario.disturbance else _on_models(axes, scenario, loop.actuators),
         )
     )
 
@@ -100,7 +100,7 @@ def _on_lag(loop: Loop) -> Iterator[Finding]:
     own, limit = loop.actuators, loop.lag_margin
     if limit is None:
         yield Finding("lag_unlimited", "info", "The loop stays stable however slow both rotors are.")
-    elif (own is None or not own.lags) and limit < AMPLE * USUAL_LAG:
+    elif (own is None or not own.tau.all()) and limit < AMPLE * USUAL_LAG:
         short = limit < USUAL_LAG
         yield Finding(
             "lives_by_fast_rotors",
@@ -144,7 +144,7 @@ def _on_slow_poles(loop: Loop) -> Iterator[Finding]:
 
 
 def _on_settling(loop: Loop, axes: Mapping[str, Experiment]) -> Iterator[Finding]:
-    parts = []
+    parts, held = [], False
     for i, signal in enumerate(OUTPUTS):
         each = axes.get(signal.name)
         if each is None or _explained(each):
@@ -154,6 +154,7 @@ def _on_settling(loop: Loop, axes: Mapping[str, Experiment]) -> Iterator[Finding
             linear = (
                 "" if ideal.settling_time is None else f" (linear: settled in {_time(ideal.settling_time)})"
             )
+            held = held or bool(linear and loop.actuators is not None and loop.actuators.breakaway[i])
             response, error = each.rig[0], abs(own.steady_state_error)
             within = error <= BAND * abs(response.reference[i] - response.start[i])
             words = f"{degrees(error):.2g}° from its reference{', but does not stay there' if within else ''}"
@@ -164,10 +165,14 @@ def _on_settling(loop: Loop, axes: Mapping[str, Experiment]) -> Iterator[Finding
         advice = "Watch longer, or place faster poles."
         if not loop.has_integrators and any(linear for *_, linear in parts):
             advice = "Without integral action such an error stays: close the PI loops."
+        elif held:
+            advice = "Friction holds the rig until the integral action outgrows it: watch longer, or raise the gains."
         yield Finding("not_settled", "warning", f"Not settled within {end}: {names}. {advice}")
 
 
-def _on_models(axes: Mapping[str, Experiment], scenario: Scenario) -> Iterator[Finding]:
+def _on_models(
+    axes: Mapping[str, Experiment], scenario: Scenario, own: Actuators | None
+) -> Iterator[Finding]:
     parts, limited = [], False
     for i, signal in enumerate(OUTPUTS):
         each = axes.get(signal.name)
@@ -184,9 +189,12 @@ def _on_models(axes: Mapping[str, Experiment], scenario: Scenario) -> Iterator[F
         causes = [
             *(["the motors' limits"] if limited else []),
             *(["sampling"] if scenario.digital else []),
+            *(["noise"] if any(scenario.noises) else []),
+            *(["how thrust curves"] if own is not None and own.square.any() else []),
+            *(["friction"] if own is not None and own.breakaway.any() else []),
             *([] if scenario.trim_feedforward else ["the missing trim voltages"]),
         ]
-        cause = " and ".join(causes) or "gravity and coupling beyond the operating point"
+        cause = _listed(causes) or "gravity and coupling beyond the operating point"
         advice = " Step less, or place slower poles." if limited else ""
         yield Finding(
             "unlike_linear",
@@ -208,6 +216,10 @@ def _difference(rig: AxisMetrics, linear: AxisMetrics, ratio: float) -> str:
     if abs(rig.overshoot - linear.overshoot) > UNLIKE_OVERSHOOT:
         words.append(f"overshoots by {rig.overshoot:.1f} % (linear: {linear.overshoot:.1f} %)")
     return " and ".join(words)
+
+
+def _listed(words: Sequence[str]) -> str:
+    return " and ".join(part for part in (", ".join(words[:-1]), *words[-1:]) if part)
 
 
 def _explained(each: Experiment) -> bool:

@@ -97,6 +97,14 @@ class Estimator(Frozen):
         A = self.F[:4, :4]
         return frozen(np.array(sorted(eigenvalues(A), key=lambda p: (-p.real, -p.imag))))
 
+    @property
+    def growing(self) -> complex | None:
+        """The pole asked for, rad/s, that lies farthest right, if it does not lie left of the imaginary axis."""
+        farthest = max(
+            () if self.wanted is None else self.wanted.tolist(), key=lambda p: p.real, default=-1.0
+        )
+        return complex(farthest) if farthest.real >= 0.0 else None
+
 
 def estimator(design: Design, measured: Measured, observer: Observer | None = None) -> Estimator | None:
     """What the feedback of a design acts on; None where it has the states.

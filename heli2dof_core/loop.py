@@ -21,7 +21,7 @@ from .frozen import Frozen, frozen
 from .interop import state_space
 from .kernels.layout import OWN, PI, PLAIN, POLYNOMIALS, SIZES, STATIC
 from .loop_polynomials import controller_numbers, whole_polynomials
-from .remarks import lag_instability, loop_instability, loop_remarks
+from .remarks import flat_thrust, lag_instability, loop_instability, loop_remarks, observer_instability
 from .rotors import Actuators
 from .scenario import OuterLoop
 from .scratch import scratch
@@ -154,13 +154,14 @@ class Loop(Frozen, Shown):
     def lag_margin(self) -> float | None:
         """The least time constant of both rotors, s, at which the loop is not stable; None where there is none.
 
-        Where the rotors are placed, it is the least above their own, the larger of both. None, too, where the loop is
-        not stable even there. Found from polynomials, without a grid (`kernels.lag`).
+        Where the rotors are placed, it is the least from their own on, the larger of both: this itself where the loop
+        lives by their difference. None, too, where the loop is stable neither there nor with its own rotors. Found
+        from polynomials, without a grid (`kernels.lag`).
         """
         own = self.actuators
         start = 0.0 if own is None or self.design.rotor_poles is None else float(own.tau.max())
         found = engine().lag_margin(self.polynomials, start, scratch.lag)
-        return found if start < found < inf else None
+        return found if found < inf and (found > start or self.stable) else None
 
     @property
     def _z(self) -> int:
@@ -304,7 +305,10 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
             "info",
             "The method has its own integral action. The PI loops are not used.",
         )
-    if not loop.stable and (loop.has_integrators or loop.design.stable):
+    idle = () if loop.actuators is None else loop.actuators.idle
+    if idle:
+        yield flat_thrust(idle, stable=loop.stable)
+    elif not loop.stable and (loop.has_integrators or loop.design.stable):
         yield _instability(loop)
     if loop.has_integrators and loop.design.integral is None:
         lacking = loop.outer.decoupler and not loop.design.steady_state_determinant
@@ -321,7 +325,10 @@ def _remarks(loop: Loop) -> Iterator[Finding]:
 
 
 def _instability(loop: Loop) -> Finding:
-    """What has done it: the rotors' lag, the PI loops, or the state feedback."""
+    """What has done it: the observer, the rotors' lag, the PI loops, or the state feedback."""
+    own = loop.estimator
+    if own is not None and own.growing is not None:
+        return observer_instability(own.growing)
     lag, limit = 0.0 if loop.actuators is None else float(loop.actuators.tau.max()), loop.lag_margin
     if limit is not None and lag >= limit:
         return lag_instability(lag, limit)

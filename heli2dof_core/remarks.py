@@ -93,11 +93,12 @@ def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Fi
         )
     if largest > FAR_OUT:
         volts = float(np.max(np.abs(K[:, :2]))) * np.pi / 180
+        left_out = "Noise and dead time" if K.shape[1] > 4 else "Noise, dead time and motor lag"
         yield Finding(
             "far_out",
             "warning",
-            f"A pole lies {largest:.3g} rad/s out: one degree of error asks for {volts:.3g} V. Noise, dead time "
-            "and motor lag, which the model leaves out, dominate there. Place slower poles.",
+            f"A pole lies {largest:.3g} rad/s out: one degree of error asks for {volts:.3g} V. {left_out}, "
+            "which the model leaves out, dominate there. Place slower poles.",
         )
 
 
@@ -120,6 +121,30 @@ def _on_accuracy(poles: Sequence[complex], error: float) -> Iterator[Finding]:
             f"The computed poles miss the requested ones by up to {error:.2g} rad/s: repeated or very fast poles are "
             "sensitive to rounding.",
         )
+
+
+def flat_thrust(axes: Sequence[str], *, stable: bool) -> Finding:
+    """The motors that do nothing on small changes, as their thrust curves have no slope at the trim."""
+    both = len(axes) == 2
+    motors = "Both motors'" if both else f"The {axes[0]} motor's"
+    open_loop = "the linear loop is open there" + ("" if stable else ", and not stable")
+    return Finding(
+        "flat_thrust",
+        "warning" if stable else "error",
+        f"{motors} thrust does not change with the voltage at the trim, where {'they rest' if both else 'it rests'}: "
+        f"{open_loop}. Choose an operating point at which {'both motors turn' if both else 'the motor turns'}, or "
+        "a linear thrust curve.",
+    )
+
+
+def observer_instability(pole: complex) -> Finding:
+    """The observer that the feedback acts on has this pole, rad/s, which does not decay."""
+    return Finding(
+        "observer_unstable",
+        "error",
+        f"The estimate's errors do not decay: a pole of the observer lies at {conjugates(pole, 3)} rad/s, and "
+        "so does one of the whole loop. Move the observer's poles left of the imaginary axis.",
+    )
 
 
 def lag_instability(lag: float, limit: float) -> Finding:

@@ -22,6 +22,8 @@ from .signals import AXES, Floats, fixed
 Curve = Literal["linear", "quadratic"]
 USUAL_LAG = 0.16
 """Time constant of a real rig's rotors, s: of a first-generation Aero's 0.156, of an Aero 2's 0.162 to 0.169."""
+AT_ONCE = 1e-6
+"""Time constant below which a rotor counts as one that follows at once, s: far below what can be seen."""
 AT_REST = 0.01
 """Share of its limit below which a motor's trim voltage is no measure of the thrust curve."""
 
@@ -37,7 +39,14 @@ class Rotor:
     """
 
     tau: Annotated[
-        float, Quantity("time constant of the rotor's speed; 0 follows at once", "s", 0.0, 10.0, symbol="τ")
+        float,
+        Quantity(
+            "time constant of the rotor's speed; 0, and what is below 1 µs, follows at once",
+            "s",
+            0.0,
+            10.0,
+            symbol="τ",
+        ),
     ] = 0.0
     curve: Annotated[Curve, Quantity("thrust by rotor speed: linear, or quadratic beyond the dead zone")] = (
         "linear"
@@ -62,6 +71,8 @@ class Rotor:
 
     def __post_init__(self) -> None:
         require_valid(self)
+        if self.tau < AT_ONCE:
+            object.__setattr__(self, "tau", 0.0)
         if self.matched_at is not None and not self.matched_at > self.dead_zone:
             raise InvalidInputError(
                 f"the curve is matched at {self.matched_at:g} V, within the dead zone of {self.dead_zone:g} V",
@@ -169,6 +180,11 @@ class Actuators(Frozen):
     def lags(self) -> bool:
         """Whether either rotor takes time."""
         return bool(self.tau.any())
+
+    @cached_property
+    def idle(self) -> tuple[str, ...]:
+        """The axes whose motors' thrust has no slope at the trim."""
+        return tuple(axis for axis, slope in zip(AXES, self.slope.tolist(), strict=True) if slope == 0.0)
 
     @cached_property
     def constants(self) -> Floats:

@@ -7,17 +7,20 @@ from itertools import product
 
 import numpy as np
 
+from .augmentation import inner_loop
 from .design import Design
+from .eigenvalues import eigenvalues
 from .errors import InvalidInputError
 from .loop import Loop, close_loop
+from .placement.with_rotors import require_slopes
 from .scenario import OuterLoop, PIGains
 from .signals import AXES, Complexes
 from .tables import Shown, Table, number
 
 DAMPING = 0.7
-"""Least damping ratio of every pole of the whole loop, where the placed poles have as much."""
+"""Least damping ratio of every pole of the whole loop, where the inner loop's have as much, rotors included."""
 EASED = 0.8
-"""Share of the placed poles' own least damping that must remain where they have less."""
+"""Share of the inner loop's own least damping that must remain where it has less."""
 
 FACTORS = np.geomspace(0.01, 4.0, 22)
 """Factors on each axis' own kp that are tried, for both axes independently."""
@@ -27,7 +30,7 @@ GENTLE = np.geomspace(1e-5, 0.01, 16)
 RULE = (
     "Each integral time cancels the slower pole of its pair (2ζ/ωₙ of a complex pair); the two gains are "
     "those of a grid with which the whole loop decays fastest while every pole keeps a damping ratio of "
-    f"{DAMPING:g}, or {100 * EASED:.0f} % of the placed poles' own where they have less."
+    f"{DAMPING:g}, or {100 * EASED:.0f} % of the inner loop's own where it has less."
 )
 
 
@@ -60,6 +63,7 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
 
     Raises:
         InvalidInputError: a placed pole is not stable, or no gain complies.
+        UncontrollableError: a thrust curve has no slope at the trim.
     """
     G_0 = design.steady_state
     if not design.stable or G_0 is None:
@@ -86,7 +90,7 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
         else:
             ti, effort = -1 / slow.real, fast.real / slow.real / (4 * DAMPING**2)
         gains.append((effort / static, ti))
-    target = min(DAMPING, EASED * _least_damping(design.closed_loop_poles))
+    target = min(DAMPING, EASED * _least_damping(_inner_poles(design)))
     best: Loop | None = None
     for factors in (FACTORS, GENTLE):
         pairs = product(*([_scaled(f, *g) for f in factors] for g in gains))
@@ -96,12 +100,33 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
         if best and _merit(best, target)[0] >= round(target, 3):
             break
     if best is None:
-        raise InvalidInputError(
-            "no PI values were found that keep the whole loop stable",
-            field="outer",
-            hint="Try the cross pairing, the decoupler or another coupling.",
-        )
+        raise _nothing_found(design)
     return Suggestion(best.outer, best)
+
+
+def _inner_poles(design: Design) -> Complexes:
+    """Of the inner loop with the rig's rotors, rad/s: those placed, unless the design does not know these."""
+    if design.actuators is None or design.rotor_poles is not None:
+        return design.closed_loop_poles
+    require_slopes(design.actuators.slope)
+    found = np.array(eigenvalues(inner_loop(design)[0]), dtype=np.complex128)
+    if not max(found.real) < 0:
+        raise InvalidInputError(
+            "no PI values keep the loop stable: the rig's rotors make the inner loop unstable by itself",
+            field="rotors",
+            hint="Place slower poles, or place the rotors, too.",
+        )
+    return found
+
+
+def _nothing_found(design: Design) -> InvalidInputError:
+    lagging = design.actuators is not None and design.actuators.lags and design.rotor_poles is None
+    return InvalidInputError(
+        "no PI values were found that keep the whole loop stable",
+        field="outer",
+        hint="Try the cross pairing, the decoupler or another coupling"
+        + (", slower poles, or place the rotors, too." if lagging else "."),
+    )
 
 
 def _merit(loop: Loop, target: float) -> tuple[float, float]:

@@ -1124,7 +1124,7 @@ export interface RobustnessRequest extends StepRequest {
 
 /** One motor's rotor. */
 export interface Rotor {
-  /** time constant of the rotor's speed; 0 follows at once, s */
+  /** time constant of the rotor's speed; 0, and what is below 1 µs, follows at once, s */
   tau: number;
   /** thrust by rotor speed: linear, or quadratic beyond the dead zone */
   curve: 'linear' | 'quadratic';
@@ -1139,7 +1139,7 @@ export interface Rotor {
 
 /** One motor's rotor: how long it takes, and how thrust follows its speed. */
 export interface RotorChanges {
-  /** time constant of the rotor's speed; 0 follows at once, s */
+  /** time constant of the rotor's speed; 0, and what is below 1 µs, follows at once, s */
   tau?: number | null;
   /** thrust by rotor speed: linear, or quadratic beyond the dead zone */
   curve?: 'linear' | 'quadratic' | null;
