@@ -131,11 +131,12 @@ def _decays(task: Regulator, slowest: float) -> bool:
     """Whether the optimal loop's slowest pole decays, and as fast as the gain says.
 
     The Hamiltonian matrix's characteristic polynomial is one of s², computed exactly; without a root s² ≤ 0 nothing
-    stays on the imaginary axis (Sturm's theorem). With many states the modes' Hautus matrices decide.
+    stays on the imaginary axis (Sturm's theorem). With many states, or roots too close to be told apart, the modes'
+    Hautus matrices decide.
     """
     n = len(task.A)
     if n > MOST_EXACT:
-        return all(reached and seen for _, reached, seen in _modes(task))
+        return _stabilizable(task)
     from sympy import QQ
     from sympy.polys.rootisolation import dup_count_real_roots
 
@@ -146,8 +147,17 @@ def _decays(task: Regulator, slowest: float) -> bool:
     polynomial = upper.vstack(lower).charpoly()[::2]
     if dup_count_real_roots(polynomial, QQ, sup=QQ(0)):
         return False
-    decay = min(abs((complex(square) ** 0.5).real) for square in roots(polynomial))
+    try:
+        squares = roots(polynomial)
+    except ArithmeticError:
+        return _stabilizable(task)
+    decay = min(abs((complex(square) ** 0.5).real) for square in squares)
     return 0.5 * decay <= slowest <= 2.0 * decay
+
+
+def _stabilizable(task: Regulator) -> bool:
+    """Whether the inputs reach every mode that does not decay, and Q sees those on the axis."""
+    return all(reached and seen for _, reached, seen in _modes(task))
 
 
 def _residual(task: Regulator, X: Floats) -> float:

@@ -19,7 +19,11 @@ RIG = {
     "friction": {"yaw": {"coulomb": 0.0005}},
     "place_rotors": True,
 }
-THOUGHT = {"preset": "quanser-aero-2", "friction": RIG["friction"]}
+THOUGHT = {
+    "preset": "quanser-aero-2",
+    "rotors": {axis: {"tau": 0.0} for axis in ("pitch", "yaw")},
+    "friction": RIG["friction"],
+}
 
 
 @pytest.fixture(scope="module")
@@ -160,7 +164,8 @@ def test_the_command_line_finds_the_same(client, sample, sent, tmp_path):
         ",".join(free),
     ]
     own = json.loads(run(*ask, "--json").stdout)
-    body = {**THOUGHT, "rotors": {"yaw": {"tau": 0.13}}, "recording": sent, "columns": COLUMNS, "free": free}
+    rotors = {**THOUGHT["rotors"], "yaw": {"tau": 0.13}}
+    body = {**THOUGHT, "rotors": rotors, "recording": sent, "columns": COLUMNS, "free": free}
     other = identified(client, body)
     assert own["estimates"] == other["estimates"] and own["rotors"] == other["rotors"]
     assert own["rotors"]["yaw"]["tau"] == 0.13
@@ -169,7 +174,7 @@ def test_the_command_line_finds_the_same(client, sample, sent, tmp_path):
     assert "rotors.pitch.tau" in run(*ask).stdout
 
 
-UNSOLVED = {"observer": {"method": "kalman", "voltage_noise": 1e6, "angle_noise": 1e-12}}
+UNSOLVED = {"observer": {"method": "kalman", "voltage_noise": 1e-9, "angle_noise": 1e3}}
 USED = {**UNSOLVED, "scenario": {"measured": "observer"}}
 
 

@@ -27,6 +27,7 @@ from heli2dof_core.recordings.overlay import (
 from heli2dof_core.recordings.recording import Recording
 from heli2dof_core.recordings.samples import deviating_rig, reference_steps, sample_recording
 from heli2dof_core.recordings.segments import bridged, cut, fit_of, segment_length
+from heli2dof_core.rotors import Rotors
 from heli2dof_core.scenario import Digital, Limits, Scenario
 from heli2dof_core.simulation.digital import simulate_digital
 from heli2dof_core.simulation.recorded import run_held, run_recorder, run_segments
@@ -37,7 +38,7 @@ EXACT = Digital(encoders=(0, 0), rates="true")
 
 def made(name="quanser-2dof-manual", duration=8.0, deviation=0.1, digital=EXACT, seed=1):
     base = preset(name)
-    spec = Spec.from_preset(base)
+    spec = Spec.from_preset(base, rotors=Rotors())
     loop = close_loop(place(spec), spec.outer)
     rig = deviating_rig(spec.parameters, deviation, seed)
     size = (abs(base.scenario.theta or 0), abs(base.scenario.psi or 0))

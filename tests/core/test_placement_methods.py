@@ -16,6 +16,7 @@ from heli2dof_core import (
     InvalidInputError,
     MethodUnavailableError,
     Weights,
+    place,
     place_poles,
     plant,
     pole_error,
@@ -25,6 +26,7 @@ from heli2dof_core.placement.ackermann import ackermann
 from heli2dof_core.placement.bass_gura import bass_gura
 from heli2dof_core.placement.dyadic import place_dyadic
 from heli2dof_core.placement.method import Task
+from heli2dof_core.request import spec_of
 from heli2dof_core.signals import C
 from tests.systems import random_poles, random_system, rounding
 
@@ -239,3 +241,23 @@ def test_varga_law_on_random_systems():
         placed = place_poles(system.A, system.B, system.poles, "varga")
         ratios.append(placed.pole_error / rounding(system, placed.placement.K))
     assert np.median(ratios) < 10
+
+
+def test_lqr_decides_where_the_optimal_poles_lie_too_close_to_be_told_apart():
+    """A rig with rotors whose units are 10³⁰⁰ apart; its loop is stable as SciPy sees it, too."""
+    body = {
+        "preset": "quanser-aero",
+        "method": "lqr",
+        "place_rotors": True,
+        "rotors": {"yaw": {"tau": 5.86}},
+        "parameters": {
+            "K_py": 3.5,
+            "K_yp": -558304.25,
+            "B_p": 318669.64,
+            "K_yy": 1e6,
+            "J_y": 964153.48,
+            "m": 6e-291,
+        },
+    }
+    found = place(spec_of(body))
+    assert np.max(np.linalg.eigvals(found.A_closed).real) < 0
