@@ -37,8 +37,8 @@ const PLACES = {
   nearly_uncontrollable: testid('rig-K_pp'),
   lives_by_fast_rotors: testid('show-lag'),
   rotors_unstable: testid('place-rotors'),
-  flat_thrust: testid('place-rotors'),
-  observer_unstable: testid('place-rotors'),
+  flat_thrust: testid('show-lag'),
+  observer_unstable: testid('measured'),
   lag_unlimited: testid('more-figures'),
   lag_margin_missed: testid('require-lag'),
 };
@@ -97,7 +97,13 @@ export function remarksOf({ reply, problem }) {
     );
   };
   const stop = first(findings, ['reference_beyond_stop', 'travel_stop', 'starts_on_stop']);
-  const unstable = first(findings, ['pi_unstable', 'loop_unstable', 'rotors_unstable', 'observer_unstable', 'flat_thrust']);
+  const unstable = first(findings, [
+    'pi_unstable',
+    'loop_unstable',
+    'rotors_unstable',
+    'observer_unstable',
+    'flat_thrust',
+  ]);
   const open = first(findings, ['pitch_loop_open', 'yaw_loop_open']);
   return {
     loops: unstable
