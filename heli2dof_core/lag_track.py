@@ -12,7 +12,7 @@ from .loop import Loop
 from .rotors import USUAL_LAG, Actuators
 from .signals import Complexes, Floats, fixed
 
-STEPS = 60
+STEPS = 120
 
 
 @dataclass(frozen=True)
