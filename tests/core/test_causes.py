@@ -23,6 +23,7 @@ from heli2dof_core import (
 from heli2dof_core.errors import InvalidInputError, UncontrollableError
 from heli2dof_core.evaluate import loop_of
 from heli2dof_core.export import FORMATS
+from heli2dof_core.robustness import Uncertainty, cloud
 from heli2dof_core.tables import number
 
 CURVED = Rotors(Rotor(0.1, "quadratic", 1.0), Rotor(0.1, "quadratic", 1.0))
@@ -137,3 +138,11 @@ def test_the_report_tells_of_the_sampling_and_all_the_noise_that_was_simulated(d
     assert f"digital controller, {'2' if digital is None else '4'} ms" in report
     theta = 4e-4 if digital is None else 5e-4
     assert f"standard deviations {number(np.degrees(theta))}°" in report
+
+
+def test_an_uncertain_lag_that_is_not_there_is_refused_and_not_ignored():
+    spec = Spec.from_preset(rotors=Rotors(Rotor(0.1)))
+    assert cloud(spec, Uncertainty({"tau_p": 0.2}, samples=3)).done == 3
+    with pytest.raises(InvalidInputError, match="yaw motor's rotor follows at once") as refused:
+        cloud(spec, Uncertainty({"tau_p": 0.2, "tau_y": 0.2}, samples=3))
+    assert refused.value.field == "spread.tau_y"
