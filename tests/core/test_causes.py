@@ -106,6 +106,12 @@ def test_a_lag_just_beyond_the_margin_is_told_from_it():
     assert "lag of 0.16482 s" in message and "less than 0.164812 s" in message
 
 
+def test_noise_is_named_where_it_keeps_the_rig_from_settling():
+    spec = Spec.from_preset()
+    noisy = replace(spec, scenario=replace(spec.scenario, noise=(0.02, 0.0)))
+    assert "Noise on the measured angles" in messages(noisy)["not_settled"]
+
+
 def test_friction_is_named_where_it_holds_the_rig():
     spec = Spec.from_preset(friction=AxisFriction(Friction(0.0, 0.3), Friction(0.05)))
     assert "Friction holds" in messages(spec)["not_settled"]
