@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from itertools import chain
 from math import degrees, radians
 
+import numpy as np
+
 from .figures import AxisMetrics, Margins
 from .findings import Finding
 from .kernels.layout import BAND
@@ -71,7 +73,7 @@ def behaviour_remarks(
             _on_lag(loop),
             _on_gain(loop, limits),
             _on_slow_poles(loop),
-            _on_settling(loop, axes),
+            _on_settling(loop, axes, noisy=any(scenario.noises)),
             () if scenario.disturbance else _on_models(axes, scenario, loop.actuators),
         )
     )
@@ -143,7 +145,7 @@ def _on_slow_poles(loop: Loop) -> Iterator[Finding]:
         )
 
 
-def _on_settling(loop: Loop, axes: Mapping[str, Experiment]) -> Iterator[Finding]:
+def _on_settling(loop: Loop, axes: Mapping[str, Experiment], *, noisy: bool) -> Iterator[Finding]:
     parts, held = [], False
     for i, signal in enumerate(OUTPUTS):
         each = axes.get(signal.name)
@@ -163,11 +165,21 @@ def _on_settling(loop: Loop, axes: Mapping[str, Experiment]) -> Iterator[Finding
         end = _time(float(next(iter(axes.values())).rig[0].t[-1]))
         names = " and ".join(f"{axis} ends {words}{linear}" for axis, words, linear in parts)
         advice = "Watch longer, or place faster poles."
-        if not loop.has_integrators and any(linear for *_, linear in parts):
+        if not loop.has_integrators and (any(linear for *_, linear in parts) or _misses(loop)):
             advice = "Without integral action such an error stays: close the PI loops."
+        elif noisy and any(linear for *_, linear in parts):
+            advice = (
+                "Noise on the measured angles keeps it moving: place slower poles, or measure more quietly."
+            )
         elif held:
             advice = "Friction holds the rig until the integral action outgrows it: watch longer, or raise the gains."
         yield Finding("not_settled", "warning", f"Not settled within {end}: {names}. {advice}")
+
+
+def _misses(loop: Loop) -> bool:
+    """Whether the linear loop itself ends beside its references, as with motors that the design does not know."""
+    steady_state = -np.linalg.solve(loop.A, loop.B)[:2]
+    return bool(np.max(np.abs(np.eye(2) - steady_state)) > BAND)
 
 
 def _on_models(

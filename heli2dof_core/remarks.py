@@ -149,11 +149,12 @@ def observer_instability(pole: complex) -> Finding:
 
 def lag_instability(lag: float, limit: float) -> Finding:
     """What the rotors' lag has done, s, of which the design bears less than `limit`."""
+    digits = 3 if f"{lag:.3g}" != f"{limit:.3g}" else 6
     return Finding(
         "rotors_unstable",
         "error",
-        f"The rotors' lag of {lag:.3g} s makes the helicopter unstable: with this design both may need less than "
-        f"{limit:.3g} s. Place slower poles or lower the gains, or place the rotors, too.",
+        f"The rotors' lag of {lag:.{digits}g} s makes the helicopter unstable: with this design both may need less "
+        f"than {limit:.{digits}g} s. Place slower poles or lower the gains, or place the rotors, too.",
     )
 
 

@@ -23,7 +23,7 @@ from .plant import rig_constants
 from .quantities import Quantity, documented, require_valid
 from .rotors import Actuators
 from .scratch import scratch
-from .signals import Complexes, Floats
+from .signals import AXES, Complexes, Floats
 from .simulation.nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
 from .spec import Spec
 from .tables import Shown, Table, number
@@ -228,6 +228,14 @@ def _random_lags(loop: Loop, uncertainty: Uncertainty) -> Floats:
     """Time constants of both rotors, (samples, 2), s: the rig's own times random factors of their own."""
     own = np.zeros(2) if loop.actuators is None else loop.actuators.tau
     spread = np.array([uncertainty.spread.get(name, 0.0) for name in LAGS])
+    for name, axis, tau, share in zip(LAGS, AXES, own.tolist(), spread.tolist(), strict=True):
+        if share and not tau:
+            raise InvalidInputError(
+                f"the {axis} motor's rotor follows at once, so there is no time constant to be uncertain of",
+                field=f"spread.{name}",
+                value=share,
+                hint="Give this rotor a time constant, or leave its uncertainty out.",
+            )
     rng = np.random.default_rng((uncertainty.seed, 1))
     return own * _factors(rng, spread, uncertainty)
 

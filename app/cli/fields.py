@@ -110,7 +110,7 @@ def _by_axis(places: Mapping[str, Place], what: str) -> Iterator[Option]:
     """The options of a motor or an axis: --rotor-tau-pitch."""
     for axis, place in places.items():
         flags = {name: f"--{what}-{name.replace('_', '-')}-{axis}" for name in place.fields}
-        yield from _of(place, flags, f"{axis} {what}'s " if what == "rotor" else f"{axis} axis' friction: ")
+        yield from _of(place, flags, f"{axis} rotor: " if what == "rotor" else f"{axis} axis' friction: ")
 
 
 DESIGN = (
@@ -135,7 +135,7 @@ DESIGN = (
     Option(
         "--rotor-poles", "rotor_poles", Numbers(), "Of pitch's and yaw's rotor where they are placed, rad/s."
     ),
-    *_of(OBSERVER, {name: f"--observer-{name.replace('_', '-')}" for name in OBSERVER.fields}, "observer's "),
+    *_of(OBSERVER, {name: f"--observer-{name.replace('_', '-')}" for name in OBSERVER.fields}, "observer: "),
     Option(
         "--observer-poles", "observer.poles", Poles(), "Of the observer: pitch's pair, then yaw's, rad/s."
     ),

@@ -194,10 +194,10 @@ def _experiment(spec: Spec, report: Report) -> str:
         parts.append(f"anti-windup: {scenario.anti_windup}")
     if not scenario.trim_feedforward:
         parts.append("without the trim voltages")
-    if scenario.digital is not None:
-        parts.append(f"digital controller, {number(1e3 * scenario.digital.sample_time)} ms")
-    if any(scenario.noise):
-        theta, psi = (number(degrees(deviation)) for deviation in scenario.noise)
+    if scenario.controller is not None:
+        parts.append(f"digital controller, {number(1e3 * scenario.controller.sample_time)} ms")
+    if any(scenario.noises):
+        theta, psi = (number(degrees(deviation)) for deviation in scenario.noises)
         parts.append(f"white noise on the measured angles, standard deviations {theta}° and {psi}°")
     if scenario.disturbance is not None:
         d = scenario.disturbance

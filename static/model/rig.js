@@ -128,8 +128,12 @@ export function valueOf(design, preset, q) {
 }
 
 /** In SI units. @param {Design} design @param {Preset|undefined} preset @param {'pitch'|'yaw'} axis of a rotor */
-export const lagOf = (design, preset, axis) =>
-  Number(standing(design, `rotors.${axis}`).tau ?? (preset && standing(preset, `rotors.${axis}`).tau) ?? 0);
+export function lagOf(design, preset, axis) {
+  const tau = Number(standing(design, `rotors.${axis}`).tau ?? (preset && standing(preset, `rotors.${axis}`).tau) ?? 0);
+  return tau < AT_ONCE ? 0 : tau;
+}
+/** Below this a rotor follows at once, s: as the server has it. */
+const AT_ONCE = 1e-6;
 
 /** Whether a rotor takes time. @param {Design} design @param {Preset|undefined} preset */
 export const lags = (design, preset) =>

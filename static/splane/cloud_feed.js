@@ -5,7 +5,7 @@
  * @typedef {import('../types.js').Design} Design
  * @typedef {ReturnType<typeof cloudRequest>} CloudRequest
  */
-import { bodyOf, cloudCaveat, cloudScenario } from '../model/index.js';
+import { bodyOf, cloudCaveat, cloudScenario, lagOf } from '../model/index.js';
 import { cloudAddress, LatestSocket } from '../net/index.js';
 
 export const SPREADS = [0, 0.05, 0.1, 0.2];
@@ -18,7 +18,7 @@ const REST_MS = 500;
  * @param {Design} design
  * @param {number} spread
  * @param {import('../types.js').Motion} motion
- * @param {string[]} names of the parameters
+ * @param {string[]} names of what is uncertain, g apart
  * @param {number} samples
  */
 export function cloudRequest(design, spread, motion, names, samples) {
@@ -31,6 +31,17 @@ export function cloudRequest(design, spread, motion, names, samples) {
     samples,
   });
 }
+
+/**
+ * What the cloud's rigs differ in: the parameters, and the lag of each rotor that has one.
+ * @param {Design} design
+ * @param {import('../types.js').Preset|undefined} preset
+ */
+export const uncertain = (design, preset) => [
+  ...Object.keys(preset?.parameters ?? {}),
+  ...(lagOf(design, preset, 'pitch') > 0 ? ['tau_p'] : []),
+  ...(lagOf(design, preset, 'yaw') > 0 ? ['tau_y'] : []),
+];
 
 /**
  * The cloud in words.
@@ -68,7 +79,7 @@ export class CloudFeed {
       this.#key = ''; // asked again when it is back
       return;
     }
-    const names = Object.keys(this.store.preset?.parameters ?? {});
+    const names = uncertain(design, this.store.preset);
     const key = JSON.stringify([design, spread, motion]);
     if (key !== this.#key) {
       this.#key = key;

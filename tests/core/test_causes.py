@@ -22,6 +22,9 @@ from heli2dof_core import (
 )
 from heli2dof_core.errors import InvalidInputError, UncontrollableError
 from heli2dof_core.evaluate import loop_of
+from heli2dof_core.export import FORMATS
+from heli2dof_core.robustness import Uncertainty, cloud
+from heli2dof_core.tables import number
 
 CURVED = Rotors(Rotor(0.1, "quadratic", 1.0), Rotor(0.1, "quadratic", 1.0))
 
@@ -90,6 +93,25 @@ def test_what_the_linear_model_leaves_out_is_what_makes_the_difference():
     assert "sampling, noise and how thrust curves" in messages(sampled)["unlike_linear"]
 
 
+def test_an_error_that_stays_is_not_waited_for():
+    """Ĝ(0)⁻¹ is the design's: off level it does not hold for motors that act otherwise than the design knows."""
+    spec = Spec.from_preset(theta_0=0.3, outer="none", rotors=CURVED, reference=(0.2, 0.3), duration=10.0)
+    linear = evaluate(spec).step["linear"].response
+    assert abs(linear.theta[-1] - 0.2) > 0.002
+    assert "such an error stays" in messages(spec)["not_settled"]
+
+
+def test_a_lag_just_beyond_the_margin_is_told_from_it():
+    message = messages(Spec.from_preset(rotors=Rotors(Rotor(0.16482), Rotor(0.16482))))["rotors_unstable"]
+    assert "lag of 0.16482 s" in message and "less than 0.164812 s" in message
+
+
+def test_noise_is_named_where_it_keeps_the_rig_from_settling():
+    spec = Spec.from_preset()
+    noisy = replace(spec, scenario=replace(spec.scenario, noise=(0.02, 0.0)))
+    assert "Noise on the measured angles" in messages(noisy)["not_settled"]
+
+
 def test_friction_is_named_where_it_holds_the_rig():
     spec = Spec.from_preset(friction=AxisFriction(Friction(0.0, 0.3), Friction(0.05)))
     assert "Friction holds" in messages(spec)["not_settled"]
@@ -112,3 +134,21 @@ def test_suggested_values_know_the_rotors():
     assert refused.value.hint is not None and "place the rotors" in refused.value.hint
     with pytest.raises(UncontrollableError, match="does not change"):
         suggest_pi(place(Spec.from_preset("quanser-aero", rotors=CURVED)))
+
+
+@pytest.mark.parametrize("digital", [None, Digital(0.004, noise=3e-4)])
+def test_the_report_tells_of_the_sampling_and_all_the_noise_that_was_simulated(digital):
+    spec = Spec.from_preset()
+    spec = replace(spec, scenario=replace(spec.scenario, noise=(4e-4, 0.0), digital=digital))
+    report = FORMATS["report"].content(spec).decode()
+    assert f"digital controller, {'2' if digital is None else '4'} ms" in report
+    theta = 4e-4 if digital is None else 5e-4
+    assert f"standard deviations {number(np.degrees(theta))}°" in report
+
+
+def test_an_uncertain_lag_that_is_not_there_is_refused_and_not_ignored():
+    spec = Spec.from_preset(rotors=Rotors(Rotor(0.1)))
+    assert cloud(spec, Uncertainty({"tau_p": 0.2}, samples=3)).done == 3
+    with pytest.raises(InvalidInputError, match="yaw motor's rotor follows at once") as refused:
+        cloud(spec, Uncertainty({"tau_p": 0.2, "tau_y": 0.2}, samples=3))
+    assert refused.value.field == "spread.tau_y"

@@ -1,7 +1,7 @@
 /** The feed of the cloud: few rigs at once, many at rest, one request at a time, nothing when it is off. */
 import assert from 'node:assert/strict';
 import { mock, test } from 'node:test';
-import { CloudFeed, cloudRequest, cloudWords } from '../../static/splane/cloud_feed.js';
+import { CloudFeed, cloudRequest, cloudWords, uncertain } from '../../static/splane/cloud_feed.js';
 import { designOf, Store } from '../../static/model/store.js';
 import { MACHINE } from './presets.mjs';
 
@@ -104,6 +104,16 @@ test('the request is for the motion that is played', () => {
   const design = designOf(preset);
   assert.deepEqual(cloudRequest(design, 0.1, 'psi', ['m', 'g'], 5).scenario, { reference: { psi: 0.2 }, duration: 3 });
   assert.deepEqual(cloudRequest(design, 0.1, 'both', ['m', 'g'], 5).uncertainty, { m: 0.1 });
+});
+
+test('rotors that lag are uncertain as well, and no others', () => {
+  const design = designOf(preset);
+  assert.deepEqual(uncertain(design, preset), ['K_pp', 'g']);
+  const lagging = { ...design, rotors: { pitch: { tau: 1e-9 }, yaw: { tau: 0.1 } } };
+  assert.deepEqual(uncertain(lagging, preset), ['K_pp', 'g', 'tau_y']);
+  const own = { ...preset, rotors: { pitch: { tau: 0.2 }, yaw: { tau: 0.2 } } };
+  assert.deepEqual(uncertain(lagging, own), ['K_pp', 'g', 'tau_y']);
+  assert.deepEqual(uncertain(designOf(own), own), ['K_pp', 'g', 'tau_p', 'tau_y']);
 });
 
 test('nearly all is not all', () => {
