@@ -219,6 +219,8 @@ def test_a_restarted_server_loses_nothing_and_gets_the_newest_edit_only(chromium
 
 
 def drag_without_answer(page: Page, testid: str, dx: float) -> None:
+    # an edit may have brought another view: it is drawn in the next frame
+    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
     box = page.get_by_test_id(testid).bounding_box()
     assert box is not None
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
