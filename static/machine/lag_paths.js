@@ -67,7 +67,11 @@ export class LagPaths {
   /** @param {string} key */
   async #ask(key) {
     const { design, dragging } = this.store.state;
-    if (key !== this.#key || !design || dragging) return;
+    if (key !== this.#key || !design) return;
+    if (dragging) {
+      this.#key = ''; // asked when the hand has let go
+      return;
+    }
     const lag = await lagTrack(asked(design)).catch(() => null); // what is wrong is told where it is asked for
     if (key === this.#key) this.#put(lag);
   }
