@@ -1,0 +1,167 @@
+"""What stands where in the numbers that the kernel `update` takes, and in the block that it fills."""
+
+from __future__ import annotations
+
+from ..figures import AXIS_METRICS
+from .layout import (
+    CONSTANTS,
+    CONTROLLER,
+    COURSE,
+    ESTIMATED,
+    EXPERIMENT,
+    FOLLOWED,
+    FREQUENCIES,
+    INNER,
+    LAG_WORKSPACE,
+    MARGINS,
+    MODES,
+    MORE_CONSTANTS,
+    MORE_MODES,
+    MOTOR_METRICS,
+    PLAIN,
+    POLYNOMIAL_WORKSPACE,
+    POLYNOMIALS,
+    SENSITIVITY,
+    SETTINGS,
+    WHOLE_MINORS,
+    WHOLE_POLYNOMIALS,
+    WHOLE_ROWS,
+    WORKSPACE,
+    exact_shapes,
+)
+
+# The numbers, in the contract's units. The rig: its parameters in their own order, θ₀, limits (V_p, V_y, θ; infinite
+# where there is none)
+PARAMETERS, ANGLE, LIMITS = 0, 12, 13
+# Poles asked for, real and imaginary part by turns: four, then the rotors' real ones; whether these are placed
+POLES, ROTOR_POLES, ROTORS_PLACED = 16, 24, 26
+# Which of `couplings.STRUCTURES`, whether it has a shift of its own, and that
+FAMILY, SHIFTED, SHIFT = 27, 28, 29
+# Whether PI loops are closed, k_p and T_i of pitch, of yaw, whether they are paired crosswise, whether decoupled
+PI_LOOPS, PI_GAINS, CROSSWISE, DECOUPLED = 30, 31, 35, 36
+# Rotors, pitch's and yaw's: time constants, whether their curves are quadratic, dead zones, where they are matched (0:
+# left out); friction: Coulomb's of both axes, then what holds them at rest
+LAGS, QUADRATIC, DEAD_ZONES, MATCHED, FRICTION = 37, 39, 41, 43, 45
+# What is measured (ALL_STATES, FILTERED_RATES, OBSERVED), the observer's poles as above, its family
+MEASURED, OBSERVER_POLES, OBSERVER_FAMILY = 49, 50, 58
+# The experiment: references θ, ψ and start θ, ψ, θ̇, ψ̇ (NaN: at rest at the operating point), duration, whether
+# voltages are limited, kind of anti-windup, tracking time (0: each loop's own), whether there are stops, whether the
+# trim is fed forward, tolerance
+ASKED, BEGINNING, DURATION, SATURATION, WINDUP_KIND = 59, 61, 65, 66, 67
+TRACKING_TIME, STOPS, FEEDFORWARD, RTOL = 68, 69, 70, 71
+# A digital controller: whether there is one, sample time, whether it is late, counts of both encoders, whether rates
+# are filtered; a disturbance: whether there is one, volts, and when
+DIGITAL, SAMPLE_TIME, LATE, COUNTS, RATES_FILTERED = 72, 73, 74, 75, 77
+DISTURBED, DISTURBANCE_VOLTS, DISTURBED_FROM = 78, 79, 81
+# Whether each axis is stepped alone, too; steps after which a response is given up
+EACH_AXIS, MOST_STEPS = 82, 83
+# What another method or an exact computation has found: whether K is given, K (2×6), Ĝ(0)⁻¹ (2×2), whether it has an
+# integral action of its own, that (2×2), whether it aims at the poles; whether L is given, L (4×2)
+K_GIVEN, GIVEN_K, GIVEN_INVERSE, OWN_INTEGRAL, GIVEN_INTEGRAL, AIMS = 84, 85, 97, 101, 102, 106
+L_GIVEN, GIVEN_L, NUMBERS = 107, 108, 116
+
+# How an update ended: all is filled; K takes exact numbers, as a closed form would lose digits; the motors act alike; the
+# family is none of this rig's; a dead zone reaches beyond its motor's limit; a thrust curve has no slope at the trim, or
+# a rotor no lag, so that it cannot be placed; eigenvalues were not found
+DONE, EXACT, UNCONTROLLABLE, NO_STRUCTURE, NO_CURVE, NO_SLOPE, NO_EIGENVALUES = range(7)
+
+# Figures, in one row: det Ĝ(0)⁻¹ (0 where a pole lies at 0), whether the placed poles are stable, ‖K‖_F, ‖K‖₂, κ₂ of
+# the eigenvectors (NaN where there are too few), the pole error and its bound, whether these take exact numbers, λ₁₁
+# (NaN without steady state), whether the loop is stable, its lag margin (infinite where there is none), how many of its
+# states are connected
+DETERMINANT, PLACED_STABLE, NORM, SPECTRAL_NORM, CONDITION, POLE_ERROR, POLE_ERROR_BOUND, DOUBTFUL = range(8)
+RELATIVE_GAIN, STABLE, LAG_MARGIN, CONNECTED, FIGURES = 8, 9, 10, 11, 12
+
+# The estimator, rows of one array: F (6×6), G (6×2), H (6×2), x̂ by w (6×6) and by angles (6×2)
+ESTIMATOR_F, ESTIMATOR_G, ESTIMATOR_H, BY_STATE, BY_ANGLE, ESTIMATOR_COLUMNS = 0, 6, 8, 10, 16, 18
+RUNS = 3
+"""Most experiments: the scenario, and each axis alone."""
+
+Shape = tuple[int, ...]
+
+
+def block_shapes(size: int, samples: int) -> dict[str, tuple[Shape, str]]:
+    """What `update` fills, in the order of its arguments: shapes and kinds (float64, complex128).
+
+    `outcome` is how it ended and the number of runs; K has six columns, of which four states leave the last two 0;
+    `closed` are the placed poles in the order of those asked for; `law`, `whole` and `driven` are ∂u/∂ states, A and B
+    of the loop with the states at their places (`layout`), `by_reference` is ∂u/∂r; `poles` and, without those of
+    integrals that drive nothing, `connected` are the loop's, slowest first; `calm_axes` and `calm_courses` are of the
+    rig without the disturbance.
+    """
+    n, real, both = size, "float64", "complex128"
+    return {
+        "outcome": ((2,), real),
+        "A": ((4, 4), real),
+        "B": ((4, 2), real),
+        "trim": ((2,), real),
+        "actuators": ((12,), real),
+        "K": ((2, 6), real),
+        "inverse": ((2, 2), real),
+        "closed": ((6,), both),
+        "figures": ((FIGURES,), real),
+        "proportional": ((2, 2), real),
+        "integral": ((2, 2), real),
+        "feedforward": ((2, 2), real),
+        "by_reference": ((2, 2), real),
+        "law": ((2, n), real),
+        "whole": ((n, n), real),
+        "driven": ((n, 2), real),
+        "poles": ((n,), both),
+        "connected": ((n,), both),
+        "L": ((4, 2), real),
+        "estimator_poles": ((4,), both),
+        "margins": ((2, MARGINS), real),
+        "sensitivity": ((SENSITIVITY,), real),
+        "t": ((samples,), real),
+        "experiments": ((RUNS, EXPERIMENT), real),
+        "linear": ((RUNS, n + 1, samples), real),
+        "nonlinear": ((RUNS, n, samples), real),
+        "voltages": ((RUNS, 2, 2, samples), real),
+        "axes": ((RUNS, 2, 2, AXIS_METRICS), real),
+        "motors": ((RUNS, 2, 2, MOTOR_METRICS), real),
+        "courses": ((RUNS, 2, COURSE), real),
+        "calm_axes": ((RUNS, 2, AXIS_METRICS), real),
+        "calm_courses": ((RUNS, COURSE), real),
+    }
+
+
+def scratch_shapes(size: int, samples: int) -> dict[str, tuple[Shape, str]]:
+    """What it writes into and nobody reads afterwards, in the order of its arguments, behind the block."""
+    n, real, both, whole = size, "float64", "complex128", "int64"
+    matrices, ladder, nodes = exact_shapes(size)
+    constants, modes = (CONSTANTS, MODES) if n == PLAIN else (MORE_CONSTANTS, MORE_MODES)
+    return {
+        "w": (WORKSPACE, real),
+        "v": (matrices, real),
+        "ladder": (ladder, real),
+        "nodes": (nodes, real),
+        "followed": ((2 * FOLLOWED[0], FOLLOWED[1]), real),
+        "c": ((constants,), real),
+        "m": ((modes,), whole),
+        "plant": ((constants,), real),
+        "free": ((modes,), whole),
+        "raw": ((samples + 2, n), real),
+        "grid": ((samples + 2,), real),
+        "sampled": ((samples, n), real),
+        "held": ((samples, 2), real),
+        "f": (POLYNOMIALS, real),
+        "opened": (POLYNOMIALS, real),
+        "f_whole": (WHOLE_POLYNOMIALS, real),
+        "rows": (WHOLE_ROWS, real),
+        "minors": (WHOLE_MINORS, real),
+        "p": (POLYNOMIAL_WORKSPACE, real),
+        "lag": (LAG_WORKSPACE, real),
+        "frequencies": ((3, FREQUENCIES), real),
+        "controller": (CONTROLLER, real),
+        "more": ((MORE_CONSTANTS - CONSTANTS,), real),
+        "inner": ((2, INNER), real),
+        "settings": ((SETTINGS,), real),
+        "estimator": ((6, ESTIMATOR_COLUMNS), real),
+        "estimated": (ESTIMATED, real),
+        "square": ((n + 2, n), real),
+        "column": ((2, n), real),
+        "motors_of": ((2, n, 2), real),
+        "vectors": ((3, 6, 6), both),
+        "exponential": ((80, 10), real),
+    }
