@@ -49,7 +49,6 @@ from .update_layout import (
     GIVEN_L,
     L_GIVEN,
     MEASURED,
-    OBSERVER_FAMILY,
     OBSERVER_POLES,
     PARAMETERS,
     ROTORS_PLACED,
@@ -84,7 +83,7 @@ def observer(numbers, d, L):
         else:
             d[2 * pair], d[2 * pair + 1] = re * re + im * im, -2.0 * re
     p = numbers[PARAMETERS : PARAMETERS + 12]
-    full_rank_observer(int(numbers[OBSERVER_FAMILY]), d[:4], p, numbers[ANGLE], L)
+    full_rank_observer(d[:4], p, numbers[ANGLE], L)
 
 
 @kernel

@@ -1,8 +1,8 @@
 """Eigenvectors of a real matrix from its Schur form, and how far rounding can move its eigenvalues.
 
-Golub and Van Loan, Matrix Computations, 4th ed. (2013), section 7.6.4 (back substitution); Bauer and Fike, Numer. Math.
-2 (1960) 137 (an eigenvalue moves by κ(V) ‖E‖ at most); Demmel and Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204
-(one-sided Jacobi: small singular values keep their digits).
+Golub and Van Loan, Matrix Computations, 4th ed. (2013), section 7.6.4 (back substitution); Bauer and Fike, Numer.
+Math. 2 (1960) 137 (an eigenvalue moves by κ(V) ‖E‖ at most); Demmel and Veselić, SIAM J. Matrix Anal. Appl. 13 (1992)
+1204 (one-sided Jacobi: small singular values keep their digits).
 """
 
 from __future__ import annotations
@@ -31,32 +31,32 @@ def schur_vectors(t, z, real, imaginary, y, vectors):
     least = max(EPS * norm, 1e-290)
     k = 0
     while k < n:
-        pair = imaginary[k] != 0.0
-        value = complex(real[k], imaginary[k])
-        last = k + 1 if pair else k
-        for i in range(n):
-            y[i] = 0.0
-        if pair:
-            # the larger off-diagonal entry gives the null vector of the block minus its eigenvalue
-            if abs(t[k, last]) >= abs(t[last, k]):
-                y[k], y[last] = 1.0, (value - t[k, k]) / t[k, last]
-            else:
-                y[k], y[last] = (value - t[last, last]) / t[last, k], 1.0
-        else:
+        last = k + 1 if k + 1 < n and t[k + 1, k] != 0.0 else k  # a block of two, complex or real
+        for own in range(k, last + 1):
+            if imaginary[own] < 0.0:
+                for i in range(n):
+                    vectors[i, own] = vectors[i, own - 1].conjugate()
+                continue
+            value = complex(real[own], imaginary[own])
+            for i in range(n):
+                y[i] = 0.0
             y[k] = 1.0
-        substitute(t, value, k, least, y)
-        total = 0.0
-        for i in range(n):
-            entry = complex(0.0, 0.0)
-            for j in range(last + 1):
-                entry += z[i, j] * y[j]
-            vectors[i, k] = entry
-            total += squared(entry)
-        length = 1.0 / sqrt(total)
-        for i in range(n):
-            vectors[i, k] *= length
-            if pair:
-                vectors[i, last] = vectors[i, k].conjugate()
+            if last > k:
+                # of the block's two rows the larger one tells its null vector
+                if abs(t[k, k] - value) + abs(t[k, last]) >= abs(t[last, last] - value) + abs(t[last, k]):
+                    y[k], y[last] = t[k, last], value - t[k, k]
+                else:
+                    y[k], y[last] = value - t[last, last], t[last, k]
+            substitute(t, value, k, least, y)
+            total = 0.0
+            for i in range(n):
+                entry = complex(0.0, 0.0)
+                for j in range(last + 1):
+                    entry += z[i, j] * y[j]
+                vectors[i, own] = entry
+                total += squared(entry)
+            for i in range(n):
+                vectors[i, own] /= sqrt(total)
         k = last + 1
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from math import copysign, hypot, isfinite, nan, sqrt
 
 from ..couplings import NEGLIGIBLE
-from .derived import full_rank_gain, full_rank_gain_with_rotors, rig_model
+from .derived import full_rank_gain, rig_model
+from .derived_rotors import full_rank_gain_with_rotors
 from .eigenvalues import EPS, balance, francis, in_range, to_hessenberg
 from .eigenvectors import condition_in_2_norm, condition_in_frobenius_norm, schur_vectors, squared
 from .jit import kernel

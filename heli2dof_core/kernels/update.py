@@ -112,8 +112,8 @@ def update(
     figures[DETERMINANT] = steady_state_determinant(numbers, A, thrust, actuators, K, inverse)
     measure_gain(numbers, A, B, actuators, K, inverse, figures)
     count = closed_loop(A, thrust, placed, actuators, K, squares[0], squares[1])
-    found = judge(numbers, count, squares[0, :count, :count], squares[1, :count, :count], column, squares[2:], vectors,
-                  closed, figures)  # fmt: skip
+    own, terms = squares[0, :count, :count], squares[1, :count, :count]
+    found = judge(numbers, count, own, terms, column, squares[2:], vectors, closed, figures)
     if not (found and poles_of(A, 4, squares[0], column, own_poles)):
         outcome[0] = float(NO_EIGENVALUES)
         return
@@ -269,9 +269,9 @@ def sort_slowest_first(poles, n):
 
 @kernel
 def connected_states(n, actuators, kind, integral, order, whole, work):
-    """The loop's A without states that are none of it into `work`; how many are left, and how many integrals drive nothing.
+    """The loop's A by its own states into `work`; how many they are, and how many integrals drive nothing.
 
-    No part of a loop are places that its rig leaves empty, and integrals that drive no motor.
+    These are no part of a loop, nor are places that its rig leaves empty.
     """
     rows, apart = 0, 0
     for i in range(n):
@@ -334,15 +334,7 @@ def rig_numbers(numbers, rig):
     """`layout`'s constants of the rig, from K_PP on, of its parameters as they stand in `Parameters`."""
     for k in range(4):
         rig[k] = numbers[PARAMETERS + k]
-    J_p, J_y, m, l, B_p, B_y, K_s, g = (
-        numbers[PARAMETERS + 4],
-        numbers[PARAMETERS + 5],
-        numbers[PARAMETERS + 6],
-        numbers[PARAMETERS + 7],
-        numbers[PARAMETERS + 8],
-        numbers[PARAMETERS + 9],
-        numbers[PARAMETERS + 10],
-        numbers[PARAMETERS + 11],
-    )
-    rig[4], rig[5], rig[6], rig[7] = J_p + m * (l * l), J_y, m * (l * l), m * g * l
-    rig[8], rig[9], rig[10] = B_p, B_y, K_s
+    own = numbers[PARAMETERS + 4 :]
+    mass, arm = own[2], own[3]
+    rig[4], rig[5], rig[6] = own[0] + mass * (arm * arm), own[1], mass * (arm * arm)
+    rig[7], rig[8], rig[9], rig[10] = mass * own[7] * arm, own[4], own[5], own[6]

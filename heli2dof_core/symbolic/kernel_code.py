@@ -153,7 +153,11 @@ def _members() -> Iterator[tuple[Structure, bool]]:
 
 
 def _name(structure: Structure, shifted: bool) -> str:
-    own = f"{structure.lead}_leads" if structure.coupling == "triangular" else structure.coupling.replace("-", "_")
+    own = (
+        f"{structure.lead}_leads"
+        if structure.coupling == "triangular"
+        else structure.coupling.replace("-", "_")
+    )
     return f"{own}_shifted" if shifted else own
 
 
