@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import floor, pi
+from math import floor
 
 from .derived import full_rank_observer
 from .jit import kernel
@@ -14,6 +14,8 @@ from .layout import (
     CONSTANTS,
     ESTIMATOR,
     FED,
+    FILTER_DAMPING,
+    FILTER_FREQUENCY,
     FILTERED_RATES,
     FULL,
     K_STATES,
@@ -53,10 +55,6 @@ from .update_layout import (
     PARAMETERS,
     ROTORS_PLACED,
 )
-
-FILTER_FREQUENCY = 2.0 * pi * 20.0
-"""Natural frequency of the rig's rate filters, rad/s (Quanser 2-DOF Helicopter, laboratory manual)."""
-FILTER_DAMPING = 0.85
 
 
 @kernel

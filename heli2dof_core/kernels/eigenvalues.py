@@ -48,7 +48,7 @@ def in_range(a):
 
 @kernel
 def balance(a, units):
-    """D⁻¹ a D with powers of 2 in D, so that rows and columns are of like size in the 2-norm; `units` is D's diagonal."""
+    """D⁻¹ a D with powers of 2 in D, so that rows and columns are of like size in the 2-norm; D's diagonal: `units`."""
     n = len(a)
     for i in range(n):
         units[i] = 1.0
@@ -194,7 +194,7 @@ def pair_of(h, end, real, imaginary):
 
 @kernel
 def double_step(h, start, end, steps, z):
-    """One implicit double step on the block from `start` to `end`, of at least three rows; z turns as in `francis`."""
+    """One implicit double step on the block from `start` to `end`, of three rows or more; z turns as in `francis`."""
     n = len(h)
     if steps % 10 == 0:  # an exceptional one breaks cycles
         s = abs(h[end, end - 1]) + abs(h[end - 1, end - 2])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import inf, isnan, pi, sqrt
 
-from .augmented import FILTER_FREQUENCY, inner_start, rate_filter
+from .augmented import inner_start, rate_filter
 from .digital import run_digital
 from .experiment import run_linear, run_nonlinear
 from .jit import copy_into, kernel
@@ -18,6 +18,7 @@ from .layout import (
     DELAY,
     DISTURBANCE,
     FED,
+    FILTER_FREQUENCY,
     FILTERED,
     NO_ANTI_WINDUP,
     OWN,
