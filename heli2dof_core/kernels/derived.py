@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from math import cos, sin
 
-from .jit import kernel
+from .jit import keep_apart, kernel
 
 
 @kernel
@@ -75,6 +75,7 @@ def rig_model(p, theta_0, A, B, trim):
 @kernel
 def full_rank_gain(family, shifted, d, p, theta_0, c, K, inverse):
     """K, into the first four columns of what is given, and Ĝ(0)⁻¹, 2×2, of four states."""
+    keep_apart()
     rig = entries(p, theta_0)
     if family == 0:
         if shifted:

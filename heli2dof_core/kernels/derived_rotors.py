@@ -12,12 +12,13 @@ whether all is finite.
 from __future__ import annotations
 
 from .derived import entries
-from .jit import kernel
+from .jit import keep_apart, kernel
 
 
 @kernel
 def full_rank_gain_with_rotors(family, shifted, d, p, theta_0, tau, c, K, inverse):
     """K, 2×6, and Ĝ(0)⁻¹, 2×2, of six states; thrust constants in p are times the curves' slopes φ′."""
+    keep_apart()
     rig = entries(p, theta_0)
     if family == 0:
         if shifted:
