@@ -29,8 +29,8 @@ from .reading import (
     monomial_out,
     observer_in_letters,
     paper_gain_in_letters,
+    parts,
     plant_in_letters,
-    terms,
 )
 from .rotors import COEFFICIENTS
 
@@ -215,7 +215,7 @@ def _written(matrix: DomainMatrix) -> sp.Matrix:
 def _entry(element: Any) -> sp.Expr:
     """Σ polynomial × (thrusts and c, over thrusts and Δ), each polynomial once."""
     sums: dict[Any, tuple[sp.Expr, sp.Expr]] = {}
-    for coefficient, outer in terms(element):
+    for coefficient, outer in parts(element):
         content, rest, shared = monomial_out(coefficient)
         own, rates = shared.as_independent(*RATES)
         key = (frozenset(rest.terms()), own)
