@@ -2,10 +2,10 @@
 
 Made of the derivation by `python -m tests.kernel_formulas`; not to be changed by hand.
 
-Arguments are p, the parameters in the order of `parameters.PARAMETER_INFO`; theta_0, rad; d, the coefficients of the
-desired polynomials, d₁₀, d₁₁ …, d₂₀, d₂₁ …, the leading 1 left out; c, the basis' shift, where `shifted`; `family`,
-where a structure stands in `couplings.STRUCTURES`. A division by zero gives an infinity or NaN: callers look
-whether all is finite.
+p: the parameters, in the order of `parameters.PARAMETER_INFO`; theta_0: rad; d: coefficients of the desired
+polynomials, d₁₀, d₁₁ …, d₂₀, d₂₁ …, the leading 1 left out; tau: both rotors' time constants, s; family: where the
+structure stands in `couplings.STRUCTURES`; c: the basis' shift, looked at where `shifted`. Nothing is checked: where
+there is no such structure something is divided by zero.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .jit import keep_apart, kernel
 
 @kernel
 def entries(p, theta_0):
-    """a, b_11, b_12, b_21, b_22, nu_p, nu_y, Delta: of what A and B are made; Delta is the determinant of B's lower half."""
+    """a, b_11, b_12, b_21, b_22, nu_p, nu_y, Delta: what A and B are made of; Delta is B₂'s determinant."""
     K_pp, K_py, K_yp, K_yy, J_p, J_y = p[0], p[1], p[2], p[3], p[4], p[5]
     m, l, B_p, B_y, K_s, g = p[6], p[7], p[8], p[9], p[10], p[11]
     sin_0 = sin(theta_0)

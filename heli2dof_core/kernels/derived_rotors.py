@@ -2,11 +2,10 @@
 
 Made of the derivation by `python -m tests.kernel_formulas`; not to be changed by hand.
 
-Arguments are p, the parameters in the order of `parameters.PARAMETER_INFO`; theta_0, rad; d, the coefficients of the
-desired polynomials, d₁₀, d₁₁ …, d₂₀, d₂₁ …, the leading 1 left out; c, the basis' shift, where `shifted`; `family`,
-where a structure stands in `couplings.STRUCTURES`; tau, both rotors'
-time constants, s. A division by zero gives an infinity or NaN: callers look
-whether all is finite.
+p: the parameters, in the order of `parameters.PARAMETER_INFO`; theta_0: rad; d: coefficients of the desired
+polynomials, d₁₀, d₁₁ …, d₂₀, d₂₁ …, the leading 1 left out; tau: both rotors' time constants, s; family: where the
+structure stands in `couplings.STRUCTURES`; c: the basis' shift, looked at where `shifted`. Nothing is checked: where
+there is no such structure something is divided by zero.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from .jit import keep_apart, kernel
 
 @kernel
 def full_rank_gain_with_rotors(family, shifted, d, p, theta_0, tau, c, K, inverse):
-    """K, 2×6, and Ĝ(0)⁻¹, 2×2, of six states; thrust constants in p are times the curves' slopes φ′."""
+    """K, 2×6, and Ĝ(0)⁻¹, 2×2, of six states; the thrust constants in p are times the curves' slopes φ′."""
     keep_apart()
     rig = entries(p, theta_0)
     if family == 0:
