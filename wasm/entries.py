@@ -1,4 +1,4 @@
-"""Which kernels the module exports, for which types of arguments: add a name here, and build."""
+"""Which kernels the module exports: add a name here, and build."""
 
 from __future__ import annotations
 
@@ -19,43 +19,28 @@ ENTRIES = (
     "lag_margin",
     "eigenvalues",
 )
-"""Names in `heli2dof_core.kernels.jit.ENTRIES`."""
+"""Names in `heli2dof_core.kernels.jit.ENTRIES`, which are those of the module's functions."""
 
 
-class Variant(NamedTuple):
-    """A kernel for some types of arguments.
+class Entry(NamedTuple):
+    """A kernel with an example of its arguments: it is compiled for their types."""
 
-    Attributes:
-        export: its name in the module.
-        kernel: its name in `jit.ENTRIES`.
-        arguments: an example, as in `jit.EXAMPLES`.
-    """
-
-    export: str
-    kernel: str
+    name: str
     arguments: tuple[Any, ...]
 
 
-def variants() -> Iterator[Variant]:
-    """All that is exported. Of kernels for several sizes two: for 6 states, and for any number.
+def entries() -> Iterator[Entry]:
+    """All that is exported. Of a kernel for several sizes it is the one that takes any, an array of zeros as `size`.
 
-    A tuple of zeros as `size` unrolls the loops over the states, for which 6 states are worth their place; the array
-    of zeros serves all others.
+    It gives the same digits as those whose loops over the states are unrolled, for 6 states in a tenth more time, and
+    half of the module would be theirs.
     """
     from heli2dof_core import kernels
     from heli2dof_core.kernels.jit import EXAMPLES
-    from heli2dof_core.kernels.layout import PLAIN
 
     for module in iter_modules(kernels.__path__, f"{kernels.__name__}."):
         import_module(module.name)
     for name in ENTRIES:
-        examples = [example() for example in EXAMPLES[name]]
-        if len(examples) == 1:
-            yield Variant(name, name, examples[0])
-            continue
-        for arguments in examples:
-            size = arguments[0]
-            if not isinstance(size, tuple):
-                yield Variant(f"{name}_any", name, arguments)
-            elif len(size) == PLAIN:
-                yield Variant(f"{name}_{PLAIN}", name, arguments)
+        for arguments in (example() for example in EXAMPLES[name]):
+            if not any(isinstance(argument, tuple) for argument in arguments):
+                yield Entry(name, arguments)

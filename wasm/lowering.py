@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
-from wasm.entries import Variant
+from wasm.entries import Entry
 
 PICKLED = re.compile(r"ptr @\.const\.picklebuf\.[0-9a-f.]+(?=[,\s])")
 """What an exception says, pickled: only Python could read it."""
@@ -19,23 +18,21 @@ class Lowered(NamedTuple):
     """A kernel with all that it calls.
 
     Attributes:
-        export: its name in the module.
+        name: of the kernel, and in the module.
         symbol: the function's name in the text.
         text: LLVM's intermediate language, not optimised.
-        names: of the arguments.
-        takes: their types, Numba's.
+        takes: the arguments' names and types, Numba's.
         returns: the type that it returns, Numba's.
     """
 
-    export: str
+    name: str
     symbol: str
     text: str
-    names: tuple[str, ...]
-    takes: tuple[Any, ...]
+    takes: dict[str, Any]
     returns: Any
 
 
-def lower(variant: Variant) -> Lowered:
+def lower(entry: Entry) -> Lowered:
     """Numba's intermediate language of a kernel; its process must not optimise (NUMBA_OPT=0).
 
     Raises:
@@ -49,18 +46,17 @@ def lower(variant: Variant) -> Lowered:
     settings: Any = typed  # made from the environment, unseen by type checkers
     if int(settings.OPT) != 0:
         raise RuntimeError("Set NUMBA_OPT=0: what Numba optimises is for this machine. `python -m wasm` does it.")
-    dispatcher: Any = ENTRIES[variant.kernel]
-    types = tuple(numba.typeof(argument) for argument in variant.arguments)
+    dispatcher: Any = ENTRIES[entry.name]
+    types = tuple(numba.typeof(argument) for argument in entry.arguments)
     with warnings.catch_warnings():
         # addresses of this process stand in the text until it is optimised, which keeps Numba from caching it
         warnings.filterwarnings("ignore", "Cannot cache compiled function")
         dispatcher.compile(types)
-    overload = dispatcher.overloads[types]
-    names = dispatcher.py_func.__code__.co_varnames[: len(types)]
+    made = dispatcher.overloads[types]
+    names = dispatcher.py_func.__code__.co_varnames
+    takes = dict(zip(names, types, strict=False))  # variables of its own follow
     text = dispatcher.inspect_llvm(types)
-    return Lowered(
-        variant.export, overload.fndesc.llvm_func_name, text, names, types, overload.signature.return_type
-    )
+    return Lowered(entry.name, made.fndesc.llvm_func_name, text, takes, made.signature.return_type)
 
 
 def retargeted(text: str, triple: str, layout: str) -> str:
@@ -68,12 +64,3 @@ def retargeted(text: str, triple: str, layout: str) -> str:
     text = re.sub(r'(?m)^target datalayout = ".*"$', f'target datalayout = "{layout}"', text)
     text = re.sub(r'(?m)^target triple = ".*"$', f'target triple = "{triple}"', text)
     return INSTRUCTIONS.sub(r"@llvm.\1.f64(", PICKLED.sub("ptr null", text))
-
-
-def lower_all(variants: Sequence[Variant], told: Callable[[str], None]) -> list[Lowered]:
-    """All of them, one after the other."""
-    done = []
-    for variant in variants:
-        told(f"Compiling {variant.export}")
-        done.append(lower(variant))
-    return done

@@ -18,11 +18,13 @@ MATH = ("atan2", "cos", "exp", "exp2", "fmod", "hypot", "log", "log2", "pow", "s
 """What the module may import, from `env`: JavaScript has all of these (static/kernel/module.js)."""
 STACK = 65536
 """Bytes. It lies at the beginning of the memory, so that a stack that grows too large ends the call."""
+NEVER = -10_000
+"""How much smaller than a call a function has to be to be inlined before it was optimised itself."""
 
 
 def build(kernels: Sequence[Lowered]) -> bytes:
     """The module: exports each kernel by its name, `memory`, and `__heap_base`, behind which the memory is free."""
-    return link(emit(kernels), [kernel.export for kernel in kernels])
+    return link(emit(kernels), [kernel.name for kernel in kernels])
 
 
 def emit(kernels: Sequence[Lowered]) -> bytes:
@@ -46,7 +48,7 @@ def joined(kernels: Sequence[Lowered], layout: str) -> Any:
             whole = part
         else:
             whole.link_in(part)
-    exports = {kernel.symbol: kernel.export for kernel in kernels}
+    exports = {kernel.symbol: kernel.name for kernel in kernels}
     for variable in whole.global_variables:
         if not variable.is_declaration:
             variable.linkage = "internal"
@@ -59,14 +61,22 @@ def joined(kernels: Sequence[Lowered], layout: str) -> Any:
 
 
 def optimise(module: Any, machine: Any) -> None:
-    """As -Os does."""
-    options: Any = llvm.create_pipeline_tuning_options(speed_level=2)
-    options.loop_vectorization = options.slp_vectorization = False
-    builder: Any = llvm.create_pass_builder(machine, options)
+    """As -Os does, twice: what is called more than once gets small first, and only then is inlined or not."""
     unused: Any = llvm.create_new_module_pass_manager()
     unused.add_global_dead_code_eliminate_pass()  # Python's wrappers above all
-    unused.run(module, builder)
-    builder.getModulePassManager().run(module, builder)
+    unused.run(module, passes(machine))
+    for inlining in (False, True):
+        builder = passes(machine, inlining)
+        builder.getModulePassManager().run(module, builder)
+
+
+def passes(machine: Any, inlining: bool = True) -> Any:
+    """LLVM's passes without its vectorizers: the browser's compiler is asked for nothing beyond plain numbers."""
+    options: Any = llvm.create_pipeline_tuning_options(speed_level=2)
+    options.loop_vectorization = options.slp_vectorization = False
+    if not inlining:
+        options.inlining_threshold = NEVER
+    return llvm.create_pass_builder(machine, options)
 
 
 def link(compiled: bytes, exports: Sequence[str]) -> bytes:

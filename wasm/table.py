@@ -12,12 +12,11 @@ HEAD = """/**
  * What the functions of kernels.wasm take and return, in order. Made with it by `python -m wasm`; not to be changed by
  * hand.
  *
- * @typedef {'f64' | 'i64' | 'c128' | 'bool'} Scalar  c128: two f64
+ * @typedef {'f64' | 'i64' | 'c128' | 'bool'} Scalar  c128: two f64, in arrays alone
  * @typedef {object} Parameter
  * @property {string} name
  * @property {Scalar} type  of an array's elements, or of the value
  * @property {number} [dimensions]  of an array, rows first
- * @property {number} [zeros]  so many zeros, whatever is given
  * @typedef {object} Signature
  * @property {Parameter[]} takes
  * @property {Scalar} [returns]
@@ -40,8 +39,8 @@ def script(kernels: Sequence[Lowered], module: bytes, sources: str, tools: Mappi
 def _signature(kernel: Lowered) -> str:
     returned = _returned(kernel.returns)
     last = f"    returns: '{returned}',\n" if returned else ""
-    takes = (_parameter(name, kind) for name, kind in zip(kernel.names, kernel.takes, strict=True))
-    return f"  {kernel.export}: {{\n    takes: [\n{''.join(takes)}    ],\n{last}  }},\n"
+    takes = (_parameter(name, kind) for name, kind in kernel.takes.items())
+    return f"  {kernel.name}: {{\n    takes: [\n{''.join(takes)}    ],\n{last}  }},\n"
 
 
 def _parameter(name: str, kind: Any) -> str:
@@ -52,14 +51,16 @@ def _parameter(name: str, kind: Any) -> str:
         if kind.layout != "C":
             raise TypeError(f"{name}: arrays are told to JavaScript row by row, this one is {kind}")
         kind, more = kind.dtype, f", dimensions: {kind.ndim}"
-    elif isinstance(kind, types.UniTuple):
-        kind, more = kind.dtype, f", zeros: {kind.count}"
+    elif kind not in (types.float64, types.int64):
+        raise TypeError(f"{name}: JavaScript gives arrays, floats and integers, not {kind}")
     return f"      {{ name: '{name}', type: '{_scalar(kind)}'{more} }},\n"
 
 
 def _returned(kind: Any) -> str:
     from numba import types
 
+    if kind == types.complex128:
+        raise TypeError("Complex numbers are returned in arrays alone")
     return "" if kind == types.none else _scalar(kind)
 
 

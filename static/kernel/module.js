@@ -168,8 +168,7 @@ export class Kernels {
 }
 
 /** @param {Parameter} parameter @param {Values} values @returns {(number | bigint)[]} */
-function flattened({ name, type, dimensions, zeros }, values) {
-  if (zeros !== undefined) return Array.from({ length: zeros }, () => 0n);
+function flattened({ name, type, dimensions }, values) {
   const value = values[name];
   if (dimensions === undefined) {
     if (typeof value !== 'number') throw new TypeError(`${name} is a number`);

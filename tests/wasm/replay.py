@@ -20,7 +20,6 @@ from typing import Any
 import numpy as np
 
 from heli2dof_core import engine as engines
-from heli2dof_core.kernels.layout import PLAIN
 from tests.children import ROOT
 from wasm.entries import ENTRIES
 
@@ -35,20 +34,6 @@ class Call:
     before: dict[str, Any]
     after: dict[str, Any]
     returned: Any
-
-    @property
-    def export(self) -> str:
-        """Its name in the module."""
-        size = self.before.get("size")
-        if size is None:
-            return self.kernel
-        plain = isinstance(size, tuple) and len(size) == PLAIN
-        return f"{self.kernel}_{PLAIN if plain else 'any'}"
-
-    @property
-    def arrays(self) -> list[str]:
-        """Names of the arguments that a kernel could have filled."""
-        return [name for name, value in self.before.items() if isinstance(value, np.ndarray)]
 
 
 @dataclass(frozen=True)
@@ -127,18 +112,15 @@ def _written(folder: Path, calls: Sequence[Call], repeat: int) -> list[dict[str,
         for call in calls:
             takes, own = {}, {}
             for name, value in call.before.items():
-                if isinstance(value, tuple):  # `size`, a tuple for Numba alone
-                    value = np.zeros(len(value))  # noqa: PLW2901
-                    if call.export.endswith(f"_{PLAIN}"):
-                        continue
-                if isinstance(value, np.ndarray):
-                    takes[name] = (TYPES[value.dtype.name], value.shape, at)
-                    if name in call.arrays:
+                if isinstance(value, tuple | np.ndarray):
+                    array = np.zeros(len(value)) if isinstance(value, tuple) else value  # the first is `size`
+                    takes[name] = (TYPES[array.dtype.name], array.shape, at)
+                    if isinstance(value, np.ndarray):
                         own[name] = at
-                    at += data.write(value.tobytes())
+                    at += data.write(array.tobytes())
                 else:
                     takes[name] = str(value).replace("inf", "Infinity")
-            tasks.append({"kernel": call.export, "takes": takes, "repeat": repeat})
+            tasks.append({"kernel": call.kernel, "takes": takes, "repeat": repeat})
             places.append(own)
     (folder / "calls.json").write_text(json.dumps(tasks), "utf-8")
     return places
