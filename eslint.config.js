@@ -5,7 +5,7 @@ import globals from 'globals';
 /** The page's rooms, floor by floor: a module imports from rooms on floors below alone, and through their index.js. */
 const FLOORS = [
   ['text'],
-  ['model', 'net'],
+  ['model', 'net', 'kernel'],
   ['ui', 'link'],
   ['charts'],
   ['plots', 'splane', 'scene', 'recordings', 'tour', 'panels'],

@@ -1,0 +1,2 @@
+/** What other rooms may import of kernel/. */
+export { Block, compiled, instantiated, KernelError, Kernels, MODULE } from './module.js';
