@@ -79,7 +79,7 @@ def modules() -> dict[str, str]:
 
 def _entries() -> str:
     own = {x: value.subs({phi_p: 1, phi_y: 1}) for x, value in ENTRIES.items()}
-    (b_11, b_12), (b_21, b_22) = plant_in_letters()[1].to_Matrix()[2:, :].tolist()
+    (b_11, b_12), (b_21, b_22) = plant_in_letters()[1].to_Matrix().tolist()[2:]
     known = linear_model().definitions
     values = {
         **{x: known[x] for x in (alpha, beta_0, a)},
@@ -221,14 +221,19 @@ def _entry(element: Any) -> sp.Expr:
 
 def _shared(targets: Mapping[str, sp.Expr]) -> list[str]:
     """Assignments; what recurs has a name of its own."""
+    found: Any
+    left: Any
     found, left = sp.cse([*targets.values()], symbols=sp.numbered_symbols("y_"))
-    own, known, numbered = {}, {}, sp.numbered_symbols("x_", start=1)
+    own: dict[str, Any] = {}
+    known: dict[Any, Any] = {}
+    numbered = sp.numbered_symbols("x_", start=1)
     for symbol, value in found:
         if (-value).is_Symbol:  # a sign is not worth a name
             known[symbol] = value.xreplace(known)
         else:
             name = next(numbered)
-            own[str(name)], known[symbol] = value.xreplace(known), name
+            own[str(name)] = value.xreplace(known)
+            known[symbol] = name
     return _assigned({**own, **dict(zip(targets, (value.xreplace(known) for value in left), strict=True))})
 
 
