@@ -8,15 +8,7 @@ from pkgutil import iter_modules
 from typing import Any, NamedTuple
 
 ENTRIES = (
-    "run_experiments",
-    "run_nonlinear",
-    "run_digital",
-    "polynomial_matrices",
-    "whole_polynomials",
-    "is_stable",
-    "margins",
-    "sensitivity_peaks",
-    "lag_margin",
+    "update",
     "eigenvalues",
 )
 """Names in `heli2dof_core.kernels.jit.ENTRIES`, which are those of the module's functions."""
