@@ -75,19 +75,9 @@ def _load(package: str) -> Engine:
     for module in iter_modules(home.__path__, f"{home.__name__}."):
         import_module(module.name)
     functions = import_module(f"{home.__name__}.jit").ENTRIES
-<<<<<<< HEAD
-    if package == "interpreted":  # NumPy's scalars warn where a response grows without bound
-        functions = {
-            name: np.errstate(over="ignore", invalid="ignore", divide="ignore")(f)
-            for name, f in functions.items()
-        }
-=======
-    if (
-        package == "interpreted"
-    ):  # NumPy's scalars warn where a response grows without bound, or of a division by 0
+    if package == "interpreted":  # NumPy's scalars warn where a response grows without bound, or 0 divides
         ignored: Any = dict.fromkeys(("over", "invalid", "divide"), "ignore")
         functions = {name: np.errstate(**ignored)(f) for name, f in functions.items()}
->>>>>>> w18-derived
     return Engine(compiled=package == "kernels", **functions)
 
 

@@ -33,6 +33,9 @@ def entries() -> Iterator[Entry]:
     for module in iter_modules(kernels.__path__, f"{kernels.__name__}."):
         import_module(module.name)
     for name in ENTRIES:
-        for arguments in (example() for example in EXAMPLES[name]):
-            if not any(isinstance(argument, tuple) for argument in arguments):
-                yield Entry(name, arguments)
+        examples = (example() for example in EXAMPLES[name])
+        yield next(
+            Entry(name, arguments)
+            for arguments in examples
+            if not any(isinstance(argument, tuple) for argument in arguments)
+        )
