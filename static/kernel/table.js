@@ -1,6 +1,6 @@
 /**
- * What the functions of kernels.wasm take and return, in order. Made with it by `python -m wasm`; not to be changed by
- * hand.
+ * What the functions of kernels.wasm take, in order, and return. Made with it by `python -m wasm`; not to be
+ * changed by hand.
  *
  * @typedef {'f64' | 'i64' | 'c128' | 'bool'} Scalar  c128: two f64, in arrays alone
  * @typedef {object} Parameter
@@ -168,12 +168,12 @@ export const SIGNATURES = {
 };
 
 /** Checksums of what it was made from, and of kernels.wasm. */
-export const SOURCES = 'a809b06916467f4d83e98c8dc43130ebc76fd1e9e536c6bbb398afeeee2f92c7';
+export const SOURCES = 'a4e9756e7da7bb31b8ef82f3675f86739b971121331e74378ed347395283b8e8';
 export const MODULE = '0131a297c4567287fb88f101d29b21646b3882361e89fb48b0b48971fd4e3b46';
 
 /** What made it. */
 export const TOOLS = {
   llvmlite: '0.50.0',
   numba: '0.68.1',
-  ziglang: '0.17.1',
+  python: '3.11',
 };
