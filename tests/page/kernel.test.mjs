@@ -8,20 +8,27 @@ const bytes = readFileSync(MODULE);
 const module = await compiled(bytes);
 
 /** Eigenvalues of a matrix of n rows, by the kernel. */
-function eigenvalues(kernels, rows) {
-  const n = rows.length;
+function eigenvalues(kernels, n, matrix) {
   const [real, imaginary, v] = Array.from({ length: 3 }, () => kernels.array('f64', n));
   const a = kernels.array('f64', n, n);
   const found = kernels.bound('eigenvalues', { a, real, imaginary, v });
-  a.floats.set(rows.flat());
+  a.floats.set(matrix);
   assert.equal(found(), true);
   return Array.from(real.floats, (re, k) => [re, imaginary.floats[k]]).sort((x, y) => x[0] - y[0] || x[1] - y[1]);
 }
 
 test('a kernel is called with arrays', async () => {
   const kernels = await instantiated(module);
-  assert.deepEqual(eigenvalues(kernels, [[0, 1], [-4, 0]]), [[0, -2], [0, 2]]); // prettier-ignore
-  assert.deepEqual(eigenvalues(kernels, [[3, 0, 0], [0, -1, 0], [0, 0, 2]]).map(([re]) => re), [-1, 2, 3]); // prettier-ignore
+  const oscillator = [0, 1, -4, 0];
+  const diagonal = [3, 0, 0, 0, -1, 0, 0, 0, 2];
+  assert.deepEqual(eigenvalues(kernels, 2, oscillator), [
+    [0, -2],
+    [0, 2],
+  ]);
+  assert.deepEqual(
+    eigenvalues(kernels, 3, diagonal).map(([re]) => re),
+    [-1, 2, 3],
+  );
 });
 
 test('what is not finite is told, and stops nothing', async () => {
@@ -69,7 +76,10 @@ test('arrays do not overlap and are aligned', async () => {
   const blocks = [[3], [1, 1], [0], [5, 7]].map((shape) => kernels.array('f64', ...shape));
   blocks.forEach((block, k) => block.floats.fill(k + 1));
   blocks.forEach((block, k) => assert.ok(block.floats.every((x) => x === k + 1) && block.at % 16 === 0));
-  assert.deepEqual(blocks.map(({ items }) => items), [3, 1, 0, 35]); // prettier-ignore
+  assert.deepEqual(
+    blocks.map(({ items }) => items),
+    [3, 1, 0, 35],
+  );
 });
 
 test('an array is told as Numba has it: owner, items, bytes, address, shape, strides', async () => {
