@@ -10,12 +10,12 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from .block import given_numbers, size_of
+from .block import fill_block, given_numbers, size_of
 from .checks import require_within
 from .engine import engine
 from .errors import InvalidInputError
 from .evaluate import evaluate
-from .frozen import Frozen, read_only
+from .frozen import Frozen, frozen, read_only
 from .kernels.update_layout import made, rigs_shapes
 from .loop import Loop
 from .parameters import PARAMETER_INFO
@@ -152,11 +152,14 @@ def cloud_in_parts(
                 field=f"scenario.{name}",
                 hint="Leave it out.",
             )
-    report = evaluate(replace(spec, scenario=replace(spec.scenario, samples=2)))
+    nominal = replace(spec, scenario=replace(spec.scenario, samples=2))
+    report = evaluate(nominal)
     loop, kernels, size = report.loop, engine(), size_of(spec)
+    placed, L = report.given
+    block = fill_block(nominal, placed=placed, L=L, each_axis=False, most_steps=None)
     factors = _random_factors(loop, uncertainty)
     t = np.linspace(0.0, spec.scenario.duration, GRID)
-    numbers = given_numbers(spec, *report.given, each_axis=False, most_steps=kernels.most_steps)
+    numbers = given_numbers(spec, placed, L, each_axis=False, most_steps=kernels.most_steps)
     poles = np.empty((len(factors), len(size)), dtype=np.complex128)
     angles, verdicts = np.empty((len(factors), 2, GRID)), np.empty((2, len(factors)))
 
@@ -165,7 +168,7 @@ def cloud_in_parts(
         *own, _, _, _, _ = made(rigs_shapes(len(size), 1, GRID))
         own[0] = t
         filled = (poles[part], angles[part], verdicts[0, part], verdicts[1, part])
-        room = (*report.block.values(), *scratch.update(len(size), 2), *own)
+        room = (*block.values(), *scratch.update(len(size), 2), *own)
         kernels.run_rigs(size, numbers, factors[part], RTOL, *room, *filled)
 
     with ThreadPoolExecutor(2) as pool:
@@ -202,7 +205,7 @@ def _random_factors(loop: Loop, uncertainty: Uncertainty) -> Floats:
     """By which each rig's parameters and both time constants differ from the nominal ones, (samples, 14)."""
     rng = np.random.default_rng(uncertainty.seed)
     spread = np.array([uncertainty.spread.get(name, 0.0) for name in PARAMETER_INFO])
-    return np.hstack((_factors(rng, spread, uncertainty), _lag_factors(loop, uncertainty)))
+    return frozen(np.hstack((_factors(rng, spread, uncertainty), _lag_factors(loop, uncertainty))))
 
 
 def _factors(rng: np.random.Generator, spread: Floats, uncertainty: Uncertainty) -> Floats:
