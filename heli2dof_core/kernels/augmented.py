@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import floor
 
 from .derived import full_rank_observer
-from .jit import keep_apart, kernel
+from .jit import general, keep_apart, read_only
 from .layout import (
     ALL_STATES,
     BOUND,
@@ -57,7 +57,7 @@ from .update_layout import (
 )
 
 
-@kernel
+@general
 def estimator_order(numbers, actuators):
     """States of what estimates: 0 where the states are measured, 6 where it tells the rotors' speeds, too."""
     if numbers[MEASURED] == ALL_STATES:
@@ -66,7 +66,7 @@ def estimator_order(numbers, actuators):
     return 6 if numbers[MEASURED] == OBSERVED and numbers[ROTORS_PLACED] != 0.0 and lags else 4
 
 
-@kernel
+@general
 def observer(numbers, d, L):
     """L by the closed form, or as it is given; scratch: `d`, of 4."""
     if numbers[L_GIVEN] != 0.0:
@@ -84,13 +84,13 @@ def observer(numbers, d, L):
     full_rank_observer(d[:4], p, numbers[ANGLE], L)
 
 
-@kernel
+@general
 def known_thrust(numbers, B, actuators, i, motor):
     """Of B as the observer knows it: with the thrust curve's slope where the rotors are placed."""
     return B[i, motor] * actuators[SLOPE + motor] if numbers[ROTORS_PLACED] != 0.0 else B[i, motor]
 
 
-@kernel
+@general
 def estimator_matrices(numbers, A, B, actuators, L, e):
     """F, G, H of what estimates the states, x̂ by its states and by the angles, into e (`estimators.Estimator`)."""
     keep_apart()
@@ -123,7 +123,7 @@ def estimator_matrices(numbers, A, B, actuators, L, e):
             e[4 + j, ESTIMATOR_H + j] = 1.0 / actuators[j]
 
 
-@kernel
+@general
 def voltages_by_state(numbers, K, proportional, integral, kind, e, order, law):
     """∂u/∂ states, (2, n)."""
     n = law.shape[1]
@@ -147,7 +147,7 @@ def voltages_by_state(numbers, K, proportional, integral, kind, e, order, law):
             law[i, 4 + j] = integral[i, j] if kind != STATIC else 0.0
 
 
-@kernel
+@general
 def whole_loop(A, B, actuators, by_reference, kind, e, order, law, whole, driven, motors):
     """A and B of the loop, (n, n) and (n, 2). Scratch: `motors`, (2, n, 2)."""
     n = len(whole)
@@ -183,7 +183,7 @@ def whole_loop(A, B, actuators, by_reference, kind, e, order, law, whole, driven
                     driven[i, j] += by * by_reference[motor, j]
 
 
-@kernel
+@general
 def controller_numbers(numbers, A, B, actuators, K, proportional, integral, kind, L, order, c):
     """The law as `kernels.whole` takes it, (5, 10)."""
     for i in range(len(c)):
@@ -208,7 +208,7 @@ def controller_numbers(numbers, A, B, actuators, K, proportional, integral, kind
             c[KIND_ROW, OWN_TAU + i] = actuators[i] if order == 6 else 0.0
 
 
-@kernel
+@general
 def more_constants(numbers, trim, actuators, e, order, squares, more):
     """What `kernels.rig`'s constants go on with, from CONSTANTS on, but for the gains (`nonlinear_loop`)."""
     keep_apart()
@@ -228,7 +228,7 @@ def more_constants(numbers, trim, actuators, e, order, squares, more):
     usual_sizes(e, order, squares, more[USUAL + 2 - CONSTANTS :])
 
 
-@kernel
+@general
 def usual_sizes(e, order, squares, sizes):
     """How large an estimator's states are, at most 1, where an angle rests at 1 rad or turns at 1 rad/s.
 
@@ -254,7 +254,7 @@ def usual_sizes(e, order, squares, sizes):
         sizes[i] = min(size, 1.0) if size > 0.0 else 1.0
 
 
-@kernel
+@general
 def eliminate(n, end, a, b, first):
     """Solves a x = b for b's columns from `first` to `end`, in place, a overwritten; False where a is singular."""
     for step in range(n):
@@ -284,7 +284,7 @@ def eliminate(n, end, a, b, first):
     return True
 
 
-@kernel
+@general
 def inner_start(numbers, trim, x, steps, order, inner):
     """Where the states behind the sixth start: of the linear model and of the rig, (2, INNER); `steps` of encoders.
 
@@ -310,7 +310,7 @@ def inner_start(numbers, trim, x, steps, order, inner):
         inner[0, 2 + spread * axis], inner[1, 2 + spread * axis] = angle - base, stopped - base
 
 
-@kernel
+@general
 def sampled_estimator(numbers, trim, e, order, period, size, exponential, rows):
     """The estimator from one sample to the next, laid out as ESTIMATED says: exact for what is held between them."""
     keep_apart()
@@ -329,7 +329,7 @@ def sampled_estimator(numbers, trim, e, order, period, size, exponential, rows):
                 M[i, j] = e[i, ESTIMATOR_F + j]
             for j in range(2):
                 M[i, order + j], M[i, order + 2 + j] = e[i, ESTIMATOR_G + j], e[i, ESTIMATOR_H + j]
-    matrix_exponential(size[: n - 1], M, period, step, exponential[20:])
+    matrix_exponential(read_only(size[: n - 1]), M, period, step, exponential[20:])
     for i in range(order):
         for j in range(order):
             rows[i, j] = step[i, j]
@@ -339,7 +339,7 @@ def sampled_estimator(numbers, trim, e, order, period, size, exponential, rows):
         rows[i, 10] = -numbers[ANGLE] * step[i, order] - fed
 
 
-@kernel
+@general
 def rate_filter(period, size, exponential):
     """F (2×2, row by row) and b of a rate filter: x⁺ = F x + b θ, exact for held angles."""
     keep_apart()
@@ -349,5 +349,5 @@ def rate_filter(period, size, exponential):
         for j in range(PLAIN + 2):
             M[i, j] = 0.0
     M[0, 1], M[1, 0], M[1, 1], M[1, 2] = 1.0, -w * w, -2.0 * FILTER_DAMPING * w, 1.0
-    matrix_exponential(size[: PLAIN + 1], M, period, step, exponential[20:])
+    matrix_exponential(read_only(size[: PLAIN + 1]), M, period, step, exponential[20:])
     return step[0, 0], step[0, 1], step[1, 0], step[1, 1], step[0, 2], step[1, 2]

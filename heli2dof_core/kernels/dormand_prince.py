@@ -11,7 +11,7 @@ from math import inf, sqrt
 
 from . import examples
 from .figures import level_crossing, turning_point, update_axis, update_held_motor, update_motor
-from .jit import copy_into, entry_point, keep_apart, kernel
+from .jit import copy_into, entry_point, general, keep_apart, kernel
 from .layout import (
     BREAKAWAY,
     DEAD,
@@ -74,7 +74,7 @@ def integrate(size, y, t, c, m, rtol, atol, most_steps, w, states):
     return integrate_measured(size, y, t, c, m, rtol, atol, most_steps, w, states, w, NOTHING)[:5]
 
 
-@kernel
+@general
 def integrate_measured(size, y, t, c, m, rtol, atol, most_steps, w, states, f, figures):
     """States at all t into `states`, (len(t), len(size)), from y at t[0]; y and m end where the course ends.
 

@@ -10,13 +10,13 @@ from __future__ import annotations
 from math import nan, sqrt
 
 from .eigenvalues import EPS
-from .jit import keep_apart, kernel
+from .jit import general, keep_apart
 
 SWEEPS = 40
 """Most rounds of rotations; five or six are common."""
 
 
-@kernel
+@general
 def schur_vectors(t, z, real, imaginary, y, vectors):
     """Eigenvectors of length 1 into the first n columns of `vectors`, complex.
 
@@ -61,7 +61,7 @@ def schur_vectors(t, z, real, imaginary, y, vectors):
         k = last + 1
 
 
-@kernel
+@general
 def substitute(t, value, k, least, y):
     """Solves (T − λ) y = 0 upwards from row k − 1, what stands from k on being known."""
     n = len(t)
@@ -96,13 +96,13 @@ def substitute(t, value, k, least, y):
         row = top - 1
 
 
-@kernel
+@general
 def squared(z):
     """|z|²."""
     return z.real * z.real + z.imag * z.imag
 
 
-@kernel
+@general
 def condition_in_frobenius_norm(n, vectors, work):
     """‖V‖ ‖V⁻¹‖ of the first n rows and columns; infinite where V is singular. Scratch: `work`, complex, n×n."""
     keep_apart()
@@ -119,7 +119,7 @@ def condition_in_frobenius_norm(n, vectors, work):
     return sqrt(size) * sqrt(total)
 
 
-@kernel
+@general
 def invert(n, a):
     """The inverse in place, by Gauss and Jordan, the rows scaled to pivots; False where it is singular.
 
@@ -159,7 +159,7 @@ def invert(n, a):
     return True
 
 
-@kernel
+@general
 def condition_in_2_norm(n, a):
     """κ₂ of the first n rows and columns of a, complex, which are overwritten; NaN where it is 1/EPS or more."""
     keep_apart()

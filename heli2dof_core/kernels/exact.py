@@ -21,7 +21,7 @@ from .figures import (
     update_extrema,
     update_motor,
 )
-from .jit import keep_apart, kernel
+from .jit import general, keep_apart, kernel
 from .layout import (
     AREA,
     BY,
@@ -226,7 +226,7 @@ def measure_axis(size, a, nodes, axis, count, t, d, half, base):
         measure_axis_by_interval(size, a, y, slope, full, count, t, d, half[axis], nodes, base, True)
 
 
-@kernel
+@general
 def measure_axis_by_interval(size, a, y, slope, first, last, t, d, half, nodes, base, integrals):
     """The same from node to node, events located; whether the error changes its sign, whose integrals are done then.
 

@@ -7,7 +7,7 @@ from math import inf, isnan, pi, sqrt
 from .augmented import inner_start, rate_filter
 from .digital import run_digital
 from .experiment import run_linear, run_nonlinear
-from .jit import copy_into, keep_apart, kernel, read_only
+from .jit import copy_into, general, keep_apart, read_only
 from .layout import (
     ANTI_WINDUP,
     BACK,
@@ -61,7 +61,7 @@ ABSOLUTE_TOLERANCE = 0.1
 """Absolute tolerance of the integration as a share of the relative one (states are of order 1)."""
 
 
-@kernel
+@general
 def experiment_numbers(numbers, kind, K, integral, left_out, x):
     """The scenario on this loop, EXPERIMENT numbers; the axis `left_out` rests, −1 for none."""
     keep_apart()
@@ -84,7 +84,7 @@ def experiment_numbers(numbers, kind, K, integral, left_out, x):
         tracking_gains(numbers, kind, K, integral, x)
 
 
-@kernel
+@general
 def tracking_gains(numbers, kind, K, integral, x):
     """The gains of back-calculation into x: see `simulation.experiment`."""
     a, b, c, d = integral[0, 0], integral[0, 1], integral[1, 0], integral[1, 1]
@@ -109,7 +109,7 @@ def tracking_gains(numbers, kind, K, integral, x):
         x[BACK + 2 * axis + 1] = (f if axis == 0 else h) / by / time
 
 
-@kernel
+@general
 def controller_settings(numbers, trim, x, size, exponential, d):
     """`digital`'s array d."""
     d[TIME], d[DELAY], d[FILTERED] = numbers[SAMPLE_TIME], numbers[LATE], numbers[RATES_FILTERED]
@@ -123,7 +123,7 @@ def controller_settings(numbers, trim, x, size, exponential, d):
     d[RATE] = FILTER_FREQUENCY * FILTER_FREQUENCY
 
 
-@kernel
+@general
 def run_of_linear_model(
     size, numbers, trim, law, by_reference, whole, driven, poles, order, x, t, inner, nothing, e, v, ladder, nodes,
     followed, states, voltages, axes, motors, course,
@@ -138,7 +138,7 @@ def run_of_linear_model(
     )  # fmt: skip
 
 
-@kernel
+@general
 def run_of_rig(
     size, numbers, disturbed, rig, trim, law, by_reference, integral, poles, order, x, more, t, noise, estimated,
     settings, inner, nothing, start, w, c, m, plant, free, raw, grid, sampled, held, followed,
@@ -179,7 +179,7 @@ def run_of_rig(
         voltages[0, k], voltages[1, k] = held[k, 0], held[k, 1]
 
 
-@kernel
+@general
 def fill_times(duration, t):
     """Evenly spaced, s."""
     last = len(t) - 1
@@ -189,7 +189,7 @@ def fill_times(duration, t):
     t[last] = duration
 
 
-@kernel
+@general
 def copy_run(source, target):
     """Figures of one run beside another, (2, columns)."""
     for i in range(len(source)):

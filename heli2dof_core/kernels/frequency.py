@@ -11,7 +11,7 @@ from cmath import phase
 from math import nan, pi, sqrt
 
 from . import examples
-from .jit import copy_into, entry_point, keep_apart, kernel
+from .jit import copy_into, entry_point, general, keep_apart
 from .layout import (
     DELAY_MARGIN,
     GAIN_MARGIN,
@@ -86,7 +86,7 @@ def margins(f, g, p, table):
             motor_margins(WHOLE_HALF, p, table, motor)
 
 
-@kernel
+@general
 def motor_margins(span, p, table, motor):
     """The margins of one motor, `motor`, from det M and the same with it opened."""
     even_and_odd_part(span, p, OPENED, OPENED_SIZES, OPENED_HALVES)
@@ -112,7 +112,7 @@ def motor_margins(span, p, table, motor):
         gain_margins(span, p, p[ROOTS, k], k >= found, table, motor)
 
 
-@kernel
+@general
 def crossings(span, p):
     """The positive roots of the polynomial that is sought, then where it touches 0: both numbers."""
     if len(span) == len(HALF):
@@ -120,7 +120,7 @@ def crossings(span, p):
     return far_roots(p[SOUGHT], p[SIZES], p[CHAIN], p[ROOTS], p[BEFORE])
 
 
-@kernel
+@general
 def gain_margins(span, p, x, touches, table, motor):
     """What a crossing of the real axis at ω² = x says: with a gain factor of k, p_i + k (p_c − p_i) is 0."""
     opened = on_imaginary_axis(span, p, OPENED_HALVES, x)
@@ -139,13 +139,13 @@ def gain_margins(span, p, x, touches, table, motor):
         table[motor, GAIN_REDUCTION_MARGIN] = gain
 
 
-@kernel
+@general
 def add_halves(span, p, one, other, factor, shift):
     """Adds to the polynomial that is sought a product of two halves, by their rows; their sizes are two below."""
     add_product(span, p[one], p[one + 2], p[other], p[other + 2], factor, shift, p[SOUGHT], p[SIZES])
 
 
-@kernel
+@general
 def unit_circle(span, p):
     """Re S_ii = ½: 2 (E_i E_c + x O_i O_c) − (E_c² + x O_c²), a polynomial of x = ω²."""
     clear_sought(p)
@@ -157,7 +157,7 @@ def unit_circle(span, p):
     drop_rounding(p[SOUGHT], p[SIZES])
 
 
-@kernel
+@general
 def real_axis(span, p):
     """Im S_ii = 0: O_i E_c − E_i O_c."""
     clear_sought(p)
@@ -166,14 +166,14 @@ def real_axis(span, p):
     drop_rounding(p[SOUGHT], p[SIZES])
 
 
-@kernel
+@general
 def keep_smallest(table, motor, column, number):
     """Keeps the smallest number of a column; nan is none yet."""
     if not number > table[motor, column]:
         table[motor, column] = number
 
 
-@kernel
+@general
 def clear_sought(p):
     """Zeros for the polynomial that is sought."""
     for k in range(p.shape[1]):

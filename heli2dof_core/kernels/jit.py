@@ -50,6 +50,21 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     return _compile(function) if _compile else function
 
 
+def general(function: Callable[..., Any]) -> Callable[..., Any]:
+    """As `kernel`, for what is called seldom: one for all constants, each of which would have its own otherwise."""
+    made = kernel(function)
+    if _compile:
+        template: Any = made.get_call_template  # pyright: ignore[reportFunctionMemberAccess]
+
+        def of_types(args: Any, kws: Any) -> Any:
+            return template(
+                tuple(map(types.unliteral, args)), {k: types.unliteral(v) for k, v in kws.items()}
+            )
+
+        made.get_call_template = of_types  # pyright: ignore[reportFunctionMemberAccess]
+    return made
+
+
 ENTRIES: dict[str, Callable[..., Any]] = {}
 """The kernels that `engine` hands out, by name."""
 EXAMPLES: dict[str, tuple[Callable[[], tuple[Any, ...]], ...]] = {}

@@ -12,7 +12,7 @@ from cmath import sqrt as complex_sqrt
 from math import inf, log2, sqrt
 
 from . import examples
-from .jit import entry_point, keep_apart, kernel
+from .jit import entry_point, general, keep_apart
 from .layout import LAG_WORKSPACE, POLYNOMIALS, ROUNDING, TERMS, VALUE, WHOLE_LAG
 from .polynomials import (
     SIZE,
@@ -72,7 +72,7 @@ def lag_margin(f, start, p):
     return best / unit
 
 
-@kernel
+@general
 def parts_of(f, p):
     """D₀, d₁ and d₂ with their sizes."""
     for row in range(HALVES):
@@ -95,7 +95,7 @@ def parts_of(f, p):
         drop_rounding(p[PARTS + part], p[PART_SIZES + part])
 
 
-@kernel
+@general
 def add_term(f, one, other, c, i, j, p, part):
     """What two coefficients have in a determinant whose first row is of one matrix, its second of the other."""
     a, b = f[0, c, one + i], f[1, 1 - c, other + j]
@@ -105,7 +105,7 @@ def add_term(f, one, other, c, i, j, p, part):
     p[PART_SIZES + part, i + j] += abs(a) * size_b + size_a * abs(b)
 
 
-@kernel
+@general
 def stable_at(p, tau):
     """Whether d(s, τ) is stable; its coefficients stay in the row SOUGHT."""
     for k in range(p.shape[1]):
@@ -121,7 +121,7 @@ def stable_at(p, tau):
     return hurwitz(p[SOUGHT], p[SIZES], p[CHAIN], p[BEFORE])
 
 
-@kernel
+@general
 def resultant(p):
     """Of Re d(jω, τ) and Im d(jω, τ) by τ, a polynomial of x = ω²: x g² − h₀₁ h₁₂.
 
@@ -146,13 +146,13 @@ def resultant(p):
     drop_rounding(r, sizes)
 
 
-@kernel
+@general
 def add_halves(p, one, other, factor, shift, row):
     """Adds a product of two halves, by their rows, to that in `row`."""
     add_product(WHOLE_HALF, p[one], p[one + 2], p[other], p[other + 2], factor, shift, p[row], p[row + 1])
 
 
-@kernel
+@general
 def lags(p, w):
     """Both τ, complex, with d(jω, τ) = 0."""
     x = w * w
@@ -168,14 +168,14 @@ def lags(p, w):
     return quotient(q, c), quotient(a, q)
 
 
-@kernel
+@general
 def quotient(a, b):
     """A/b; 0 where b is, which is no τ that counts."""
     size = b.real * b.real + b.imag * b.imag
     return a * b.conjugate() * (1.0 / size) if size > 0.0 else complex(0.0, 0.0)
 
 
-@kernel
+@general
 def real_lag(p, w, lag):
     """The real τ near `lag` by secants on its imaginary part over ω; 0 where it has none."""
     step = 1e-6 * w

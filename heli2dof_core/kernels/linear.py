@@ -6,7 +6,7 @@ gives the next k samples by one product with the k-th power of the step's matrix
 
 from __future__ import annotations
 
-from .jit import keep_apart, kernel
+from .jit import general, keep_apart, kernel
 from .layout import PLAIN
 
 TERMS = 16
@@ -62,7 +62,7 @@ def row_times_samples(size, row, states, count, out, first):
         out[first + k] = total + e * states[4, k] + f * states[5, k] + one
 
 
-@kernel
+@general
 def matrix_exponential(size, M, dt, result, w):
     """exp(M dt) into `result`, by its series for M dt / 2ˢ, squared s times. Scratch: `w`, (6 n, n)."""
     keep_apart()
@@ -77,7 +77,7 @@ def matrix_exponential(size, M, dt, result, w):
                 result[i, j] = scratch[i, j]
 
 
-@kernel
+@general
 def squarings_needed(size, M, dt):
     """How often M dt must be halved for a 1-norm of at most 1/2."""
     n = len(size) + 1
@@ -94,7 +94,7 @@ def squarings_needed(size, M, dt):
     return count
 
 
-@kernel
+@general
 def exponential_series(size, M, factor, result, w):
     """Σ (M `factor`)ⁿ/n! up to n = TERMS into `result`, in four polynomials of degree 3 (Paterson and Stockmeyer)."""
     keep_apart()

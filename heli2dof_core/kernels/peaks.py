@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from . import examples
-from .jit import entry_point, keep_apart, kernel
+from .jit import entry_point, general, keep_apart
 from .layout import (
     DISK_FREQUENCY,
     DISK_MARGIN,
@@ -42,13 +42,13 @@ PRECISION = 1e-6
 ANGLES, DISKS = 1, 2  # rows of the grid, beside the frequencies
 
 
-@kernel
+@general
 def polynomial_entry(f, i, j, first, w, x):
     """An entry of M or N at s = jω, x = ω²."""
     return complex(f[i, j, first] - x * f[i, j, first + 2], w * (f[i, j, first + 1] - x * f[i, j, first + 3]))
 
 
-@kernel
+@general
 def value_at(f, row, w):
     """A polynomial of `kernels.whole` at s = jω."""
     even = odd = 0.0
@@ -58,7 +58,7 @@ def value_at(f, row, w):
     return complex(even, w * odd)
 
 
-@kernel
+@general
 def whole_sensitivity(f, w):
     """The same of a loop as `kernels.whole` makes it."""
     det = value_at(f, WHOLE_CLOSED, w)
@@ -69,7 +69,7 @@ def whole_sensitivity(f, w):
     return a, value_at(f, WHOLE_ACROSS, w) * by, value_at(f, WHOLE_ACROSS + 1, w) * by, d
 
 
-@kernel
+@general
 def sensitivity(f, w):
     """The four entries of S(jω), row by row; the loop has no pole at jω."""
     if len(f) != POLYNOMIALS[0]:
@@ -91,13 +91,13 @@ def sensitivity(f, w):
     )
 
 
-@kernel
+@general
 def squared(z):
     """|z|²."""
     return z.real * z.real + z.imag * z.imag
 
 
-@kernel
+@general
 def largest_singular_value(a, b, c, d):
     """Of [[a, b], [c, d]]: the root of the larger eigenvalue of its Gram matrix, without cancellation."""
     p, r = squared(a) + squared(c), squared(b) + squared(d)
@@ -106,7 +106,7 @@ def largest_singular_value(a, b, c, d):
     return sqrt(0.5 * (p + r) + sqrt(half * half + squared(q)))
 
 
-@kernel
+@general
 def structured_singular_value(a, b, c, d):
     """μ of [[a, b], [c, d]] for two scalars: its largest singular value after the best diagonal scaling.
 
@@ -119,7 +119,7 @@ def structured_singular_value(a, b, c, d):
     return largest_singular_value(a, b * scale, c * (1.0 / scale), d)
 
 
-@kernel
+@general
 def frequency_gain(f, w, disk):
     """The largest singular value of S(jω), or μ of S − ½ = (S − T)/2."""
     a, b, c, d = sensitivity(f, w)
@@ -146,7 +146,7 @@ def sensitivity_peaks(f, poles, grid, both):
     both[DISK_MARGIN] = 1.0 / mu
 
 
-@kernel
+@general
 def sample_frequencies(f, poles, grid):
     """Frequencies from 0 to infinity with both sizes there into `grid`; their number."""
     fastest = 0.0
@@ -172,7 +172,7 @@ def sample_frequencies(f, poles, grid):
     return count + 1
 
 
-@kernel
+@general
 def global_maximum(f, grid, row, count):
     """The highest of all maxima, and where: at infinity unless a frequency rises above that by more than rounding."""
     last = count - 1
@@ -200,7 +200,7 @@ def global_maximum(f, grid, row, count):
     return best, where
 
 
-@kernel
+@general
 def brent_maximum(f, low, high, tail, disk):
     """A maximum between two frequencies, or between two −1/ω: Brent's method, by parabolas or golden section.
 

@@ -9,7 +9,7 @@ from .derived import full_rank_gain, rig_model
 from .derived_rotors import full_rank_gain_with_rotors
 from .eigenvalues import EPS, balance, francis, in_range, to_hessenberg
 from .eigenvectors import condition_in_2_norm, condition_in_frobenius_norm, schur_vectors, squared
-from .jit import keep_apart, kernel
+from .jit import general, keep_apart
 from .layout import ROUNDING
 from .update_layout import (
     AIMS,
@@ -57,7 +57,7 @@ TAU, DEAD_ZONE, SQUARE, COULOMB, BREAKAWAY, SLOPE = range(0, 12, 2)
 """Of the block's `actuators`, both motors' or both axes' each."""
 
 
-@kernel
+@general
 def is_plain(actuators):
     """Whether rotors and friction are the paper's: thrust follows the voltage at once and in a straight line."""
     for i in range(2):
@@ -66,7 +66,7 @@ def is_plain(actuators):
     return True
 
 
-@kernel
+@general
 def place(numbers, A, B, trim, actuators, K, inverse, work):
     """A, B, trim, actuators, K and Ĝ(0)⁻¹; how it ended. Scratch: `work`, of 18."""
     keep_apart()
@@ -121,7 +121,7 @@ def place(numbers, A, B, trim, actuators, K, inverse, work):
     return DONE if isfinite(total) else EXACT
 
 
-@kernel
+@general
 def is_controllable(numbers):
     """Whether the motors act unlike enough, and the family is the rig's; a given K asks for less."""
     k_pp, k_py = numbers[PARAMETERS + K_PP], numbers[PARAMETERS + K_PY]
@@ -139,7 +139,7 @@ def is_controllable(numbers):
     return EXACT if independence < NEARLY_PARALLEL or gamma < SMALLEST else DONE
 
 
-@kernel
+@general
 def actuate(numbers, trim, actuators):
     """Rotors and friction as numbers; the linear rig's trim becomes the one of the thrust curves (`rotors`)."""
     for i in range(2):
@@ -161,7 +161,7 @@ def actuate(numbers, trim, actuators):
     return DONE
 
 
-@kernel
+@general
 def aimed_pole(numbers, i):
     """The pole asked for, number i from 0: four, then the rotors'."""
     if i < 4:
@@ -169,7 +169,7 @@ def aimed_pole(numbers, i):
     return complex(numbers[ROTOR_POLES + i - 4], 0.0)
 
 
-@kernel
+@general
 def static_entries(A, thrust):
     """The four entries of B₂⁻¹ A₂₁, row by row: −1 times the voltages that hold one radian."""
     determinant = thrust[2, 0] * thrust[3, 1] - thrust[2, 1] * thrust[3, 0]
@@ -180,7 +180,7 @@ def static_entries(A, thrust):
     return a, b, c, d
 
 
-@kernel
+@general
 def steady_state_determinant(numbers, A, thrust, actuators, K, inverse):
     """Det Ĝ(0)⁻¹, 0 where a placed pole lies at 0 or the product is nothing but rounding of K.
 
@@ -223,7 +223,7 @@ def steady_state_determinant(numbers, A, thrust, actuators, K, inverse):
     return product / (p * s - q * r) if abs(product) > ROUNDING * size else 0.0
 
 
-@kernel
+@general
 def measure_gain(numbers, A, B, actuators, K, inverse, figures):
     """Norms of K, det Ĝ(0)⁻¹ and the relative gain λ₁₁."""
     a = b = d = 0.0
@@ -250,7 +250,7 @@ def measure_gain(numbers, A, B, actuators, K, inverse, figures):
         figures[RELATIVE_GAIN] = w * z / determinant
 
 
-@kernel
+@general
 def closed_loop(A, thrust, placed, actuators, K, a, terms):
     """A − BK, and the sizes of its terms, into the first four or six rows and columns of both."""
     n = 6 if placed else 4
@@ -274,7 +274,7 @@ def closed_loop(A, thrust, placed, actuators, K, a, terms):
     return n
 
 
-@kernel
+@general
 def judge(numbers, n, closed, terms, column, squares, vectors, found, figures):
     """Poles of A − BK into `found`, in the order of those asked for, the error and its bound, and κ₂; False if none.
 
@@ -319,7 +319,7 @@ def judge(numbers, n, closed, terms, column, squares, vectors, found, figures):
     return True
 
 
-@kernel
+@general
 def match(numbers, n, real, imaginary, found):
     """The poles in the order of those asked for, each the nearest one left; the largest distance.
 

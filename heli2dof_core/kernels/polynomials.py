@@ -12,7 +12,7 @@ from __future__ import annotations
 from math import sqrt
 
 from . import examples
-from .jit import entry_point, kernel
+from .jit import entry_point, general
 from .layout import (
     POLYNOMIALS,
     ROUNDING,
@@ -45,7 +45,7 @@ def polynomial_matrices(A, inputs, law, f):
     closed_loop_matrix(f, -1, f)
 
 
-@kernel
+@general
 def closed_loop_matrix(f, opened, g):
     """M = D + B N and the sizes of its terms, without the motor `opened`, into g, which may be f."""
     for i in range(2):
@@ -61,7 +61,7 @@ def closed_loop_matrix(f, opened, g):
                 g[i, j, M + k], g[i, j, SIZE + k] = total, size
 
 
-@kernel
+@general
 def determinant(f, r, sizes):
     """Det M, of degree 6 at most, into r, and the sizes of its terms; what is rounding becomes 0.
 
@@ -79,7 +79,7 @@ def determinant(f, r, sizes):
         sizes[k] = size
 
 
-@kernel
+@general
 def even_and_odd_part(span, p, row, sizes, first):
     """p(jω) = E(ω²) + jω O(ω²): from row `first` of p on, the coefficients of E, O and the sizes of both.
 
@@ -91,14 +91,14 @@ def even_and_odd_part(span, p, row, sizes, first):
         p[first + 2 + k % 2, k // 2] = p[sizes, k]
 
 
-@kernel
+@general
 def on_imaginary_axis(span, p, first, x):
     """p(jω) from its halves, x = ω²."""
     top = len(span) - 1
     return complex(horner(p[first], top, x), sqrt(x) * horner(p[first + 1], top, x))
 
 
-@kernel
+@general
 def add_product(span, p, sizes_p, q, sizes_q, factor, shift, r, sizes):
     """R += factor xˢʰⁱᶠᵗ p q; `sizes` gathers what the rounding of either makes of each coefficient."""
     for i in range(len(span)):
@@ -111,7 +111,7 @@ def add_product(span, p, sizes_p, q, sizes_q, factor, shift, r, sizes):
                     sizes[i + j + shift] += abs(factor) * (abs(p[i]) * other + own * abs(q[j]))
 
 
-@kernel
+@general
 def drop_rounding(r, sizes):
     """Coefficients that are nothing but rounding become 0, so that no root comes of them."""
     for k in range(len(r)):
@@ -119,7 +119,7 @@ def drop_rounding(r, sizes):
             r[k] = 0.0
 
 
-@kernel
+@general
 def horner(p, degree, x):
     """p(x) by Horner's scheme."""
     total = p[degree]
@@ -128,7 +128,7 @@ def horner(p, degree, x):
     return total
 
 
-@kernel
+@general
 def positive_roots(p, sizes, chain, roots, before):
     """All x > 0 where p changes its sign, in order, into `roots`, then those where it may touch 0; both numbers.
 
@@ -152,7 +152,7 @@ def positive_roots(p, sizes, chain, roots, before):
     return roots_within(p, sizes, low, high, top, first, chain, roots, before)
 
 
-@kernel
+@general
 def far_roots(p, sizes, chain, roots, before):
     """The same for degrees at which Cauchy's bounds would overflow; those are Fujiwara's, Tohoku 10 (1916) 167."""
     bottom, top, first = to_be_searched(p)
@@ -167,7 +167,7 @@ def far_roots(p, sizes, chain, roots, before):
     return roots_within(p, sizes, 0.5 / smallest, 2.0 * largest, top, first, chain, roots, before)
 
 
-@kernel
+@general
 def to_be_searched(p):
     """The lowest and the highest power in p, and how often to derive it until its signs change once at most.
 
@@ -189,7 +189,7 @@ def to_be_searched(p):
     return bottom, top, first if changes else -1
 
 
-@kernel
+@general
 def roots_within(p, sizes, low, high, top, first, chain, roots, before):
     """The roots of `positive_roots` between two bounds, beginning with the derivative of order `first`."""
     found = extrema = 0
@@ -221,7 +221,7 @@ def roots_within(p, sizes, low, high, top, first, chain, roots, before):
     return found, touched
 
 
-@kernel
+@general
 def root_between(p, degree, low, high, at_low):
     """The root between two positive x where p changes its sign: Laguerre's steps, halved by ratio where they leave.
 

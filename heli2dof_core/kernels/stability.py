@@ -8,7 +8,7 @@ Eigenvalues would not do: rounding moves a k-fold one by the k-th root of 1e-16.
 from __future__ import annotations
 
 from . import examples
-from .jit import copy_into, entry_point, keep_apart, kernel
+from .jit import copy_into, entry_point, general, keep_apart
 from .layout import (
     POLYNOMIAL_WORKSPACE,
     POLYNOMIALS,
@@ -35,7 +35,7 @@ def is_stable(f, p):
     return hurwitz(p[TOTAL], p[SIZES], p[UPPER], p[LOWER])
 
 
-@kernel
+@general
 def hurwitz(a, sizes, upper, lower):
     """Whether all roots of a, monic, lie left of the axis, its coefficients known to `ROUNDING` of their `sizes`.
 
@@ -65,7 +65,7 @@ def hurwitz(a, sizes, upper, lower):
     return True
 
 
-@kernel
+@general
 def routh(upper, lower, degree):
     """Whether the scheme's first column is positive; its first two rows, highest power first, are used up."""
     long, short = degree // 2 + 1, (degree + 1) // 2

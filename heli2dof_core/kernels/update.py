@@ -25,7 +25,7 @@ from .experiments import (
     run_of_rig,
 )
 from .frequency import margins as fill_margins
-from .jit import copy_into, entry_point, kernel, read_only
+from .jit import copy_into, entry_point, general, read_only
 from .lag import lag_margin as least_lag
 from .layout import ALL_STATES, KIND, KIND_ROW, OBSERVED, OWN, PI, SIZES, STATIC
 from .loop import pi_gains
@@ -230,19 +230,19 @@ def update(
     outcome[1] = runs
 
 
-@kernel
+@general
 def kind_of_loop(numbers):
     """What is around the state feedback: see `layout`."""
     return OWN if numbers[OWN_INTEGRAL] != 0.0 else PI if numbers[PI_LOOPS] != 0.0 else STATIC
 
 
-@kernel
+@general
 def is_simple(placed, order, actuators):
     """Whether `polynomials` has room for the loop: nothing is estimated, and no rotor takes time or is placed."""
     return order == 0 and not placed and actuators[TAU] == 0.0 and actuators[TAU + 1] == 0.0
 
 
-@kernel
+@general
 def law_by_states(law, by_six):
     """The first six columns of ∂u/∂ states: x and z."""
     for i in range(2):
@@ -250,14 +250,14 @@ def law_by_states(law, by_six):
             by_six[i, j] = law[i, j]
 
 
-@kernel
+@general
 def fill_polynomials(A, inputs, actuators, controller, rows, minors, f):
     """The eight polynomials of `kernels.whole`."""
     tau = actuators[TAU : TAU + 2]
     whole_polynomials(read_only(A), read_only(inputs), read_only(tau), read_only(controller), rows, minors, f)
 
 
-@kernel
+@general
 def poles_of(matrix, n, work, column, found):
     """The eigenvalues of the first n rows and columns into `found`, slowest first; False where there are none.
 
@@ -274,7 +274,7 @@ def poles_of(matrix, n, work, column, found):
     return True
 
 
-@kernel
+@general
 def sort_slowest_first(poles, n):
     """By real parts from the right to the left, and of conjugates the upper first."""
     for i in range(1, n):
@@ -288,7 +288,7 @@ def sort_slowest_first(poles, n):
         poles[k] = pole
 
 
-@kernel
+@general
 def connected_states(n, actuators, kind, integral, order, whole, work):
     """The loop's A by its own states into `work`; how many they are, and how many integrals drive nothing.
 
@@ -309,7 +309,7 @@ def connected_states(n, actuators, kind, integral, order, whole, work):
     return rows, apart
 
 
-@kernel
+@general
 def is_connected(i, actuators, kind, integral, order):
     """Whether the state at place i belongs to the loop."""
     if i < 4:
@@ -321,7 +321,7 @@ def is_connected(i, actuators, kind, integral, order):
     return i < 8 + order
 
 
-@kernel
+@general
 def with_zeros(connected, states, apart, poles):
     """All poles: the connected ones and, at 0, those of integrals that drive nothing; slowest first."""
     for i in range(states):
@@ -332,7 +332,7 @@ def with_zeros(connected, states, apart, poles):
         sort_slowest_first(poles, states + apart)
 
 
-@kernel
+@general
 def aims_left(numbers, figures):
     """Whether all poles asked for lie left of the imaginary axis."""
     stable = figures[DETERMINANT] != 0.0
@@ -341,7 +341,7 @@ def aims_left(numbers, figures):
     return stable
 
 
-@kernel
+@general
 def controller_alone(K, c):
     """State feedback without an outer loop, as `kernels.whole` takes it."""
     for i in range(len(c)):
@@ -350,7 +350,7 @@ def controller_alone(K, c):
     c[KIND_ROW, KIND] = ALL_STATES
 
 
-@kernel
+@general
 def rig_numbers(numbers, rig):
     """`layout`'s constants of the rig, from K_PP on, of its parameters as they stand in `Parameters`."""
     for k in range(4):

@@ -17,7 +17,7 @@ no special case. The sizes of terms go along, as `polynomials` says.
 from __future__ import annotations
 
 from . import examples
-from .jit import copy_into, entry_point, keep_apart, kernel
+from .jit import copy_into, entry_point, general, keep_apart
 from .layout import (
     BY_ANGLES,
     BY_INTEGRALS,
@@ -60,14 +60,14 @@ SIGNS = (1.0, -1.0, 1.0, 1.0, -1.0, 1.0)
 """Of Laplace's rule for these pairs of columns; the complement of the nth is the (5 − n)th."""
 
 
-@kernel
+@general
 def add_number(entry, power, number):
     """Entry += number sᵖᵒʷᵉʳ."""
     entry[VALUE, power] += number
     entry[TERMS, power] += abs(number)
 
 
-@kernel
+@general
 def add_multiple(p, factor, size, shift, r):
     """R += factor sˢʰⁱᶠᵗ p; `size` is that of the factor's own rounding, 0 of an exact one."""
     for k in range(p.shape[1] - shift):
@@ -76,7 +76,7 @@ def add_multiple(p, factor, size, shift, r):
             r[TERMS, k + shift] += abs(factor) * p[TERMS, k] + size * abs(p[VALUE, k])
 
 
-@kernel
+@general
 def add_by_speed(p, i, j, K_v, tau, r):
     """R += H_ij p, H = diag(1 + τ s) + K_v."""
     add_multiple(p, K_v[i, j], abs(K_v[i, j]), 0, r)
@@ -84,14 +84,14 @@ def add_by_speed(p, i, j, K_v, tau, r):
         add_lagged(p, tau[i], 1.0, r)
 
 
-@kernel
+@general
 def add_lagged(p, tau, sign, r):
     """R ± = (1 + τ s) p."""
     add_multiple(p, sign, 0.0, 0, r)
     add_multiple(p, sign * tau, abs(tau), 1, r)
 
 
-@kernel
+@general
 def add_twice_lagged(p, one, other, r):
     """R += (1 + τ₁ s)(1 + τ₂ s) p."""
     add_lagged(p, one, 1.0, r)
@@ -99,14 +99,14 @@ def add_twice_lagged(p, one, other, r):
     add_multiple(p, one * other, abs(one * other), 2, r)
 
 
-@kernel
+@general
 def clear(r):
     """A polynomial with nothing in it."""
     for k in range(r.shape[1]):
         r[VALUE, k] = r[TERMS, k] = 0.0
 
 
-@kernel
+@general
 def add_minor(rows, one, other, n, r):
     """R += the determinant of two rows in the nth pair of columns."""
     a, b = rows[one, LEFT[n]], rows[one, RIGHT[n]]
@@ -115,7 +115,7 @@ def add_minor(rows, one, other, n, r):
     add_product(WHOLE_HALF, b[VALUE], b[TERMS], c[VALUE], c[TERMS], -1.0, 0, r[VALUE], r[TERMS])
 
 
-@kernel
+@general
 def pair_into(rows, one, other, observed, minors, place):
     """[one other]: the determinant of two rows, above the observer's where there is one."""
     r = minors[place]
@@ -140,7 +140,7 @@ def pair_into(rows, one, other, observed, minors, place):
         )
 
 
-@kernel
+@general
 def adjugate_rows(rows, source, target, B, first):
     """Adj(B) times two rows: B are the columns from `first` on of the last two rows of an array."""
     i = len(B) - 2
@@ -151,7 +151,7 @@ def adjugate_rows(rows, source, target, B, first):
         add_multiple(rows[source + 1, c], B[i, first], 0.0, 0, rows[target + 1, c])
 
 
-@kernel
+@general
 def determinant_of(B, first):
     """Det B, as above, and the size of its terms."""
     i = len(B) - 2
@@ -159,7 +159,7 @@ def determinant_of(B, first):
     return one - other, abs(one) + abs(other)
 
 
-@kernel
+@general
 def rig_and_law(A, controller, rows):
     """D and N into their rows, by q alone; N's part by q̂ with an observer."""
     kind = controller[KIND_ROW, KIND]
@@ -200,7 +200,7 @@ def rig_and_law(A, controller, rows):
             observer_entry(controller, rows, i, j, shift)
 
 
-@kernel
+@general
 def observer_entry(controller, rows, i, j, shift):
     """F̂ = s² + (L₁ − A₂₂) s − A₂₂ L₁ + L₂ − A₂₁ and −E = A₂₂ L₁ − L₂ − L₁ s."""
     measured, own = rows[GUESS + i, j], rows[GUESS + i, 2 + j]
@@ -219,7 +219,7 @@ def observer_entry(controller, rows, i, j, shift):
         add_number(own, 0, -by)
 
 
-@kernel
+@general
 def observer_minors(rows, K_v, tau, delta, size, minors):
     """The six minors of the observer's rows Ĥ Ŷ + δ̂ N, over δ̂."""
     for n in range(6):
@@ -245,7 +245,7 @@ def observer_minors(rows, K_v, tau, delta, size, minors):
         add_multiple(free, delta, size, 0, lower)
 
 
-@kernel
+@general
 def law_by_speeds(rows, tau, delta, size):
     """U = ℓ̂ v̂ = ℓ̂ Ŷ/δ̂ into the motors' rows: what the observer's rows make of u = −N ξ − K_v v̂."""
     by, error = -1.0 / delta, size / (delta * delta)

@@ -7,14 +7,16 @@ import json
 import os
 import re
 from collections import defaultdict
+from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from heli2dof_core import evaluate
+from heli2dof_core import InvalidInputError, Uncertainty, evaluate
 from heli2dof_core.kernels.layout import SIZES
+from heli2dof_core.robustness import cloud
 from tests.children import ROOT, python
 from tests.wasm.agreement import EXACT, allowed, gaps
 from tests.wasm.designs import random_designs
@@ -24,7 +26,7 @@ from wasm.entries import ENTRIES
 from wasm.module import MATH, STACK, linker
 
 TABLE = MODULE.with_name("table.js")
-LIMIT = 50_000
+LIMIT = 60_000
 """Bytes of the module, compressed as the server does it."""
 STALE = "static/kernel is not of these sources: call `make wasm`."
 
@@ -42,12 +44,14 @@ def tools() -> dict[str, str]:
 
 
 def calls_of(count: int, seed: int) -> list[Call]:
-    """All that so many random designs ask of the kernels, and eigenvalues of random matrices, which none asks yet."""
+    """All that so many random designs ask of the kernels, and eigenvalues of random matrices."""
     rng, designs = np.random.default_rng(seed), random_designs(np.random.default_rng(seed))
     with recorded() as calls:
         for _ in range(count):
-            report = evaluate(next(designs))
-            _ = report.margins, report.sensitivity, report.loop.polynomials
+            spec = next(designs)
+            evaluate(spec, each_axis=True)
+            with suppress(InvalidInputError):  # sampled and disturbed rigs have no cloud
+                cloud(spec, Uncertainty(samples=2))
     for n in rng.integers(1, 15, count):
         a = rng.standard_normal((n, n)) * 10.0 ** rng.uniform(-3, 3, (n, 1))
         calls.append(called("eigenvalues", a, np.zeros(n), np.zeros(n), np.zeros(n)))
@@ -101,7 +105,7 @@ def compare(calls: list[Call], record_property) -> None:
         own = gaps(call, answer)
         if max(own.values()) > EXACT:
             carried += 1
-            assert call.kernel.startswith("run_"), f"{call.kernel} differs: {own}"
+            assert call.kernel != "eigenvalues", f"{call.kernel} differs: {own}"
             most = allowed(call)
             beyond += [
                 (call.kernel, name, g, most[name]) for name, g in own.items() if g > max(EXACT, most[name])
@@ -113,7 +117,7 @@ def compare(calls: list[Call], record_property) -> None:
     )
     record_property("worst", max(worst.values()))
     assert beyond == []
-    assert carried < len(calls) / 10
+    assert carried < len(calls) / 4
 
 
 @pytest.mark.slow
