@@ -43,17 +43,19 @@ def random_matrices(count: int, seed: int):
 
 
 def test_ten_thousand_random_matrices_are_as_near_as_their_condition_allows():
-    ratios, backward = [], []
+    ratios, backward, lapacks = [], [], []
     for A in random_matrices(10_000, 0):
         found, (known, vectors) = eigenvalues(A), np.linalg.eig(A)
         bound = EPS * np.linalg.norm(A) * min(np.linalg.cond(vectors), 1 / EPS)
         ratios.append(apart(found, known) / bound if bound else 0.0)
         backward.append(backward_error(A, found) if A.any() else 0.0)
+        lapacks.append(backward_error(A, known) if A.any() else 0.0)
         assert np.all(np.diff(np.flatnonzero(found.imag > 0)) > 0)
         conjugate = found[np.flatnonzero(found.imag > 0) + 1].conj()
         np.testing.assert_array_equal(conjugate, found[found.imag > 0])
     assert max(ratios) < 20
-    assert max(backward) < 20
+    assert max(backward) < 3 * max(lapacks)  # both balance, which costs badly scaled ones a little
+    assert np.median(backward) < 1.2 * np.median(lapacks)
 
 
 def test_loops_of_random_designs_have_lapacks_poles():

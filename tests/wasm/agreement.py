@@ -21,7 +21,6 @@ RIGS = ("rig_poles", "angles", "stable", "within")
 FILLED = {
     "update": tuple(re.sub("^open$", "own_poles", name) for name in block_shapes(6, 2)),
     "run_rigs": RIGS,
-    "eigenvalues": ("real", "imaginary"),
 }
 """What a kernel is asked for; all else that it writes into is scratch."""
 EXACT = 1e-12
@@ -38,8 +37,9 @@ def gap(one: Any, other: Any) -> float:
     finite = np.isfinite(one)
     if not np.array_equal(one[~finite], other[~finite], equal_nan=True):
         return np.inf
-    size = np.max(np.abs(one[finite]), initial=0.0)
-    apart = np.max(np.abs(one - other, where=finite, out=np.zeros_like(one)), initial=0.0)
+    own, others = one[finite], other[finite]
+    size = np.max(np.abs(own), initial=0.0)
+    apart = np.max(np.abs(own - others), initial=0.0)
     return float(apart / size) if size > 0.0 else float(apart)
 
 
