@@ -194,20 +194,11 @@ export const SIGNATURES = {
       { name: 'within', type: 'f64', dimensions: 1 },
     ],
   },
-  eigenvalues: {
-    takes: [
-      { name: 'a', type: 'f64', dimensions: 2 },
-      { name: 'real', type: 'f64', dimensions: 1 },
-      { name: 'imaginary', type: 'f64', dimensions: 1 },
-      { name: 'v', type: 'f64', dimensions: 1 },
-    ],
-    returns: 'bool',
-  },
 };
 
 /** Checksums of what it was made from, and of kernels.wasm. */
-export const SOURCES = '134abcc8e84cd9598d48d64e57b617c441ccb07ba8460c1d9c3482611dd6a2d8';
-export const MODULE = '46f032b92950c233060d856d6c48a6aa77e7a5d556b6cd1365ab8b5a24f132c3';
+export const SOURCES = 'e3395ee03892abe6f10a454eb578e023e90b2b73023bce8af953a03d60ce2916';
+export const MODULE = 'b03a8e3cb08157ccdf6a565fd5e3a24beb0bd1097a7906163ef899111fd1db5c';
 
 /** What made it. */
 export const TOOLS = {

@@ -114,7 +114,8 @@ def test_what_other_methods_find_is_the_blocks(method):
     report, design = evaluate(real), place(real)
     np.testing.assert_array_equal(report.design.K, design.K)
     assert report.design.stable == design.stable
-    close(report.design.closed_loop_poles, design.closed_loop_poles, 1e-9)
+    found, known = (np.sort_complex(each.closed_loop_poles.round(6)) for each in (report.design, design))
+    close(found, known, 1e-6)  # where none is asked for, their order says nothing
     close(report.loop.poles, loop_of(real, design).poles, 1e-9)
 
 
