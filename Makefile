@@ -72,10 +72,11 @@ steady: $(VENV)/.tools node_modules/.installed browser kernels ## the browser te
 mutation: $(VENV)/.tools node_modules/.installed ## change the core and the page in forty places, one by one: which changes does no test see?
 	$(BIN)/python -m tests.mutation --jobs 2 $(if $(SEED),--seed $(SEED))
 
-contract: $(VENV)/.tools ## make what of the page follows from the core and the contract: figures, methods, quantities, types
+contract: $(VENV)/.tools ## make what of the page follows from the core and the contract: figures, methods, quantities, layout, types
 	$(BIN)/python -m tests.page_figures
 	$(BIN)/python -m tests.page_methods
 	$(BIN)/python -m tests.page_quantities
+	$(BIN)/python -m tests.page_kernel
 	$(BIN)/python -m tests.page_types
 
 screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew

@@ -6,7 +6,7 @@ import globals from 'globals';
 const FLOORS = [
   ['text'],
   ['model', 'net'],
-  ['ui', 'link'],
+  ['ui', 'link', 'kernel'],
   ['charts'],
   ['plots', 'splane', 'scene', 'recordings', 'tour', 'panels'],
   ['paper', 'compare', 'machine'],
