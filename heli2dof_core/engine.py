@@ -75,7 +75,10 @@ def _load(package: str) -> Engine:
         import_module(module.name)
     functions = import_module(f"{home.__name__}.jit").ENTRIES
     if package == "interpreted":  # NumPy's scalars warn where a response grows without bound
-        functions = {name: np.errstate(over="ignore", invalid="ignore")(f) for name, f in functions.items()}
+        functions = {
+            name: np.errstate(over="ignore", invalid="ignore", divide="ignore")(f)
+            for name, f in functions.items()
+        }
     return Engine(compiled=package == "kernels", **functions)
 
 

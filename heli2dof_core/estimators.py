@@ -18,6 +18,7 @@ from .couplings import Coupling, Lead, Structure
 from .design import Design
 from .eigenvalues import eigenvalues
 from .frozen import Frozen, frozen
+from .kernels.layout import FILTER_DAMPING, FILTER_FREQUENCY
 from .placement.observers import kalman_gain, observer_gain
 from .poles import PoleSet
 from .quantities import Quantity, documented, require_valid
@@ -25,9 +26,6 @@ from .scenario import Measured
 from .signals import C, Complexes, Floats, fixed
 
 Kind = Literal["full-rank", "kalman"]
-FILTER_FREQUENCY = 2 * np.pi * 20
-"""Natural frequency of the rig's rate filters, rad/s (Quanser 2-DOF Helicopter, laboratory manual)."""
-FILTER_DAMPING = 0.85
 
 
 @documented

@@ -6,24 +6,28 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+import numpy as np
+
 from .behaviour import Experiment, behaviour_remarks
+from .block import Block, fill_block, has_closed_form
 from .design import Design, design
-from .estimators import estimator
+from .estimators import Estimator, Observer, estimator
 from .figures import Margins
 from .findings import Finding, merged
-from .interaction import Interaction, interaction
+from .interaction import Interaction
+from .kernels.update_layout import DONE, RELATIVE_GAIN
 from .loop import Loop, close_loop
-from .margins import loop_margins, margin_table
+from .margins import margin_table
 from .metrics import StepMetrics, step_metrics
 from .placement.registry import method
 from .plant import plant
+from .read_block import design_of, exists, loop_in
 from .scenario import Model, Scenario
-from .sensitivity import Sensitivity, loop_sensitivity
-from .simulation.courses import Courses, run_experiments
-from .simulation.digital import simulate_digital
-from .simulation.linear import simulate_linear
-from .simulation.nonlinear import simulate_nonlinear
-from .simulation.response import Response
+from .sensitivity import Sensitivity, sensitivity_of
+from .simulation.digital import simulate_digital, with_sampling_remarks
+from .simulation.linear import linear_response, simulate_linear
+from .simulation.nonlinear import limited_response, simulate_nonlinear
+from .simulation.response import Measured, Response
 from .spec import Spec
 from .tables import Shown, Table, number
 from .weights import bryson_weights
@@ -48,25 +52,46 @@ class Step(Shown):
 
 @dataclass(frozen=True, repr=False)
 class Report(Shown):
-    """What `evaluate` has computed of a spec; its words and tables are made where they are read.
+    """What `evaluate` has computed of a spec; objects, words and tables are made of its numbers where they are read.
 
     Attributes:
-        design: K and the placed poles.
-        interaction: RGA and pairing.
-        loop: the whole loop and its poles.
-        margins: at the pitch and the yaw motor; None if the loop is unstable.
-        sensitivity: at both motors at once; None if the loop is unstable.
+        spec: what the user chose.
+        block: all numbers, as the kernel `update` has filled them (`kernels.update_layout.block_shapes`).
     """
 
-    design: Design
-    interaction: Interaction
-    loop: Loop
-    margins: tuple[Margins, Margins] | None
-    sensitivity: Sensitivity | None
-    _spec: Spec
-    _courses: Courses
+    spec: Spec
+    block: Block
+    _placed: Design | None
+    _estimator: Estimator | None
     _alone: tuple[str, ...]
-    _nonlinear: tuple[Step, ...]
+
+    @cached_property
+    def design(self) -> Design:
+        """K and the placed poles."""
+        return design_of(self.spec, self.block, self._placed)
+
+    @cached_property
+    def interaction(self) -> Interaction:
+        """RGA and pairing."""
+        return Interaction(exists(self.block["figures"][RELATIVE_GAIN]), self.spec.outer.pairing)
+
+    @cached_property
+    def loop(self) -> Loop:
+        """The whole loop and its poles."""
+        return loop_in(self.spec, self.block, self.design, self._estimator)
+
+    @cached_property
+    def margins(self) -> tuple[Margins, Margins] | None:
+        """At the pitch and the yaw motor; None if the loop is unstable."""
+        if not self.loop.stable:
+            return None
+        pitch, yaw = (map(exists, row) for row in self.block["margins"].tolist())
+        return Margins(*pitch), Margins(*yaw)
+
+    @cached_property
+    def sensitivity(self) -> Sensitivity | None:
+        """At both motors at once; None if the loop is unstable."""
+        return sensitivity_of(self.block["sensitivity"]) if self.loop.stable else None
 
     @cached_property
     def step(self) -> dict[Model, Step]:
@@ -109,15 +134,33 @@ class Report(Shown):
             Experiment(*((each[model].response, each[model].metrics) for model in ("linear", "nonlinear")))
             for each in experiments
         ]
-        return behaviour_remarks(self.loop, self._spec.limits, self._spec.scenario, self.margins, pairs)
+        return behaviour_remarks(self.loop, self.spec.limits, self.spec.scenario, self.margins, pairs)
 
     def _both(self, n: int) -> dict[Model, Step]:
-        nonlinear = self._nonlinear[n] if self._nonlinear else self._step(n, "nonlinear")
-        return {"linear": self._step(n, "linear"), "nonlinear": nonlinear}
+        return {"linear": self._linear(n), "nonlinear": self._nonlinear(n)}
 
-    def _step(self, n: int, model: Model) -> Step:
-        response = self._courses.response(n, model)
-        return _measured(self.loop, response)
+    def _linear(self, n: int) -> Step:
+        block, found = self.block, self._measured(n, 0)
+        course = (block["linear"][n], block["voltages"][n, 0])
+        return _measured(
+            self.loop, linear_response(self.loop, block["experiments"][n], block["t"], course, found)
+        )
+
+    def _nonlinear(self, n: int) -> Step:
+        block, scenario = self.block, self.spec.scenario
+        course = (block["nonlinear"][n], block["voltages"][n, 1])
+        task = (self.loop, block["experiments"][n], block["t"], course, self._measured(n, 1))
+        response = limited_response(*task)
+        if scenario.controller is not None:
+            response = with_sampling_remarks(response, self.loop, scenario, scenario.controller)
+        if scenario.disturbance is None:
+            return _measured(self.loop, response)
+        calm = Measured(block["calm_axes"][n], block["motors"][n, 1], block["calm_courses"][n])
+        return _measured(self.loop, response, calm)
+
+    def _measured(self, n: int, model: int) -> Measured:
+        block = self.block
+        return Measured(block["axes"][n, model], block["motors"][n, model], block["courses"][n, model])
 
 
 def place(spec: Spec) -> Design:
@@ -144,15 +187,14 @@ def simulate(loop: Loop, spec: Spec, model: Model, most_steps: int | None = None
     return _step_of_the_rig(loop, spec, most_steps)
 
 
-def _step_of_the_rig(loop: Loop, spec: Spec, most_steps: int | None, calm: Response | None = None) -> Step:
-    """The nonlinear response; `calm` is the same without the disturbance, if it is known."""
+def _step_of_the_rig(loop: Loop, spec: Spec, most_steps: int | None) -> Step:
+    """The nonlinear response."""
     scenario = spec.scenario
     response = _on_the_rig(loop, spec, scenario, most_steps)
     if scenario.disturbance is None:
         return _measured(loop, response)
-    return _measured(
-        loop, response, calm or _on_the_rig(loop, spec, replace(scenario, disturbance=None), most_steps)
-    )
+    calm = _on_the_rig(loop, spec, replace(scenario, disturbance=None), most_steps)
+    return _measured(loop, response, calm.measured)
 
 
 def _on_the_rig(loop: Loop, spec: Spec, scenario: Scenario, most_steps: int | None) -> Response:
@@ -162,7 +204,7 @@ def _on_the_rig(loop: Loop, spec: Spec, scenario: Scenario, most_steps: int | No
     return simulate_digital(loop, spec.limits, scenario, digital)
 
 
-def _measured(loop: Loop, response: Response, calm: Response | None = None) -> Step:
+def _measured(loop: Loop, response: Response, calm: Measured | None = None) -> Step:
     """With its metrics; those of its steps from the experiment without a disturbance, where it has one."""
     metrics = step_metrics(response, calm)
     if calm is not None and metrics.axes:
@@ -179,13 +221,6 @@ _CALM = Finding(
 )
 
 
-def _without(scenario: Scenario, axis: str) -> Scenario:
-    """The scenario without the reference of an axis: all else was checked when it was made."""
-    own = object.__new__(Scenario)
-    vars(own).update(vars(scenario) | {axis: None})
-    return own
-
-
 def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = None) -> Report:
     """Design, interaction, whole loop, margins and responses of a spec.
 
@@ -197,35 +232,16 @@ def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = No
     Raises:
         Heli2DofError: see `errors`.
     """
-    placed, scenario = place(spec), spec.scenario
-    loop = loop_of(spec, placed)
-    scenarios = {"": scenario}
-    if each_axis:
-        scenarios |= {
-            name: _without(scenario, other)
-            for name, other in (("theta", "psi"), ("psi", "theta"))
-            if getattr(scenario, name) is not None
-        }
-    courses = run_experiments(loop, spec.limits, [*scenarios.values()], most_steps)
-    nonlinear: tuple[Step, ...] = ()
-    if scenario.controller is not None or scenario.disturbance is not None:
-        nonlinear = tuple(
-            _step_of_the_rig(
-                loop,
-                replace(spec, scenario=each),
-                most_steps,
-                courses.response(n, "nonlinear") if scenario.controller is None else None,
-            )
-            for n, each in enumerate(scenarios.values())
-        )
-    return Report(
-        placed,
-        interaction(placed, spec.outer.pairing),
-        loop,
-        loop_margins(loop),
-        loop_sensitivity(loop),
-        spec,
-        courses,
-        tuple(scenarios)[1:],
-        nonlinear,
-    )
+    scenario, observer = spec.scenario, spec.observer or Observer()
+    kalman = scenario.measured == "observer" and observer.method == "kalman"
+    placed = place(spec) if kalman or not has_closed_form(spec) else None
+    estimated = estimator(placed, scenario.measured, observer) if placed and kalman else None
+    task = {"L": estimated and estimated.L, "each_axis": each_axis, "most_steps": most_steps}
+    block = fill_block(spec, placed=placed, **task)
+    if block["outcome"][0] != DONE and placed is None:
+        placed = place(spec)  # which takes exact numbers, or says why there is none
+        block = fill_block(spec, placed=placed, **task)
+    if block["outcome"][0] != DONE:
+        raise np.linalg.LinAlgError("the eigenvalues of the loop were not found")
+    axes = [name for name in ("theta", "psi") if each_axis and getattr(scenario, name) is not None]
+    return Report(spec, block, placed, estimated, tuple(axes))

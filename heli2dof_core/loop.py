@@ -14,12 +14,12 @@ from .augmentation import augmented_loop
 from .design import Design
 from .eigenvalues import eigenvalues
 from .engine import engine
-from .estimators import FILTER_DAMPING, FILTER_FREQUENCY, Estimator
+from .estimators import Estimator
 from .figures import LOOP
 from .findings import Finding, merged
 from .frozen import Frozen, frozen
 from .interop import state_space
-from .kernels.layout import OWN, PI, PLAIN, POLYNOMIALS, SIZES, STATIC
+from .kernels.layout import FILTER_DAMPING, FILTER_FREQUENCY, OWN, PI, PLAIN, POLYNOMIALS, SIZES, STATIC
 from .loop_polynomials import controller_numbers, whole_polynomials
 from .remarks import flat_thrust, lag_instability, loop_instability, loop_remarks, observer_instability
 from .rotors import Actuators

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from .figures import AXIS, MOTOR, STEP, AxisMetrics, MotorMetrics
 from .kernels.layout import DEVIATION
 from .signals import INPUTS, OUTPUTS
-from .simulation.response import Response
+from .simulation.response import Measured, Response
 from .tables import Shown, Table, number
 
 NOT_SETTLED = "not settled"
@@ -72,7 +72,7 @@ def _cell(axis: AxisMetrics, name: str) -> str:
 _SYMBOLS = {signal.name: signal.symbol for signal in OUTPUTS}
 
 
-def step_metrics(response: Response, calm: Response | None = None) -> StepMetrics:
+def step_metrics(response: Response, calm: Measured | None = None) -> StepMetrics:
     """Figures of merit of a response; axes whose reference equals their start are not stepped.
 
     They belong to the response: extrema and crossings are those of the exact solution or of the integrator's
@@ -80,9 +80,10 @@ def step_metrics(response: Response, calm: Response | None = None) -> StepMetric
 
     Args:
         response: linear or nonlinear.
-        calm: the same experiment without its disturbance, whose steps' figures are taken in place of its own.
+        calm: figures of the same experiment without its disturbance, whose steps' are taken in place of its own.
     """
-    steps, own = (calm or response).measured, response.measured
+    own = response.measured
+    steps = calm or own
     stepped = [i for i in range(2) if response.reference[i] != response.start[i]]
     return StepMetrics(
         {OUTPUTS[i].name: AxisMetrics.of(steps.axes[i].tolist()) for i in stepped},

@@ -14,6 +14,7 @@ from .couplings import require_controllable
 from .eigenvalues import eigenvalues
 from .frozen import Frozen, frozen
 from .interop import state_space
+from .kernels.update_layout import NEARLY_PARALLEL, SMALLEST
 from .parameters import Parameters
 from .signals import INPUTS, OUTPUTS, STATES, C, Complexes, Floats, fixed
 from .tables import Shown, Table, number, poles
@@ -23,12 +24,6 @@ if TYPE_CHECKING:
 
 STEEPEST = 1.5
 """Largest operating angle, rad: beyond it yaw's lever arm vanishes."""
-
-
-NEARLY_PARALLEL = 1e-2
-"""Relative |γ| below which the motors are said to push nearly alike."""
-SMALLEST = 1e-100
-"""|γ|, (N·m/V)², below which powers of it are no longer floats with all their digits."""
 
 
 @dataclass(frozen=True, repr=False)

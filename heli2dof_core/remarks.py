@@ -10,7 +10,8 @@ import numpy as np
 
 from .findings import Finding
 from .kernels.layout import ROUNDING
-from .plant import NEARLY_PARALLEL, Plant
+from .kernels.update_layout import NEARLY_PARALLEL
+from .plant import Plant
 from .signals import AXES, Complexes, Floats
 from .tables import conjugates
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from .errors import InvalidInputError
 from .frozen import Frozen
+from .kernels.update_layout import AT_ONCE, AT_REST
 from .plant import Plant
 from .quantities import Quantity, documented, require_valid
 from .signals import AXES, Floats, fixed
@@ -22,10 +23,6 @@ from .signals import AXES, Floats, fixed
 Curve = Literal["linear", "quadratic"]
 USUAL_LAG = 0.16
 """Time constant of a real rig's rotors, s: of a first-generation Aero's 0.156, of an Aero 2's 0.162 to 0.169."""
-AT_ONCE = 1e-6
-"""Time constant below which a rotor counts as one that follows at once, s: far below what can be seen."""
-AT_REST = 0.01
-"""Share of its limit below which a motor's trim voltage is no measure of the thrust curve."""
 
 
 @documented

@@ -11,6 +11,7 @@ from .engine import engine
 from .kernels.layout import SENSITIVITY
 from .loop import Loop
 from .scratch import scratch
+from .signals import Floats
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,11 @@ def loop_sensitivity(loop: Loop) -> Sensitivity | None:
         return None
     both = np.empty(SENSITIVITY)
     engine().sensitivity_peaks(loop.polynomials, loop.connected_poles, scratch.sensitivity, both)
+    return sensitivity_of(both)
+
+
+def sensitivity_of(both: Floats) -> Sensitivity:
+    """As the kernel has filled it, laid out as `kernels.layout` says."""
     peak, peak_frequency, disk_margin, disk_frequency = both.tolist()
     return Sensitivity(peak, _finite(peak_frequency), disk_margin, _finite(disk_frequency))
 

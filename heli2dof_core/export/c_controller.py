@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from textwrap import wrap
 
-from ..estimators import FILTER_DAMPING, FILTER_FREQUENCY
+from ..kernels.layout import FILTER_DAMPING, FILTER_FREQUENCY
 from ..simulation.digital import rate_filter
 from ..spec import Spec
 from . import c_text

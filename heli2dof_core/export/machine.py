@@ -7,7 +7,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from ..design import Design
-from ..estimators import FILTER_DAMPING, FILTER_FREQUENCY, Estimator, Observer
+from ..estimators import Estimator, Observer
+from ..kernels.layout import FILTER_DAMPING, FILTER_FREQUENCY
 from ..signals import AXES, Floats
 from ..spec import Spec
 from ..tables import number

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..estimators import FILTER_DAMPING, FILTER_FREQUENCY
+from ..kernels.layout import FILTER_DAMPING, FILTER_FREQUENCY
 from ..loop import Loop
 from ..scenario import Scenario
 from ..signals import AXES

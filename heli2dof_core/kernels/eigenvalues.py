@@ -29,20 +29,29 @@ def eigenvalues(a, real, imaginary, v):
 
     a: n×n, overwritten. Scratch: v, (n,).
     """
-    n = len(a)
-    for i in range(n):
-        for j in range(n):
-            if not abs(a[i, j]) < 1e300:
-                return False
-    balance(a)
-    to_hessenberg(a, v)
-    return francis(a, real, imaginary)
+    if not in_range(a):
+        return False
+    balance(a, v)
+    to_hessenberg(a, v, a[:0])
+    return francis(a, real, imaginary, a[:0])
 
 
 @kernel
-def balance(a):
-    """D⁻¹ a D with powers of 2 in D, so that rows and columns are of like size in the 2-norm."""
+def in_range(a):
+    """Whether all entries are numbers that may be squared and added."""
+    for i in range(len(a)):
+        for j in range(len(a)):
+            if not abs(a[i, j]) < 1e300:
+                return False
+    return True
+
+
+@kernel
+def balance(a, units):
+    """D⁻¹ a D with powers of 2 in D, so that rows and columns are of like size in the 2-norm; D's diagonal: `units`."""
     n = len(a)
+    for i in range(n):
+        units[i] = 1.0
     for _ in range(SWEEPS):
         settled = True
         for i in range(n):
@@ -69,6 +78,7 @@ def balance(a):
                 factor /= RADIX
             if hypot(column, row) < ENOUGH * before:
                 settled = False
+                units[i] *= factor
                 for j in range(n):
                     a[i, j] /= factor
                 for j in range(n):
@@ -78,8 +88,11 @@ def balance(a):
 
 
 @kernel
-def to_hessenberg(a, v):
-    """Zeros below the first subdiagonal, by reflections I − 2 v vᵀ on both sides."""
+def to_hessenberg(a, v, z):
+    """Zeros below the first subdiagonal, by reflections I − 2 v vᵀ on both sides; what z has by columns turns, too.
+
+    z: n×n, or without rows where nobody wants it.
+    """
     n = len(a)
     for k in range(n - 2):
         size = 0.0
@@ -112,13 +125,24 @@ def to_hessenberg(a, v):
             product /= total
             for j in range(k + 1, n):
                 a[i, j] -= product * v[j]
+        for i in range(len(z)):
+            product = 0.0
+            for j in range(k + 1, n):
+                product += z[i, j] * v[j]
+            product /= total
+            for j in range(k + 1, n):
+                z[i, j] -= product * v[j]
         for i in range(k + 2, n):
             a[i, k] = 0.0
 
 
 @kernel
-def francis(h, real, imaginary):
-    """The eigenvalues of a Hessenberg matrix, which is overwritten; False where one does not come out."""
+def francis(h, real, imaginary, z):
+    """The eigenvalues of a Hessenberg matrix; False where one does not come out.
+
+    It becomes a triangle with two by two blocks on its diagonal (real Schur form), each of them a pair, and z, n×n or
+    without rows, is multiplied by what has turned it.
+    """
     n = len(h)
     norm = 0.0
     for i in range(n):
@@ -145,7 +169,7 @@ def francis(h, real, imaginary):
             if steps == STEPS:
                 return False
             steps += 1
-            double_step(h, start, end, steps)
+            double_step(h, start, end, steps, z)
     return True
 
 
@@ -169,8 +193,8 @@ def pair_of(h, end, real, imaginary):
 
 
 @kernel
-def double_step(h, start, end, steps):
-    """One implicit double step on the block from `start` to `end`, of at least three rows."""
+def double_step(h, start, end, steps, z):
+    """One implicit double step on the block from `start` to `end`, of three rows or more; z turns as in `francis`."""
     n = len(h)
     if steps % 10 == 0:  # an exceptional one breaks cycles
         s = abs(h[end, end - 1]) + abs(h[end - 1, end - 2])
@@ -178,14 +202,14 @@ def double_step(h, start, end, steps):
     else:
         total = h[end - 1, end - 1] + h[end, end]
         product = h[end - 1, end - 1] * h[end, end] - h[end - 1, end] * h[end, end - 1]
-    x = h[start, start] * (h[start, start] - total) + h[start, start + 1] * h[start + 1, start] + product
-    y = h[start + 1, start] * (h[start, start] + h[start + 1, start + 1] - total)
-    z = h[start + 1, start] * h[start + 2, start + 1]
+    a = h[start, start] * (h[start, start] - total) + h[start, start + 1] * h[start + 1, start] + product
+    b = h[start + 1, start] * (h[start, start] + h[start + 1, start + 1] - total)
+    c = h[start + 1, start] * h[start + 2, start + 1]
     for k in range(start, end):
         last = k == end - 1
-        size = abs(x) + abs(y) + (0.0 if last else abs(z))
+        size = abs(a) + abs(b) + (0.0 if last else abs(c))
         if size > 0.0:
-            p, q, r = x / size, y / size, 0.0 if last else z / size
+            p, q, r = a / size, b / size, 0.0 if last else c / size
             length = sqrt(p * p + q * q + r * r)
             if p < 0.0:
                 length = -length
@@ -214,6 +238,15 @@ def double_step(h, start, end, steps):
                 h[i, k + 1] -= along * q
                 if not last:
                     h[i, k + 2] -= along * r
+            for i in range(len(z)):
+                along = p * z[i, k] + q * z[i, k + 1]
+                if not last:
+                    along += r * z[i, k + 2]
+                along /= half
+                z[i, k] -= along * p
+                z[i, k + 1] -= along * q
+                if not last:
+                    z[i, k + 2] -= along * r
         if not last:
-            x, y = h[k + 1, k], h[k + 2, k]
-            z = h[k + 3, k] if k < end - 2 else 0.0
+            a, b = h[k + 1, k], h[k + 2, k]
+            c = h[k + 3, k] if k < end - 2 else 0.0

@@ -13,6 +13,7 @@ import numpy as np
 from ..figures import AXIS_METRICS
 from ..frozen import frozen
 from ..signals import Floats, fixed
+from . import update_layout
 from .layout import (
     ALPHA,
     BOUND,
@@ -144,3 +145,15 @@ def settings() -> Floats:
 def bounds() -> Any:
     """One segment of two samples, which nobody may change."""
     return frozen(np.array([[0, 2]]))
+
+
+def numbers() -> Floats:
+    """Of an update: a rig whose motors drive an axis each, and poles at −1."""
+    x = np.zeros(update_layout.NUMBERS)
+    x[[0, 3, 4, 5]] = 1.0
+    x[update_layout.LIMITS : update_layout.LIMITS + 3] = 1.0
+    x[update_layout.POLES : update_layout.POLES + 8 : 2] = -1.0
+    x[update_layout.PI_GAINS : update_layout.PI_GAINS + 4] = 1.0
+    x[[update_layout.RTOL, update_layout.DURATION, update_layout.SAMPLE_TIME]] = 1e-3
+    x[[update_layout.MOST_STEPS, update_layout.AIMS]] = 10.0, 1.0
+    return x

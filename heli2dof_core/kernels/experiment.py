@@ -25,7 +25,7 @@ from .layout import (
     WORKSPACE,
 )
 from .linear import exact_response
-from .loop import augmented_system, nonlinear_loop
+from .loop import augmented_system
 from .measures import hold_after_divergence, speeds_at_once, trajectories
 
 ROUNDING = 1e-6
@@ -211,59 +211,3 @@ def check_settling(
             proven, now = found == ENDED, to
     c[DISTURBANCE], c[DISTURBANCE + 1] = volts[0], volts[1]
     confirm_settling(own, ahead, proven)
-
-
-@entry_point(
-    lambda size: (
-        size,
-        examples.rig(),
-        examples.trim(),
-        0.0,
-        examples.given(2, len(size)),
-        examples.given(2, 2),
-        examples.given(2, 2),
-        examples.given(len(size), len(size)),
-        examples.given(len(size), 2),
-        examples.poles(),
-        examples.experiment()[None],
-        examples.more(),
-        examples.inner(1, 2),
-        examples.times(),
-        *examples.NUMBERS,
-        examples.zeros(*WORKSPACE),
-        *examples.search(size),
-        examples.constants(size),
-        examples.modes(size),
-        examples.zeros(3, len(size)),
-        examples.zeros(3),
-        examples.trim(),
-        examples.zeros(1, len(size) + 1, 2),
-        examples.zeros(1, len(size), 2),
-        examples.zeros(1, 2, 2, 2),
-        *examples.figures(1, 2),
-    ),
-    *SIZES,
-)
-def run_experiments(
-    size, rig, trim, theta_0, law, by_reference, integral, whole, driven, poles,
-    experiments, more, inner, t, rtol, atol, most_steps, w, v, ladder, nodes, f, c, m, raw, grid, zeros,
-    linear, nonlinear, voltages, axes, motors, courses,
-):  # fmt: skip
-    """Both responses to each row of `experiments`, (n, EXPERIMENT), and their figures, without disturbances.
-
-    `more` is `nonlinear_loop`'s; `inner`, (n, 2, INNER), is where the states behind the sixth start in each model.
-    Filled, with n in front: states `linear` and `nonlinear` as `run_linear` and `run_nonlinear` say; and by model
-    `voltages` (2, 2, samples), `axes` (2, 2, AXIS_METRICS), `motors` (2, 2, MOTOR_METRICS), `courses` (2, COURSE).
-    """
-    for n in range(len(experiments)):
-        x = experiments[n]
-        run_linear(
-            size, theta_0, law, by_reference, whole, driven, poles, x, inner[n, 0], t, most_steps, zeros,
-            v, ladder, nodes, f, linear[n], voltages[n, 0], axes[n, 0], motors[n, 0], courses[n, 0],
-        )  # fmt: skip
-        nonlinear_loop(size, rig, trim, theta_0, law, by_reference, integral, x, more, c, m)
-        c[DISTURBANCE] = c[DISTURBANCE + 1] = 0.0
-        run_nonlinear(
-            size, c, m, poles, x, inner[n, 1], t, inf, rtol, atol, most_steps, trim, w, raw, grid, f,
-            nonlinear[n], voltages[n, 1], axes[n, 1], motors[n, 1], courses[n, 1],
-        )  # fmt: skip

@@ -43,6 +43,10 @@ NO_ANTI_WINDUP, CLAMPING, BACK_CALCULATION = 0, 1, 2
 # until the first computed ones arrive
 TIME, STEP, FILTERED, F, BETA, RATE, DELAY, BEFORE, SETTINGS = 0, 1, 3, 4, 8, 10, 11, 12, 14
 
+FILTER_FREQUENCY = 2.0 * np.pi * 20.0
+"""Natural frequency of the rig's rate filters, rad/s (Quanser 2-DOF Helicopter, laboratory manual)."""
+FILTER_DAMPING = 0.85
+
 ESTIMATED = (6, 11)
 """Shape of a digital controller's estimator, a row per state: w⁺ by w (6), measured angles (2), voltages (2), 1."""
 

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from math import prod
+from typing import Any
+
+import numpy as np
+
 from ..figures import AXIS_METRICS
 from .layout import (
     CONSTANTS,
@@ -39,8 +44,8 @@ POLES, ROTOR_POLES, ROTORS_PLACED = 16, 24, 26
 FAMILY, SHIFTED, SHIFT = 27, 28, 29
 # Whether PI loops are closed, k_p and T_i of pitch, of yaw, whether they are paired crosswise, whether decoupled
 PI_LOOPS, PI_GAINS, CROSSWISE, DECOUPLED = 30, 31, 35, 36
-# Rotors, pitch's and yaw's: time constants, whether their curves are quadratic, dead zones, where they are matched (0:
-# left out); friction: Coulomb's of both axes, then what holds them at rest
+# Rotors, pitch's and yaw's: time constants, whether their curves are quadratic, dead zones, where they are matched
+# (0: left out); friction: Coulomb's of both axes, then what holds them at rest
 LAGS, QUADRATIC, DEAD_ZONES, MATCHED, FRICTION = 37, 39, 41, 43, 45
 # What is measured (ALL_STATES, FILTERED_RATES, OBSERVED), the observer's poles as above, its family
 MEASURED, OBSERVER_POLES, OBSERVER_FAMILY = 49, 50, 58
@@ -60,20 +65,30 @@ EACH_AXIS, MOST_STEPS = 82, 83
 K_GIVEN, GIVEN_K, GIVEN_INVERSE, OWN_INTEGRAL, GIVEN_INTEGRAL, AIMS = 84, 85, 97, 101, 102, 106
 L_GIVEN, GIVEN_L, NUMBERS = 107, 108, 116
 
-# How an update ended: all is filled; K takes exact numbers, as a closed form would lose digits; the motors act alike; the
-# family is none of this rig's; a dead zone reaches beyond its motor's limit; a thrust curve has no slope at the trim, or
-# a rotor no lag, so that it cannot be placed; eigenvalues were not found
+# How an update ended: all is filled; K takes exact numbers, as a closed form would lose digits; the motors act alike;
+# the family is none of this rig's; a dead zone reaches beyond its motor's limit; a thrust curve has no slope at the
+# trim, or a rotor no lag, so that it cannot be placed; eigenvalues were not found
 DONE, EXACT, UNCONTROLLABLE, NO_STRUCTURE, NO_CURVE, NO_SLOPE, NO_EIGENVALUES = range(7)
 
 # Figures, in one row: det Ĝ(0)⁻¹ (0 where a pole lies at 0), whether the placed poles are stable, ‖K‖_F, ‖K‖₂, κ₂ of
 # the eigenvectors (NaN where there are too few), the pole error and its bound, whether these take exact numbers, λ₁₁
-# (NaN without steady state), whether the loop is stable, its lag margin (infinite where there is none), how many of its
-# states are connected
+# (NaN without steady state), whether the loop is stable, its lag margin (infinite where there is none), how many of
+# its states are connected
 DETERMINANT, PLACED_STABLE, NORM, SPECTRAL_NORM, CONDITION, POLE_ERROR, POLE_ERROR_BOUND, DOUBTFUL = range(8)
 RELATIVE_GAIN, STABLE, LAG_MARGIN, CONNECTED, FIGURES = 8, 9, 10, 11, 12
 
 # The estimator, rows of one array: F (6×6), G (6×2), H (6×2), x̂ by w (6×6) and by angles (6×2)
 ESTIMATOR_F, ESTIMATOR_G, ESTIMATOR_H, BY_STATE, BY_ANGLE, ESTIMATOR_COLUMNS = 0, 6, 8, 10, 16, 18
+AT_ONCE = 1e-6
+"""Time constant below which a rotor counts as one that follows at once, s: far below what can be seen."""
+AT_REST = 0.01
+"""Share of its limit below which a motor's trim voltage is no measure of the thrust curve."""
+NEARLY_PARALLEL = 1e-2
+"""Relative |γ| below which the motors are said to push nearly alike."""
+SMALLEST = 1e-100
+"""|γ|, (N·m/V)², below which powers of it are no longer floats with all their digits."""
+DOUBTFUL_SHARE = 1e-8
+"""Share of the largest pole: floats tell the poles as long as rounding cannot have moved them by more."""
 RUNS = 3
 """Most experiments: the scenario, and each axis alone."""
 
@@ -84,10 +99,11 @@ def block_shapes(size: int, samples: int) -> dict[str, tuple[Shape, str]]:
     """What `update` fills, in the order of its arguments: shapes and kinds (float64, complex128).
 
     `outcome` is how it ended and the number of runs; K has six columns, of which four states leave the last two 0;
-    `closed` are the placed poles in the order of those asked for; `law`, `whole` and `driven` are ∂u/∂ states, A and B
-    of the loop with the states at their places (`layout`), `by_reference` is ∂u/∂r; `poles` and, without those of
-    integrals that drive nothing, `connected` are the loop's, slowest first; `calm_axes` and `calm_courses` are of the
-    rig without the disturbance.
+    `closed` are the placed poles in the order of those asked for, `open` those of the rig; `actuators` are both
+    motors' τ, dead zone, square of the curve, friction (F_c, F_s) and slope φ′ at the trim; `law`, `whole` and
+    `driven` are ∂u/∂ states, A and B of the loop with the states at their places (`layout`), `by_reference` is ∂u/∂r;
+    `poles` and, without those of integrals that drive nothing, `connected` are the loop's, slowest first;
+    `calm_axes` and `calm_courses` are of the rig without the disturbance.
     """
     n, real, both = size, "float64", "complex128"
     return {
@@ -99,6 +115,7 @@ def block_shapes(size: int, samples: int) -> dict[str, tuple[Shape, str]]:
         "K": ((2, 6), real),
         "inverse": ((2, 2), real),
         "closed": ((6,), both),
+        "open": ((4,), both),
         "figures": ((FIGURES,), real),
         "proportional": ((2, 2), real),
         "integral": ((2, 2), real),
@@ -148,6 +165,7 @@ def scratch_shapes(size: int, samples: int) -> dict[str, tuple[Shape, str]]:
         "f": (POLYNOMIALS, real),
         "opened": (POLYNOMIALS, real),
         "f_whole": (WHOLE_POLYNOMIALS, real),
+        "inner_whole": (WHOLE_POLYNOMIALS, real),
         "rows": (WHOLE_ROWS, real),
         "minors": (WHOLE_MINORS, real),
         "p": (POLYNOMIAL_WORKSPACE, real),
@@ -159,9 +177,28 @@ def scratch_shapes(size: int, samples: int) -> dict[str, tuple[Shape, str]]:
         "settings": ((SETTINGS,), real),
         "estimator": ((6, ESTIMATOR_COLUMNS), real),
         "estimated": (ESTIMATED, real),
-        "square": ((n + 2, n), real),
-        "column": ((2, n), real),
-        "motors_of": ((2, n, 2), real),
-        "vectors": ((3, 6, 6), both),
+        "squares": ((4, 14, 14), real),
+        "column": ((4, n), real),
+        "motor_columns": ((2, n, 2), real),
+        "polynomial_law": ((2, 6), real),
+        "inputs": ((4, 2), real),
+        "nothing": ((2,), real),
+        "rig": ((11,), real),
+        "gains": ((2, 2), real),
+        "vectors": ((3, 7, 6), both),
         "exponential": ((80, 10), real),
+        "size_of_exponential": ((10,), real),
+        "start": ((n,), real),
+        "work": ((18,), real),
     }
+
+
+def made(shapes: dict[str, tuple[Shape, str]]) -> list[Any]:
+    """Arrays of these shapes and kinds, one after the other in one piece of memory, all zero."""
+    kinds = {"float64": np.float64, "complex128": np.complex128, "int64": np.int64}
+    sizes = [prod(shape) * np.dtype(kinds[kind]).itemsize for shape, kind in shapes.values()]
+    memory, at, arrays = np.zeros(sum(sizes), dtype=np.uint8), 0, []
+    for (shape, kind), size in zip(shapes.values(), sizes, strict=True):
+        arrays.append(memory[at : at + size].view(kinds[kind]).reshape(shape))
+        at += size
+    return arrays

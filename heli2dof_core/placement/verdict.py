@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..eigenvalues import balanced, eigenvectors, spectrum
 from ..frozen import Frozen
+from ..kernels.update_layout import DOUBTFUL_SHARE
 from ..poles import match_poles
 from ..signals import Complexes, Floats
 from .exact import exact_closed_loop, exact_eigenvalues, exact_eigenvectors
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
     from sympy.polys.matrices import DomainMatrix
 
 EPS = float(np.finfo(np.float64).eps)
-DOUBTFUL = 1e-8
-"""Share of the largest pole: floats tell the poles as long as rounding cannot have moved them by more."""
 
 
 @dataclass(frozen=True)
@@ -49,8 +48,8 @@ def judge(A: Floats, B: Floats, K: Floats, wanted: Complexes, *, condition: bool
 
     Rounding moves eigenvalues by κ(V) ‖E‖ at most (Bauer and Fike, Numer. Math. 2 (1960) 137), where E is what
     rounding the products and LAPACK's backward error make. Where that is more than
-    `DOUBTFUL`, as at poles that coincide or in systems that are nearly uncontrollable, the characteristic polynomial
-    is computed exactly.
+    `DOUBTFUL_SHARE`, as at poles that coincide or in systems that are nearly uncontrollable, the characteristic
+    polynomial is computed exactly.
 
     Args:
         A: n×n.
@@ -61,7 +60,7 @@ def judge(A: Floats, B: Floats, K: Floats, wanted: Complexes, *, condition: bool
     """
     found, rounding = _in_floats(A, B, K)
     size = float(np.max(np.abs(wanted), initial=0.0)) or float(np.max(np.abs(found), initial=0.0))
-    if not rounding <= DOUBTFUL * size:
+    if not rounding <= DOUBTFUL_SHARE * size:
         matrix = exact_closed_loop(A, B, K)
         try:
             values = exact_eigenvalues(matrix, found)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from math import ceil
 
 import numpy as np
 
 from ..engine import engine
 from ..findings import Finding
-from ..kernels.layout import FED, PLAIN, STEP, WORKSPACE
+from ..kernels.layout import FED, FILTER_DAMPING, FILTER_FREQUENCY, PLAIN, STEP, WORKSPACE
 from ..loop import Loop
 from ..scenario import Digital, Limits, Scenario
 from ..scratch import FOLLOWED_TWICE
@@ -18,9 +19,6 @@ from .augmented import inner_start, sampled_estimator
 from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop, limited_response
 from .response import Measured, Response, room
 
-FILTER_FREQUENCY = 2 * np.pi * 20
-"""Natural frequency of the rig's rate filters, rad/s (Quanser 2-DOF Helicopter, laboratory manual)."""
-FILTER_DAMPING = 0.85
 SLOW_SAMPLING = 0.25
 """Sample time times the fastest pole beyond which the digital loop is no longer like the continuous one:
 about 25 samples per period of it (Åström & Wittenmark, Computer-Controlled Systems, 1997, section 4.4
@@ -43,11 +41,6 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
         1, : len(size) - PLAIN
     ]
     states, held, found = np.empty((len(t), len(size))), np.empty((len(t), 2)), room()
-    count = 1
-    noises = np.hypot(scenario.noise, digital.noise)
-    if noises.any():  # for twice the window: settling is looked at beyond its end
-        count = int(np.ceil(2 * scenario.duration / digital.sample_time)) + 2
-    noise = noises * np.random.default_rng(digital.seed).standard_normal((count, 2))
     kernels = engine()
     kernels.run_digital(
         size,
@@ -59,7 +52,7 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
         sampled_estimator(loop, digital.sample_time),
         loop.poles,
         system.experiment,
-        noise,
+        noise_of(scenario, digital),
         system.disturbed_from,
         scenario.rtol,
         ABSOLUTE_TOLERANCE * scenario.rtol,
@@ -77,7 +70,26 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
     )
     course, voltages = np.ascontiguousarray(states.T), np.ascontiguousarray(held.T)
     response = limited_response(loop, system.experiment, t, (course, voltages), Measured(*found))
+    return with_sampling_remarks(response, loop, scenario, digital)
+
+
+def with_sampling_remarks(response: Response, loop: Loop, scenario: Scenario, digital: Digital) -> Response:
+    """The response with what is to be said of the controller's sampling."""
     return replace(response, findings=(*response.findings, *_remarks(loop, scenario, digital)))
+
+
+def noise_of(scenario: Scenario, digital: Digital) -> Floats:
+    """What is added to the measured angles at each sample, rad: (samples of the controller, 2), or a row of zeros."""
+    noises = np.hypot(scenario.noise, digital.noise)
+    if not noises.any():
+        return NO_NOISE
+    # for twice the window: settling is looked at beyond its end
+    count = ceil(2 * scenario.duration / digital.sample_time) + 2
+    return noises * np.random.default_rng(digital.seed).standard_normal((count, 2))
+
+
+NO_NOISE = np.zeros((1, 2))
+"""What a quiet rig's samples have."""
 
 
 def standing_voltages(loop: Loop, system: NonlinearLoop) -> Floats:

@@ -11,7 +11,7 @@ from ..loop import Loop
 from ..scenario import AntiWindup, Limits, Scenario
 from ..signals import Floats, fixed
 
-_WINDUP: dict[AntiWindup, int] = {
+WINDUP: dict[AntiWindup, int] = {
     "none": NO_ANTI_WINDUP,
     "clamping": CLAMPING,
     "back-calculation": BACK_CALCULATION,
@@ -29,7 +29,7 @@ def numbers(loop: Loop, limits: Limits | None, scenario: Scenario) -> list[float
     bounds, stop, windup, back = (inf, inf), inf, NO_ANTI_WINDUP, [0.0] * 4
     if limits is not None and scenario.saturation:
         bounds = limits.V_p, limits.V_y
-        windup = _WINDUP[scenario.anti_windup] if loop.has_integrators else NO_ANTI_WINDUP
+        windup = WINDUP[scenario.anti_windup] if loop.has_integrators else NO_ANTI_WINDUP
         if windup == BACK_CALCULATION:
             back = _tracking(loop, scenario.tracking_time)
     if limits is not None and scenario.travel_stops and limits.theta is not None:

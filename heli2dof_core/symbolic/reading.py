@@ -60,7 +60,8 @@ _DEGREE = {d_10: 3, d_11: 2, d_12: 1, d_20: 3, d_21: 2, d_22: 1, a: 2}  # in 1/s
 FIELD = sp.QQ.frac_field(*_OUTER, *_INNER)
 """Of the same derivation as `rotors` and `observer`, in the letters of the plant's entries."""
 _DETERMINANT = FIELD.from_sympy(b_11 * b_22 - b_12 * b_21).numer
-_RATES = {_rate_p: 1 / tau_p, _rate_y: 1 / tau_y}
+RATES = {_rate_p: 1 / tau_p, _rate_y: 1 / tau_y}
+"""Letters of `FIELD` that people read as fractions."""
 
 ENTRIES: dict[sp.Symbol, sp.Expr] = {
     b_11: P["K_pp"] * phi_p / alpha,
@@ -118,6 +119,22 @@ def gain_in_letters(structure: Structure, *, shifted: bool = False) -> FullRank:
 
 
 @cache
+def paper_gain_in_letters(structure: Structure, *, shifted: bool = False) -> FullRank:
+    """The placement of `full_rank.full_rank`, in these letters."""
+    polynomials = [[FIELD.from_sympy(d) for d in triple[:2]] for triple in COEFFICIENTS]
+    return member(*plant_in_letters(), structure, polynomials, _shift(structure, shifted))
+
+
+@cache
+def observer_in_letters(structure: Structure, *, shifted: bool = False) -> FullRank:
+    """The placement of `observer.observer`'s dual pair, in these letters; its K is Lᵀ."""
+    A, _ = plant_in_letters()
+    polynomials = [[FIELD.from_sympy(d) for d in triple[:2]] for triple in COEFFICIENTS]
+    dual = (A.transpose(), _to_field(sp.eye(4, 2)))
+    return member(*dual, structure, polynomials, _shift(structure, shifted))
+
+
+@cache
 def read_gain(structure: Structure, *, shifted: bool = False) -> Reading:
     """K, 2×6, of the six states.
 
@@ -143,10 +160,7 @@ def read_observer(structure: Structure, *, shifted: bool = False) -> Reading:
     Raises:
         InvalidInputError: a shift is asked for where there is none.
     """
-    A, _ = plant_in_letters()
-    polynomials = [[FIELD.from_sympy(d) for d in pair] for pair in ((d_10, d_11), (d_20, d_21))]
-    dual = (A.transpose(), _to_field(sp.eye(4, 2)))
-    placed = member(*dual, structure, polynomials, _shift(structure, shifted))
+    placed = observer_in_letters(structure, shifted=shifted)
     L = placed.K.transpose().to_Matrix().subs(COEFFICIENTS_OF_OBSERVER_POLES)
     own = {symbol: ENTRIES[symbol] for symbol in (nu_p, nu_y)}
     gain = sp.ImmutableMatrix(L.applyfunc(lambda entry: sp.collect(sp.expand(entry), (nu_p, nu_y, c))))
@@ -179,29 +193,33 @@ class _Writer:
 
     def _entry(self, element: Any, where: str) -> sp.Expr:
         return sp.Add(
-            *(self._group(coefficient, where) * outer.subs(_RATES) for coefficient, outer in _terms(element))
+            *(self._group(coefficient, where) * outer.subs(RATES) for coefficient, outer in terms(element))
         )
 
     def _group(self, polynomial: Any, where: str) -> sp.Expr:
         """A coefficient by its name, if it has several terms, and what all of these share before it."""
-        content, rest, shared = _monomial_out(polynomial)
+        content, rest, shared = monomial_out(polynomial)
         if len(rest) == 1 or not where:
-            return (content * shared * sp.factor(rest.as_expr())).subs(_RATES)
+            return (content * shared * sp.factor(rest.as_expr())).subs(RATES)
         key = frozenset(
             rest.terms()
         )  # an element's own hash is that of an earlier state where it was made in place
         if key not in self._known:
             self._known[key] = sp.Symbol(f"h_{len(self._known) + 1}")
-            value = sp.collect(rest.as_expr(), (a, nu_p, nu_y, _rate_p, _rate_y)).subs(_RATES)
-            self.groups[self._known[key]] = value
+            self.groups[self._known[key]] = collected(rest)
         name = self._known[key]
         places = self._where.setdefault(name, [])
         if where not in places:
             places.append(where)
-        return content * shared.subs(_RATES) * name
+        return content * shared.subs(RATES) * name
 
 
-def _monomial_out(polynomial: Any) -> tuple[sp.Expr, Any, sp.Expr]:
+def collected(polynomial: Any) -> sp.Expr:
+    """What is inside a group, sorted by the rig's own letters."""
+    return sp.collect(polynomial.as_expr(), (a, nu_p, nu_y, _rate_p, _rate_y)).subs(RATES)
+
+
+def monomial_out(polynomial: Any) -> tuple[sp.Expr, Any, sp.Expr]:
     """Its content, signed so that the rest leads with a positive number; the rest; what all its terms share."""
     content, rest = polynomial.primitive()
     if rest.LC < 0:
@@ -213,7 +231,7 @@ def _monomial_out(polynomial: Any) -> tuple[sp.Expr, Any, sp.Expr]:
     return sp.Rational(int(content.numerator), int(content.denominator)), rest, shared
 
 
-def _terms(element: Any) -> Iterator[tuple[Any, sp.Expr]]:
+def terms(element: Any) -> Iterator[tuple[Any, sp.Expr]]:
     """Σ coefficient × (thrusts, over thrusts and the determinant): the coefficients hold neither thrusts nor c."""
     above, below, power = element.numer, element.denom, 0
     while (divided := below.div(_DETERMINANT))[1] == 0:
