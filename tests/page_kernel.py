@@ -5,7 +5,7 @@ As Prettier has it, so that it is checked like any other module; a test holds it
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import get_args
 
 from heli2dof_core.couplings import STRUCTURES
@@ -19,9 +19,10 @@ from heli2dof_core.request import Place, quantities
 from heli2dof_core.rotors import AT_ONCE
 from heli2dof_core.scenario import MOST_SAMPLE_TIMES, AntiWindup, Measured
 from tests.children import ROOT
-from tests.page_source import WIDTH, literal, quoted
+from tests.page_source import WIDTH, key, literal, quoted
 
 PAGE = ROOT / "static" / "kernel" / "layout.js"
+SHAPES = PAGE.with_name("shapes.js")
 HEAD = """/**
  * What stands where in the numbers that the kernel `update` takes and in the block that it fills, and what a request
  * may be. Made of heli2dof_core/kernels/update_layout.py and the core's dataclasses by `python -m tests.page_kernel`;
@@ -155,11 +156,68 @@ def _array(before: str, entries: list[str], after: str) -> str:
     )
 
 
-def _set(about: str, name: str, known: Mapping[str, tuple[Place, Field]], which: object) -> str:
-    assert callable(which)
+def _set(
+    about: str, name: str, known: Mapping[str, tuple[Place, Field]], which: Callable[[Field], bool]
+) -> str:
     entries = [quoted(path) for path, (_, own) in known.items() if which(own)]
     return f"/** {about} */\n{_array(f'export const {name} = new Set(', entries, ');')}\n"
 
 
+SHAPES_HEAD = """/**
+ * The arrays of the kernel `update` for a loop of n states: what their elements are, and their shapes. Made of
+ * heli2dof_core/kernels/update_layout.py by `python -m tests.page_kernel`; not to be changed by hand.
+ *
+ * @typedef {['f64' | 'i64' | 'c128', ...number[]]} Kind  c128: two f64
+ */
+"""
+KINDS = {"float64": "f64", "int64": "i64", "complex128": "c128"}
+
+
+def shapes() -> str:
+    """The module of the arrays' shapes."""
+    block = _shapes("What it fills.", "block", update.block_shapes)
+    return (
+        f"{SHAPES_HEAD}\n{block}\n{_shapes('What it writes into besides.', 'scratch', update.scratch_shapes)}"
+    )
+
+
+def _shapes(
+    about: str, name: str, shapes_of: Callable[[int, int], dict[str, tuple[update.Shape, str]]]
+) -> str:
+    sizes = (layout.PLAIN, layout.LAGGED, layout.FULL)
+    few, many = ([shapes_of(n, samples) for n in sizes] for samples in (100, 300))
+    lines = []
+    for own, (shape, kind) in few[0].items():
+        dims = [
+            _dimension([at[own][0][i] for at in few], [at[own][0][i] for at in many])
+            for i in range(len(shape))
+        ]
+        lines.append(f"  {key(own)}: [{', '.join((quoted(KINDS[kind]), *dims))}],")
+    head = "@param {number} n @param {number} samples @returns {Record<string, Kind>}"
+    return "\n".join(
+        (f"/** {about} {head} */", f"export const {name} = (n, samples) => ({{", *lines, "});", "")
+    )
+
+
+def _dimension(few: list[int], many: list[int]) -> str:
+    """One dimension in JavaScript, by 6, 8, 14 states, of 100 and of 300 samples."""
+    if few != many:
+        if few[0] != few[1] or many[0] - few[0] != 200:
+            raise ValueError(f"The page has no words for {few}, {many}")
+        return "samples" if few[0] == 100 else f"samples + {few[0] - 100}"
+    plain, lagged, full = few
+    if plain == full:
+        return str(plain)
+    if lagged == full:
+        return f"n === {layout.PLAIN} ? {plain} : {full}"
+    slope = (full - plain) // (layout.FULL - layout.PLAIN)
+    rest = plain - slope * layout.PLAIN
+    if lagged != slope * layout.LAGGED + rest or full != slope * layout.FULL + rest:
+        raise ValueError(f"The page has no words for {few}")
+    term = "n" if slope == 1 else f"{slope} * n"
+    return f"{term} + {rest}" if rest else term
+
+
 if __name__ == "__main__":
     PAGE.write_text(module(), encoding="utf-8")
+    SHAPES.write_text(shapes(), encoding="utf-8")

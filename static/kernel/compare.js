@@ -49,7 +49,7 @@ function farthest(name, own, server, share, size = 1e-9) {
     const apart = Math.abs(own[i] - server[i]);
     if (!(apart <= most)) [at, most] = [i, Number.isNaN(apart) ? Infinity : apart];
   }
-  return most > tolerance ? { name, own: words(own[at]), server: words(server[at]), by: most / tolerance } : null;
+  return most <= tolerance ? null : { name, own: words(own[at]), server: words(server[at]), by: most / tolerance };
 }
 
 /** Poles have no order. @param {string} name @param {Complex[]} own @param {Complex[]} server @returns {Difference|null} */
@@ -104,10 +104,15 @@ const said = (v) =>
  * @returns {Difference|null}
  */
 export function differenceOf(own, server) {
-  const exact = own.gains.pole_error === undefined; // the server's poles are exact then, rounded ones are not
-  const [mine, theirs] = [own, server].map((reply) =>
-    exact ? { ...reply, gains: { ...reply.gains, closed_loop_poles: [] } } : reply,
-  );
+  const doubtful = own.gains.pole_error === undefined; // the server's poles are exact then
+  const { closed_loop_poles: _rounded, ...gains } = own.gains;
+  const { closed_loop_poles: _exact, ...others } = server.gains;
+  const [mine, theirs] = doubtful
+    ? [
+        { ...own, gains },
+        { ...server, gains: others },
+      ]
+    : [own, server];
   const found = compared('', '', mine, theirs);
   return found.reduce((/** @type {Difference|null} */ worst, d) => (worst && worst.by >= d.by ? worst : d), null);
 }

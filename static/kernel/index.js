@@ -1,3 +1,3 @@
 /** What other rooms may import of kernel/. */
-export { loadModule } from './module.js';
 export { Own } from './own.js';
+export { loadModule } from './updates.js';

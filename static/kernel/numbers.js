@@ -114,12 +114,12 @@ function rotorOf(design, preset, axis) {
   return { ...own, tau: own.tau < AT_ONCE ? 0 : own.tau };
 }
 
-/** Torques against the motion, and what an axis at rest withstands. @param {Design} design @param {Preset} preset */
+/** Torques against the motion, and those that hold an axis at rest. @param {Design} design @param {Preset} preset */
 function frictionOf(design, preset) {
   const both = AXES.map(
     (axis) => /** @type {import('../contract.js').Friction} */ ({ ...preset.friction[axis], ...design.friction[axis] }),
   );
-  return [...both.map((own) => own.coulomb), ...both.map((own) => Math.max(own.coulomb, own.static ?? 0))];
+  return [...both.map((own) => own.coulomb), ...both.map((own) => own.static ?? 0)];
 }
 
 /** How many states its loop has for the kernel. @param {Design} design @param {Preset} preset @returns {Size} */
@@ -153,7 +153,7 @@ export function fill(numbers, design, preset) {
   const start = { ...INITIAL, ...scenario.initial };
   const { digital, disturbance } = scenario;
   const sampled = { ...DIGITAL, ...digital };
-  const counts = digital?.encoders ? { ...ENCODERS, ...digital.encoders } : preset.encoders;
+  const counts = digital && !digital.encoders ? preset.encoders : { ...ENCODERS, ...digital?.encoders };
   const pushed = { ...UNDISTURBED, ...disturbance };
   numbers.fill(0);
   put(AT.PARAMETERS, ...PARAMETERS.map((name) => design.parameters[name] ?? preset.parameters[name]));

@@ -15,6 +15,16 @@ import { differenceOf } from './compare.js';
 import { fill, serves, sizeOf } from './numbers.js';
 import { replyOf, withWords } from './reply.js';
 
+/**
+ * @typedef {ReturnType<typeof setTimeout>} Timer
+ * @typedef {{now: () => number, later: (act: () => void, ms: number) => Timer, cancel: (timer?: Timer) => void}} Clock
+ */
+/** @type {Clock} */
+const CLOCK = {
+  now: () => performance.now(),
+  later: (act, ms) => setTimeout(act, ms),
+  cancel: (timer) => clearTimeout(timer),
+};
 const REST_MS = 200;
 const SLOW_MS = 60; // where an update takes longer, a drag goes by the server
 
@@ -27,21 +37,23 @@ export class Own {
   /** The page's pointer is down. */ #down = false;
   #broken = false;
   #held = false;
-  #edited = -Infinity;
-  /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
+  /** When the design was changed last, and in which step of undo. */ #edited = -Infinity;
+  #step = -1;
+  /** @type {Timer|undefined} */ #timer;
 
   /**
    * @param {import('../model/store.js').Store} store
    * @param {Kernel} kernel
    * @param {() => void} ask  sends the present design to the server
-   * @param {{now?: () => number, later?: (act: () => void, ms: number) => ReturnType<typeof setTimeout>}} [clock]
+   * @param {Clock} [clock]
    */
-  constructor(store, kernel, ask, { now = () => performance.now(), later = (act, ms) => setTimeout(act, ms) } = {}) {
+  constructor(store, kernel, ask, { now, later, cancel } = CLOCK) {
     this.store = store;
     this.kernel = kernel;
     this.ask = ask;
     this.now = now;
     this.later = later;
+    this.cancel = cancel;
     const { reply, heard, design } = store.state;
     this.#said = reply && { reply, design: heard };
     this.#seen = design;
@@ -64,9 +76,10 @@ export class Own {
   edited() {
     const { design } = this.store.state;
     const now = this.now();
-    const moving = this.#down || this.store.state.dragging || now - this.#edited < REST_MS;
-    this.#edited = now;
-    clearTimeout(this.#timer);
+    const quick = this.store.step === this.#step && now - this.#edited < REST_MS;
+    const moving = this.#down || this.store.state.dragging || quick;
+    [this.#edited, this.#step] = [now, this.store.step];
+    this.cancel(this.#timer);
     this.#held = design !== null && this.store.busy && moving && this.#serves(design);
     if (this.#held) this.#timer = this.later(() => this.#askNow(), REST_MS);
     else if (design) this.#asked.add(design);
@@ -81,7 +94,7 @@ export class Own {
   }
 
   #askNow() {
-    clearTimeout(this.#timer);
+    this.cancel(this.#timer);
     this.#held = false;
     const { design } = this.store.state;
     if (design) this.#asked.add(design);
@@ -124,10 +137,10 @@ export class Own {
     const preset = presetOf(this.store.state);
     if (!preset || !this.#said) return null;
     const begin = this.now();
-    const { numbers } = this.kernel;
     const how = { size: sizeOf(design, preset), samples: scenarioOf(design).samples };
-    fill(numbers, design, preset);
-    const reply = replyOf(this.kernel.update(how.size, how.samples), numbers, design, how, this.#said);
+    fill(this.kernel.numbers, design, preset);
+    const block = this.kernel.update(how.size, how.samples); // its memory may have moved
+    const reply = replyOf(block, this.kernel.numbers, design, how, this.#said);
     if (this.now() - begin > SLOW_MS) this.#slow = this.store.step;
     return reply;
   }

@@ -213,7 +213,7 @@ export function replyOf(block, numbers, design, { size, samples }, said) {
         rotor_poles: placed
           ? complexes(Float64Array.of(numbers[AT.ROTOR_POLES], 0, numbers[AT.ROTOR_POLES + 1], 0), 2)
           : undefined,
-        observer: observer ? observer.observer : same ? words.gains.observer : undefined,
+        observer: !design.observer ? undefined : observer ? observer.observer : same ? words.gains.observer : undefined,
       }),
       norm: figures[FIGURES.NORM],
       spectral_norm: figures[FIGURES.SPECTRAL_NORM],

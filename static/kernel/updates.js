@@ -1,0 +1,57 @@
+/**
+ * The kernel `update` of kernels.wasm, its arrays made once for each number of states. Pure but for where it comes from.
+ * @typedef {import('./module.js').Block} Values
+ */
+import { compiled, instantiated, MODULE } from './module.js';
+import { AT, PLAIN } from './layout.js';
+import { block, scratch } from './shapes.js';
+
+/** As soon as the file is there; rejects where a browser has no WebAssembly, or may not have it. */
+export const loadModule = async () => new Updates(await instantiated(await compiled(await fetch(MODULE))));
+
+export class Updates {
+  #numbers;
+  #quiet;
+  /** @type {Map<string, {run: () => unknown, filled: [string, Values][]}>} */ #ready = new Map();
+
+  /** @param {import('./module.js').Kernels} kernels */
+  constructor(kernels) {
+    this.kernels = kernels;
+    this.#numbers = kernels.array('f64', AT.NUMBERS);
+    this.#quiet = kernels.array('f64', 1, 2); // what noise adds to measured angles
+  }
+
+  /** What an update takes; to be asked for anew after one. */
+  get numbers() {
+    return this.#numbers.floats;
+  }
+
+  /**
+   * Runs it.
+   * @param {number} size states of the loop @param {number} samples of its responses
+   * @returns {import('./reply.js').Block} the block, until the next update
+   */
+  update(size, samples) {
+    const key = `${size} ${samples}`;
+    const { run, filled } = this.#ready.get(key) ?? this.#made(key, size, samples);
+    run();
+    return Object.fromEntries(filled.map(([name, values]) => [name, values.floats]));
+  }
+
+  /** @param {string} key @param {number} size @param {number} samples */
+  #made(key, size, samples) {
+    const arrays = (/** @type {typeof block} */ shapes) =>
+      Object.entries(shapes(size, samples)).map(
+        ([name, [kind, ...shape]]) => /** @type {[string, Values]} */ ([name, this.kernels.array(kind, ...shape)]),
+      );
+    const filled = arrays(block);
+    const all = { ...Object.fromEntries([...filled, ...arrays(scratch)]), numbers: this.#numbers, noise: this.#quiet };
+    const plain = size === PLAIN;
+    const run = plain
+      ? this.kernels.bound(`update_${PLAIN}`, all)
+      : this.kernels.bound('update_any', { ...all, size: this.kernels.array('f64', size) });
+    const made = { run, filled };
+    this.#ready.set(key, made);
+    return made;
+  }
+}
