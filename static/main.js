@@ -212,6 +212,7 @@ function welcome() {
 async function computeHere() {
   const { loadModule, Own } = await fetched(() => import('./kernel/index.js'));
   own = new Own(store, await loadModule(), ask).watch(window);
+  document.documentElement.dataset.kernel = 'ready';
 }
 
 /** Panels that the first view does not need, fetched when it is there. */

@@ -17,7 +17,7 @@ from heli2dof_core.poles import ZERO
 from heli2dof_core.quantities import Field
 from heli2dof_core.request import Place, quantities
 from heli2dof_core.rotors import AT_ONCE
-from heli2dof_core.scenario import MOST_SAMPLE_TIMES, AntiWindup, Measured
+from heli2dof_core.scenario import AntiWindup, Measured
 from tests.children import ROOT
 from tests.page_source import WIDTH, key, literal, quoted
 
@@ -123,10 +123,6 @@ def _numbers() -> str:
         "ROTORS": ("Where the rotors' speeds stand among the states.", layout.PLAIN),
         "ZERO": ("Parts of poles below this are 0, rad/s.", ZERO),
         "AT_ONCE": ("Rotors below this follow at once, s.", AT_ONCE),
-        "MOST_SAMPLE_TIMES": (
-            "Samples of a digital controller in one experiment, at most.",
-            MOST_SAMPLE_TIMES,
-        ),
     }
     return "".join(
         f"{f'/** {words} */' + chr(10) if words else ''}export const {name} = {literal(value)};\n"

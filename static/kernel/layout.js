@@ -133,8 +133,6 @@ export const ROTORS = 6;
 export const ZERO = 1e-9;
 /** Rotors below this follow at once, s. */
 export const AT_ONCE = 1e-6;
-/** Samples of a digital controller in one experiment, at most. */
-export const MOST_SAMPLE_TIMES = 100000;
 
 /** Paths in a request whose values may be null. */
 export const MAY_LACK = new Set([

@@ -15,7 +15,6 @@ import {
   LAGGED,
   MAY_LACK,
   MEASURED,
-  MOST_SAMPLE_TIMES,
   PARAMETERS,
   PLAIN,
   WHOLE,
@@ -23,8 +22,10 @@ import {
   ZERO,
 } from './layout.js';
 
-/** Of each response's integration; where that is not enough, the server goes on. */
-const MOST_STEPS = 40_000;
+/** Of each response's integration: a frame's work. Where that is not enough, the server goes on. */
+const MOST_STEPS = 10_000;
+/** Of a digital controller, for the same reason. */
+const MOST_SAMPLES = 5000;
 const AXES = /** @type {const} */ (['pitch', 'yaw']);
 /** What the server does unless it is told otherwise. @type {Required<import('../contract.js').ScenarioChanges>} */
 const SCENARIO = { ...standardOf('scenario'), rtol: STANDARD.rtol };
@@ -104,7 +105,7 @@ function fits(design, preset) {
     rotors.every(({ matched_at, dead_zone }) => !matched_at || matched_at > dead_zone) &&
     !(design.place_rotors && rotors.some(({ tau }) => tau === 0)) &&
     !(design.coupling === 'axis-decoupled' && Number.isFinite(design.shift)) &&
-    !(digital && duration / { ...DIGITAL, ...digital }.sample_time > MOST_SAMPLE_TIMES)
+    !(digital && duration / { ...DIGITAL, ...digital }.sample_time > MOST_SAMPLES)
   );
 }
 

@@ -77,7 +77,8 @@ export class Own {
     const { design } = this.store.state;
     const now = this.now();
     const quick = this.store.step === this.#step && now - this.#edited < REST_MS;
-    const moving = this.#down || this.store.state.dragging || quick;
+    // a hidden page has no frames; others may watch it
+    const moving = (this.#down || this.store.state.dragging || quick) && !globalThis.document?.hidden;
     [this.#edited, this.#step] = [now, this.store.step];
     this.cancel(this.#timer);
     this.#held = design !== null && this.store.busy && moving && this.#serves(design);

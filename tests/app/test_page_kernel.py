@@ -27,7 +27,7 @@ from tests import page_kernel
 from tests.children import ROOT
 
 Ask = Callable[[dict[str, Any]], dict[str, Any]]
-STEPS = 40_000
+STEPS = 10_000
 SERVED = {name: json.loads(json_text(preset_reply(preset))) for name, preset in PRESETS.items()}
 MANUAL, AERO = "quanser-2dof-manual", "quanser-aero-2"
 
