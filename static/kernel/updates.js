@@ -3,8 +3,9 @@
  * @typedef {import('./module.js').Block} Values
  */
 import { compiled, instantiated, MODULE } from './module.js';
-import { AT, PLAIN } from './layout.js';
+import { AT } from './layout.js';
 import { block, scratch } from './shapes.js';
+import { SIGNATURES } from './table.js';
 
 /** As soon as the file is there; rejects where a browser has no WebAssembly, or may not have it. */
 export const loadModule = async () => new Updates(await instantiated(await compiled(await fetch(MODULE))));
@@ -40,16 +41,16 @@ export class Updates {
 
   /** @param {string} key @param {number} size @param {number} samples */
   #made(key, size, samples) {
+    const name = 'update_any';
     const arrays = (/** @type {typeof block} */ shapes) =>
       Object.entries(shapes(size, samples)).map(
-        ([name, [kind, ...shape]]) => /** @type {[string, Values]} */ ([name, this.kernels.array(kind, ...shape)]),
+        ([own, [kind, ...shape]]) => /** @type {[string, Values]} */ ([own, this.kernels.array(kind, ...shape)]),
       );
     const filled = arrays(block);
-    const all = { ...Object.fromEntries([...filled, ...arrays(scratch)]), numbers: this.#numbers, noise: this.#quiet };
-    const plain = size === PLAIN;
-    const run = plain
-      ? this.kernels.bound(`update_${PLAIN}`, all)
-      : this.kernels.bound('update_any', { ...all, size: this.kernels.array('f64', size) });
+    const values = [...filled, ...arrays(scratch)].map(([, own]) => own); // in the order of the kernel's arguments
+    const own = { numbers: this.#numbers, noise: this.#quiet, size: this.kernels.array('f64', size) };
+    const [, , , ...names] = SIGNATURES[name].takes.map((taken) => taken.name);
+    const run = this.kernels.bound(name, { ...own, ...Object.fromEntries(names.map((to, i) => [to, values[i]])) });
     const made = { run, filled };
     this.#ready.set(key, made);
     return made;

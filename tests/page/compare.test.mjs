@@ -73,7 +73,7 @@ function changed(path, change) {
   return whole;
 }
 
-const WORDS = /findings|reason|seq|controllability/;
+const WORDS = /findings|reason|seq|controllability|peak_frequency/;
 
 test('what the wire rounds, other words and other numbers of messages are no difference', () => {
   const other = { ...reply(), seq: 9, findings: [{ code: 'b', severity: 'error', message: 'else' }] };
@@ -146,4 +146,23 @@ test('a number that is none differs from every number', () => {
     ).name,
     'step.linear.theta',
   );
+});
+
+test('a rig that rounding drives apart is not compared: an unstable loop’s, and an unsettled one’s only so far', () => {
+  for (const [part, by, told] of [
+    [{ stable: true }, 1e-3, true],
+    [{ stable: false }, 1e-3, false],
+    [{ settled: false }, 1e-3, false],
+    [{ settled: false }, 0.1, true],
+  ]) {
+    const [own, server] = [reply(), reply()];
+    for (const { step: both } of [own, server]) {
+      both.nonlinear.stable = part.stable ?? true;
+      both.nonlinear.metrics.theta.settled = part.settled ?? true;
+    }
+    server.step.nonlinear.V_p[7] *= 1 + by;
+    assert.equal(differenceOf(own, server) !== null, told, JSON.stringify([part, by]));
+    server.step.linear.V_p[7] *= 1.01;
+    assert.notEqual(differenceOf(own, server), null);
+  }
 });
