@@ -72,7 +72,8 @@ steady: $(VENV)/.tools node_modules/.installed browser kernels ## the browser te
 mutation: $(VENV)/.tools node_modules/.installed ## change the core and the page in forty places, one by one: which changes does no test see?
 	$(BIN)/python -m tests.mutation --jobs 2 $(if $(SEED),--seed $(SEED))
 
-contract: $(VENV)/.tools ## make what of the page follows from the core and the contract: figures, methods, quantities, layout, types
+contract: $(VENV)/.tools ## make what follows from the core and the contract: the page's figures, methods, quantities, layout, types; K as kernels
+	$(BIN)/python -m tests.kernel_formulas
 	$(BIN)/python -m tests.page_figures
 	$(BIN)/python -m tests.page_methods
 	$(BIN)/python -m tests.page_quantities

@@ -51,8 +51,8 @@ def fill_block(
 
     Args:
         spec: what the user chose.
-        placed: its design, where the kernel cannot find K itself: of another method, or where a closed form would lose
-            digits.
+        placed: its design, where the kernel cannot find K itself: of another method, or where a closed form would
+            lose digits.
         L: gain of the observer, 4×2, where it is no full-rank one's.
         each_axis: as in `evaluate`.
         most_steps: as in `evaluate`.
@@ -96,7 +96,7 @@ def _layout(order: int, samples: int) -> np.dtype[np.void]:
 
 
 def numbers_of(spec: Spec, each_axis: bool, most_steps: int) -> list[float]:
-    """All that `update` takes of a spec, laid out as `kernels.update_layout` says; K and L are given by nobody yet."""
+    """All that `update` takes of a spec, laid out as `kernels.update_layout` says; K and L are not given yet."""
     limits, structure, outer, observer = spec.limits, spec.structure, spec.outer, spec.observer or _USUAL
     pitch, yaw = outer.pitch, outer.yaw
     rotors, frictions = spec.rotors.both, spec.friction.both

@@ -117,5 +117,5 @@ def plant(parameters: Parameters, theta_0: float = 0.0) -> Plant:
     """
     require_controllable(parameters)
     angle = require_within(theta_0, "theta_0", "rad", -STEEPEST, STEEPEST)
-    A, B, trim = linear_matrices()(*parameters.as_dict().values(), angle)
+    A, B, trim = linear_matrices(*parameters.as_dict().values(), angle)
     return Plant(parameters, angle, fixed(A), fixed(B), fixed(trim))

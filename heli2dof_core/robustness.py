@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from types import MappingProxyType, SimpleNamespace
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
@@ -249,8 +249,8 @@ def _constants(rigs: Floats) -> Floats:
 
 def _stability(loop: Loop, rigs: Floats, tau: Floats) -> tuple[Complexes, Floats]:
     """Poles of the nominal controller around each rig, linear, about the nominal operating point; 1 where stable."""
-    A, B, _ = linear_matrices()(*rigs.T, loop.design.plant.theta_0)  # entries are columns, or plain numbers
-    A, B = _stacked(A, len(rigs)), _stacked(B, len(rigs))
+    A, B, _ = linear_matrices(*rigs.T, loop.design.plant.theta_0)
+    A, B = (np.ascontiguousarray(np.moveaxis(matrices, 2, 0)) for matrices in (A, B))
     law, connected, stable = loop.voltage_from_state, loop.connected, np.empty(len(rigs))
     whole = np.repeat(loop.A[None], len(rigs), axis=0)
     if len(loop.size) == PLAIN:
@@ -273,8 +273,3 @@ def _stability(loop: Loop, rigs: Floats, tau: Floats) -> tuple[Complexes, Floats
             stable[i] = engine().is_stable(polynomials, scratch.stability)
     poles = np.linalg.eigvals(whole[:, connected][:, :, connected]).astype(np.complex128)
     return poles, stable
-
-
-def _stacked(rows: Sequence[Sequence[Any]], count: int) -> Floats:
-    """Matrices (count, n, m) from the columns of their entries."""
-    return np.stack([[np.broadcast_to(v, count) for v in row] for row in rows]).transpose(2, 0, 1).copy()

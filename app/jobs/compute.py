@@ -102,11 +102,11 @@ class _Pool:
 
 
 class Compute:
-    """Runs functions of the core in threads, once the derivation is there.
+    """Runs functions of the core in threads.
 
-    The first derivation imports SymPy and takes a second or two; `start` runs it in the background,
-    so that the page is served meanwhile, and `run` waits for it. It does not wait for the compiled
-    kernels, which come later (see `kernel_compiler`).
+    Interpreted kernels answer from the start. `start` loads the compiled ones in the background (see
+    `kernel_compiler`), then runs the derivation, which imports SymPy and takes a second or two, so that no
+    formula waits for it.
 
     Args:
         threads: for quick work.
@@ -126,17 +126,15 @@ class Compute:
     ) -> None:
         self._quick = _Pool("compute", threads, FairQueue(most_waiting, most_each), seconds, nice=False)
         self._slow = _Pool("slow", slow_threads, FairQueue(most_waiting, most_each), seconds, nice=True)
-        self._derived = threading.Event()
-        self._failure: BaseException | None = None
         self._kernels = KernelCompiler()
         self._compiled = False
         self._once: dict[Any, asyncio.Task[Any]] = {}
-        self._derivation: threading.Thread | None = None
+        self._warming: threading.Thread | None = None
 
     @property
     def ready(self) -> bool:
-        """Whether the derivation is done."""
-        return self._derived.is_set() and self._failure is None
+        """Whether it takes work."""
+        return self._warming is not None
 
     @property
     def compiled(self) -> bool:
@@ -154,18 +152,18 @@ class Compute:
         return {"quick": self._quick.running, "slow": self._slow.running}
 
     def start(self) -> None:
-        """Begins the derivation in the background.
+        """Begins to load the compiled kernels and to derive, in the background.
 
         BLAS is kept to one thread: on matrices of six rows its own threads only wait for one
         another, which costs three times the processor time of the work itself.
         """
         threadpool_limits(limits=1, user_api="blas")
         sys.setswitchinterval(SWITCH_INTERVAL)
-        self._derivation = threading.Thread(target=self._warm_up, name="derivation", daemon=True)
-        self._derivation.start()
+        self._warming = threading.Thread(target=self._warm_up, name="warming", daemon=True)
+        self._warming.start()
 
     async def run(self, function: Callable[..., T], *args: object) -> T:
-        """`function(*args)` in a thread, after the derivation.
+        """`function(*args)` in a thread.
 
         Raises:
             BusyError: too much waits already.
@@ -195,14 +193,8 @@ class Compute:
             self._once.pop(key, None)
 
     async def _run(self, pool: _Pool, function: Callable[..., T], args: tuple[object, ...]) -> T:
-        def work() -> T:
-            self._derived.wait()
-            if self._failure is not None:
-                raise RuntimeError("the derivation failed at start") from self._failure
-            return function(*args)
-
         caller = current_caller.get()
-        job = Job(caller.client, work)
+        job = Job(caller.client, partial(function, *args))
         pool.queue.put(job)
         outcome = asyncio.wrap_future(job.future)
         disconnect = asyncio.ensure_future(caller.disconnected()) if caller.disconnected else None
@@ -235,23 +227,16 @@ class Compute:
 
     def join(self) -> None:
         """Waits, after `close`, until no thread computes any more."""
-        for thread in (*self._quick.threads, *self._slow.threads, self._derivation):
+        for thread in (*self._quick.threads, *self._slow.threads, self._warming):
             if thread is not None:
                 thread.join()
 
     def _warm_up(self) -> None:
-        began = perf_counter()
-        try:
-            warm_up()
-            _log.info("derivation ready after %.2f s", perf_counter() - began)
-        except BaseException as error:
-            self._failure = error
-            _log.exception("the derivation failed")
-        finally:
-            self._derived.set()
         self._kernels.run()
-        if self.ready and engine().compiled:
-            warm_up(STRUCTURES)
+        began = perf_counter()
+        warm_up(STRUCTURES)
+        _log.info("derivation ready after %.2f s", perf_counter() - began)
+        if engine().compiled:
             # What lives as long as the process is not looked through again: a full collection would
             # stop every client for an eighth of a second.
             gc.collect()

@@ -27,7 +27,7 @@ def build_router(compute: Compute, connections: Connections, metrics: Metrics | 
         if compute.ready:
             return json_response({"status": "ok"})
         return problem_response(
-            problem(503, "The derivation is not ready yet.", "starting", hint="Ask again in a second."),
+            problem(503, "The server is starting.", "starting", hint="Ask again in a second."),
             {"Retry-After": "1"},
         )
 

@@ -1,11 +1,11 @@
-"""The whole loop's matrices with rotors that lag and an estimator of the states, every state at its place (`layout`)."""
+"""The whole loop's matrices, with rotors that lag and an estimator, every state at its place (`layout`)."""
 
 from __future__ import annotations
 
 from math import floor
 
 from .derived import full_rank_observer
-from .jit import kernel
+from .jit import keep_apart, kernel
 from .layout import (
     ALL_STATES,
     BOUND,
@@ -59,7 +59,7 @@ from .update_layout import (
 
 @kernel
 def estimator_order(numbers, actuators):
-    """How many states what estimates has: 0 where the states are measured, 6 where it tells the rotors' speeds, too."""
+    """States of what estimates: 0 where the states are measured, 6 where it tells the rotors' speeds, too."""
     if numbers[MEASURED] == ALL_STATES:
         return 0
     lags = actuators[0] != 0.0 or actuators[1] != 0.0
@@ -92,7 +92,8 @@ def known_thrust(numbers, B, actuators, i, motor):
 
 @kernel
 def estimator_matrices(numbers, A, B, actuators, L, e):
-    """F, G, H of what estimates the states, and x̂ by its states and by the angles, into e (`estimators.Estimator`)."""
+    """F, G, H of what estimates the states, x̂ by its states and by the angles, into e (`estimators.Estimator`)."""
+    keep_apart()
     for i in range(6):
         for j in range(ESTIMATOR_COLUMNS):
             e[i, j] = 0.0
@@ -210,6 +211,7 @@ def controller_numbers(numbers, A, B, actuators, K, proportional, integral, kind
 @kernel
 def more_constants(numbers, trim, actuators, e, order, squares, more):
     """What `kernels.rig`'s constants go on with, from CONSTANTS on, but for the gains (`nonlinear_loop`)."""
+    keep_apart()
     for k in range(len(more)):
         more[k] = 0.0
     for k in range(USUAL - CONSTANTS, len(more)):
@@ -289,6 +291,7 @@ def inner_start(numbers, trim, x, steps, order, inner):
     Rotors turn as the trim holds them that is fed forward, in the linear model as the trim; filters have settled at
     the measured angles, and an observer knows these and believes in rest.
     """
+    keep_apart()
     for model in range(2):
         for j in range(inner.shape[1]):
             inner[model, j] = 0.0
@@ -310,6 +313,7 @@ def inner_start(numbers, trim, x, steps, order, inner):
 @kernel
 def sampled_estimator(numbers, trim, e, order, period, size, exponential, rows):
     """The estimator from one sample to the next, laid out as ESTIMATED says: exact for what is held between them."""
+    keep_apart()
     for i in range(len(rows)):
         for j in range(rows.shape[1]):
             rows[i, j] = 0.0
@@ -338,6 +342,7 @@ def sampled_estimator(numbers, trim, e, order, period, size, exponential, rows):
 @kernel
 def rate_filter(period, size, exponential):
     """F (2×2, row by row) and b of a rate filter: x⁺ = F x + b θ, exact for held angles."""
+    keep_apart()
     M, step = exponential[:10], exponential[10:20]
     w = FILTER_FREQUENCY
     for i in range(PLAIN + 2):  # products know the paper's size, and larger ones

@@ -2,22 +2,22 @@
 
 Made of the derivation by `python -m tests.kernel_formulas`; not to be changed by hand.
 
-Arguments are p, the parameters in the order of `parameters.PARAMETER_INFO`; theta_0, rad; d, the coefficients of the
-desired polynomials, d₁₀, d₁₁ …, d₂₀, d₂₁ …, the leading 1 left out; c, the basis' shift, where `shifted`; `family`,
-where a structure stands in `couplings.STRUCTURES`. A division by zero gives an infinity or NaN: callers look
-whether all is finite.
+p: the parameters, in the order of `parameters.PARAMETER_INFO`; theta_0: rad; d: coefficients of the desired
+polynomials, d₁₀, d₁₁ …, d₂₀, d₂₁ …, the leading 1 left out; tau: both rotors' time constants, s; family: where the
+structure stands in `couplings.STRUCTURES`; c: the basis' shift, looked at where `shifted`. Nothing is checked: where
+there is no such structure something is divided by zero.
 """
 
 from __future__ import annotations
 
 from math import cos, sin
 
-from .jit import kernel
+from .jit import keep_apart, kernel
 
 
 @kernel
 def entries(p, theta_0):
-    """a, b_11, b_12, b_21, b_22, nu_p, nu_y, Delta: of what A and B are made; Delta is the determinant of B's lower half."""
+    """a, b_11, b_12, b_21, b_22, nu_p, nu_y, Delta: what A and B are made of; Delta is B₂'s determinant."""
     K_pp, K_py, K_yp, K_yy, J_p, J_y = p[0], p[1], p[2], p[3], p[4], p[5]
     m, l, B_p, B_y, K_s, g = p[6], p[7], p[8], p[9], p[10], p[11]
     sin_0 = sin(theta_0)
@@ -75,6 +75,7 @@ def rig_model(p, theta_0, A, B, trim):
 @kernel
 def full_rank_gain(family, shifted, d, p, theta_0, c, K, inverse):
     """K, into the first four columns of what is given, and Ĝ(0)⁻¹, 2×2, of four states."""
+    keep_apart()
     rig = entries(p, theta_0)
     if family == 0:
         if shifted:
@@ -129,41 +130,46 @@ def pitch_leads_shifted(rig, d, c, K, inverse):
     a, b_11, b_12, b_21, b_22, nu_p = rig[0], rig[1], rig[2], rig[3], rig[4], rig[5]
     nu_y, Delta = rig[6], rig[7]
     d_10, d_11, d_20, d_21 = d[0], d[1], d[2], d[3]
-    x_1 = a + d_10
-    x_2 = 1.0 / Delta
-    x_3 = b_22 * x_2
-    x_4 = b_21 * x_2
-    x_5 = c * x_4
-    x_6 = b_21 * b_21
+    x_1 = 1.0 / Delta
+    x_2 = b_22 * x_1
+    x_3 = b_21 * c
+    x_4 = d_10 - d_20
+    x_5 = -b_22 + x_3
+    x_6 = a * x_5
     x_7 = 1.0 / (Delta * Delta)
-    x_8 = b_11 * c
-    x_9 = -b_12 + x_8
-    x_10 = x_7 * x_9
-    x_11 = x_10 * x_6
-    x_12 = a * x_11
-    x_13 = c * x_12 - x_5 * (-d_20 + x_1)
-    x_14 = b_12 * x_2
-    x_15 = b_21 * x_10
-    x_16 = x_15 * x_8
-    x_17 = -a * x_16 + b_11 * c * x_2 * (d_10 - d_20) - d_10 * x_14
-    x_18 = d_11 - nu_p
-    x_19 = nu_p - nu_y
-    x_20 = d_20 * x_2
-    x_21 = b_11 * x_15
-    x_22 = a * x_21 + b_11 * x_20
-    x_23 = x_2 * (d_21 - nu_y)
-    K[0, 0] = x_1 * x_3 + x_13
-    K[0, 1] = x_17
-    K[0, 2] = b_22 * x_18 * x_2 - c * x_11 * x_19 - x_5 * (-d_21 + nu_y + x_18)
-    K[0, 3] = -x_14 * (d_11 - nu_y) + x_16 * x_19 + x_2 * x_8 * (d_11 - d_21)
-    K[1, 0] = -b_21 * x_20 - x_12
-    K[1, 1] = x_22
-    K[1, 2] = -b_21 * x_23 + x_19 * x_6 * x_7 * x_9
-    K[1, 3] = b_11 * x_23 - x_19 * x_21
-    inverse[0, 0] = d_10 * x_3 + x_13
-    inverse[0, 1] = x_17
-    inverse[1, 0] = -x_12 - x_4 * (-a + d_20)
-    inverse[1, 1] = x_22
+    x_8 = b_11 * x_7
+    x_9 = x_3 * x_8
+    x_10 = -x_1 * x_3 * x_4 + x_6 * x_9
+    x_11 = b_12 * x_1
+    x_12 = b_11 * c
+    x_13 = -b_12 + x_12
+    x_14 = a * x_13
+    x_15 = b_11 * c * x_1 * x_4 - d_10 * x_11 - x_14 * x_9
+    x_16 = x_1 * (d_11 - d_21)
+    x_17 = nu_p - nu_y
+    x_18 = x_17 * x_3
+    x_19 = x_18 * x_8
+    x_20 = d_20 * x_1
+    x_21 = b_21 * x_20
+    x_22 = b_21 * b_21
+    x_23 = x_22 * x_7
+    x_24 = b_21 * x_8
+    x_25 = b_11 * x_20 + x_14 * x_24
+    x_26 = d_21 * x_1
+    x_27 = b_12 * nu_p
+    x_28 = (b_11 * b_11) * x_7
+    K[0, 0] = x_10 + x_2 * (a + d_10)
+    K[0, 1] = x_15
+    K[0, 2] = b_22 * x_1 * (d_11 - nu_p) - x_16 * x_3 - x_19 * x_5
+    K[0, 3] = -x_11 * (d_11 - nu_y) + x_12 * x_16 + x_13 * x_19
+    K[1, 0] = -x_14 * x_23 - x_21
+    K[1, 1] = x_25
+    K[1, 2] = b_11 * b_21 * b_22 * nu_y * x_7 + b_11 * c * x_17 * x_22 * x_7 - b_21 * x_26 - x_23 * x_27
+    K[1, 3] = b_11 * x_26 - b_22 * nu_y * x_28 - x_18 * x_28 + x_24 * x_27
+    inverse[0, 0] = d_10 * x_2 + x_10
+    inverse[0, 1] = x_15
+    inverse[1, 0] = -x_21 - x_24 * x_6
+    inverse[1, 1] = x_25
 
 
 @kernel
@@ -202,39 +208,41 @@ def yaw_leads_shifted(rig, d, c, K, inverse):
     nu_y, Delta = rig[6], rig[7]
     d_10, d_11, d_20, d_21 = d[0], d[1], d[2], d[3]
     x_1 = 1.0 / Delta
-    x_2 = a + d_10
-    x_3 = x_1 * x_2
+    x_2 = d_10 * x_1
+    x_3 = b_22 * x_2
     x_4 = 1.0 / (Delta * Delta)
-    x_5 = -b_21 + b_22 * c
-    x_6 = x_4 * x_5
-    x_7 = b_12 * x_6
-    x_8 = b_22 * x_7
-    x_9 = -a * x_8
-    x_10 = b_12 * b_12
-    x_11 = a * x_10 * x_4 * x_5 - b_12 * x_3
-    x_12 = d_11 - nu_p
-    x_13 = x_1 * x_12
-    x_14 = nu_p - nu_y
-    x_15 = x_10 * x_6
-    x_16 = x_14 * x_15
-    x_17 = b_21 * x_1
-    x_18 = b_22 * c
-    x_19 = x_1 * x_18
-    x_20 = -a * b_12 * b_22 * c * x_4 * x_5 + x_19 * (d_10 - d_20)
-    x_21 = b_11 * x_1
-    x_22 = b_12 * c * x_1
-    x_23 = -a * c * x_15 + d_20 * x_21 + x_22 * (-d_20 + x_2)
-    K[0, 0] = b_22 * x_3 + x_9
-    K[0, 1] = x_11
-    K[0, 2] = b_22 * x_13 + x_14 * x_8
-    K[0, 3] = -b_12 * x_13 - x_16
-    K[1, 0] = -x_17 * (a + d_20) - x_20
+    x_5 = (b_22 * b_22) * x_4
+    x_6 = -b_11 + b_12 * c
+    x_7 = a * x_6
+    x_8 = a * b_12 * b_22 * x_4 * x_6 - b_12 * x_2
+    x_9 = d_11 * x_1
+    x_10 = b_21 * nu_y
+    x_11 = b_22 * x_4
+    x_12 = b_12 * x_11
+    x_13 = nu_p - nu_y
+    x_14 = b_12 * c
+    x_15 = x_13 * x_14
+    x_16 = (b_12 * b_12) * x_4
+    x_17 = b_22 * c
+    x_18 = b_21 * x_1
+    x_19 = x_1 * (d_10 - d_20)
+    x_20 = -b_21 + b_22 * c
+    x_21 = -a * b_12 * b_22 * c * x_20 * x_4 + x_17 * x_19
+    x_22 = b_11 * x_1
+    x_23 = d_20 * x_22 - x_11 * x_14 * x_7 + x_14 * x_19
+    x_24 = x_1 * (d_11 - d_21)
+    x_25 = x_11 * x_15
+    K[0, 0] = x_3 - x_5 * x_7
+    K[0, 1] = x_8
+    K[0, 2] = -b_11 * nu_p * x_5 + b_22 * x_9 + x_10 * x_12 + x_15 * x_5
+    K[0, 3] = b_11 * b_12 * b_22 * nu_p * x_4 - b_12 * x_9 - x_10 * x_16 - x_13 * x_16 * x_17
+    K[1, 0] = -x_18 * (a + d_20) - x_21
     K[1, 1] = x_23
-    K[1, 2] = -x_14 * x_18 * x_7 - x_17 * (d_21 - nu_p) - x_19 * (d_11 - d_21)
-    K[1, 3] = c * x_16 + x_21 * (d_21 - nu_y) + x_22 * (-d_21 + nu_y + x_12)
-    inverse[0, 0] = b_22 * d_10 * x_1 + x_9
-    inverse[0, 1] = x_11
-    inverse[1, 0] = -d_20 * x_17 - x_20
+    K[1, 2] = -x_17 * x_24 - x_18 * (d_21 - nu_p) - x_20 * x_25
+    K[1, 3] = x_14 * x_24 + x_22 * (d_21 - nu_y) + x_25 * x_6
+    inverse[0, 0] = -a * x_12 * x_20 + x_3
+    inverse[0, 1] = x_8
+    inverse[1, 0] = -d_20 * x_18 - x_21
     inverse[1, 1] = x_23
 
 

@@ -22,7 +22,7 @@ from .figures import (
     start_figures,
     update_held_motor,
 )
-from .jit import copy_into, entry_point, kernel
+from .jit import copy_into, entry_point, keep_apart, kernel
 from .layout import (
     BACK_CALCULATION,
     BEFORE,
@@ -102,6 +102,7 @@ def run_digital(
     `known`, as `layout` says. Scratch: `w` of zeros, `plant` and `free` like c and m, `grid` (len(t) + 2,), `course`
     (len(t) + 2, n), `f`, twice FOLLOWED. What was not reached is held.
     """
+    keep_apart()
     rig_without_feedback(size, c, m, plant, free)
     filters, measured, held, waiting = w[16:18], w[18], w[19], w[20]
     initialize_controller(y, c, d, filters, held)

@@ -11,7 +11,7 @@ from math import inf, sqrt
 
 from . import examples
 from .figures import level_crossing, turning_point, update_axis, update_held_motor, update_motor
-from .jit import copy_into, entry_point, kernel
+from .jit import copy_into, entry_point, keep_apart, kernel
 from .layout import (
     BREAKAWAY,
     DEAD,
@@ -82,6 +82,7 @@ def integrate_measured(size, y, t, c, m, rtol, atol, most_steps, w, states, f, f
     early where it is given up, or where an angle leaves ±DIVERGED. Returns the outcome, the number of samples
     filled, of steps, of switches and of impacts, and the time reached.
     """
+    keep_apart()
     k, q, u, trial, probe, g = w[:8], w[8:13], w[21:23], w[13], w[14], w[15]
     switches = impacts = steps = 0
     now, end, samples = t[0], t[-1], len(t)

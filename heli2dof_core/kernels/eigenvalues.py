@@ -1,9 +1,9 @@
 """Eigenvalues of a real matrix: balanced, brought to Hessenberg form by reflections, then by Francis' double steps.
 
 Parlett and Reinsch, Numer. Math. 13 (1969) 293–304, with the stopping rule of James, Langou and Lowery, arXiv
-1401.5766 (2014), so that balancing never makes a matrix worse; Golub and Van Loan, Matrix Computations, 4th ed. (2013),
-sections 7.4 and 7.5. Backward stable: what comes out are eigenvalues of a matrix that differs by a few roundings of
-its norm.
+1401.5766 (2014), so that balancing never makes a matrix worse; Golub and Van Loan, Matrix Computations, 4th ed.
+(2013), sections 7.4 and 7.5. Backward stable: what comes out are eigenvalues of a matrix that differs by a few
+roundings of its norm.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from math import hypot, sqrt
 
 from . import examples
-from .jit import entry_point, kernel
+from .jit import entry_point, keep_apart, kernel
 
 EPS = 2.0**-52
 RADIX = 2.0
@@ -29,6 +29,7 @@ def eigenvalues(a, real, imaginary, v):
 
     a: n×n, overwritten. Scratch: v, (n,).
     """
+    keep_apart()
     if not in_range(a):
         return False
     balance(a, v)
@@ -48,7 +49,8 @@ def in_range(a):
 
 @kernel
 def balance(a, units):
-    """D⁻¹ a D with powers of 2 in D, so that rows and columns are of like size in the 2-norm; D's diagonal: `units`."""
+    """D⁻¹ a D, powers of 2 in D, so that rows and columns are of like size in the 2-norm; `units`: D's diagonal."""
+    keep_apart()
     n = len(a)
     for i in range(n):
         units[i] = 1.0
@@ -93,6 +95,7 @@ def to_hessenberg(a, v, z):
 
     z: n×n, or without rows where nobody wants it.
     """
+    keep_apart()
     n = len(a)
     for k in range(n - 2):
         size = 0.0
@@ -143,6 +146,7 @@ def francis(h, real, imaginary, z):
     It becomes a triangle with two by two blocks on its diagonal (real Schur form), each of them a pair, and z, n×n or
     without rows, is multiplied by what has turned it.
     """
+    keep_apart()
     n = len(h)
     norm = 0.0
     for i in range(n):

@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import nan, sqrt
 
 from .eigenvalues import EPS
-from .jit import kernel
+from .jit import keep_apart, kernel
 
 SWEEPS = 40
 """Most rounds of rotations; five or six are common."""
@@ -23,6 +23,7 @@ def schur_vectors(t, z, real, imaginary, y, vectors):
     t: n×n, real Schur form as `eigenvalues.francis` leaves it; z: n×n, what turned the matrix into it; `real` and
     `imaginary`: (n,). Scratch: y, complex, (n,).
     """
+    keep_apart()
     n = len(t)
     norm = 0.0
     for i in range(n):
@@ -104,6 +105,7 @@ def squared(z):
 @kernel
 def condition_in_frobenius_norm(n, vectors, work):
     """‖V‖ ‖V⁻¹‖ of the first n rows and columns; infinite where V is singular. Scratch: `work`, complex, n×n."""
+    keep_apart()
     size = total = 0.0
     for i in range(n):
         for j in range(n):
@@ -160,6 +162,7 @@ def invert(n, a):
 @kernel
 def condition_in_2_norm(n, a):
     """κ₂ of the first n rows and columns of a, complex, which are overwritten; NaN where it is 1/EPS or more."""
+    keep_apart()
     for _ in range(SWEEPS):
         settled = True
         for p in range(n - 1):

@@ -21,7 +21,7 @@ from .figures import (
     update_extrema,
     update_motor,
 )
-from .jit import kernel
+from .jit import keep_apart, kernel
 from .layout import (
     AREA,
     BY,
@@ -107,6 +107,7 @@ def propagate_measured(size, M, outputs, slopes, poles, t, length, theta_0, most
     is left in the first column, of a course that leaves ±DIVERGED the angles alone. Given up after `most` groups of
     intervals. Returns the outcome and the time reached. Scratch: `ladder` and `w`, (6 n, n).
     """
+    keep_apart()
     end = t + length
     # intervals at this spacing: `parts` times a power of 2
     wanted = length * fastest_pole(poles, t) / SPACING

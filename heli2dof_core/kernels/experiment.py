@@ -8,7 +8,7 @@ from . import examples
 from .dormand_prince import EVERYTHING, integrate_measured
 from .exact import propagate_measured, settling_horizon, slowest_period
 from .figures import confirm_settling, copy_figures, figures_of_merit, settling_check_end, start_figures
-from .jit import copy_into, entry_point, kernel
+from .jit import copy_into, entry_point, keep_apart, kernel
 from .layout import (
     DISTURBANCE,
     DIVERGED,
@@ -65,6 +65,7 @@ def run_linear(
     and `law` are of the size's order, or of 4 or 6 where that is PLAIN. `poles` are those of `whole`. Scratch: `w`,
     `ladder` and `nodes`, `layout.exact_shapes`, and `f`, twice FOLLOWED.
     """
+    keep_apart()
     n = len(size) + 1
     M, outputs, slopes, scratch = w[:n], w[n : n + 2], w[n + 2 : n + 4], w[n + 4 :]
     augmented_system(size, theta_0, law, by_reference, whole, driven, x, inner, M, outputs, states)
@@ -144,6 +145,7 @@ def run_nonlinear(
     c sets in at `since`. Scratch: `w`, WORKSPACE, `raw`, (samples + 1, n), `grid`, (samples + 1,), and `f`, twice
     FOLLOWED.
     """
+    keep_apart()
     own, ahead, y, end, samples = f[:4], f[4:], w[16, : len(size)], t[-1], len(t)
     for i in range(len(size)):
         y[i] = x[START + i] if i < 4 else inner[i - 6] if i >= 6 else 0.0
@@ -197,6 +199,7 @@ def check_settling(
 
     The disturbance within c sets in at `since` there, too.
     """
+    keep_apart()
     proven, until = outcome == ENDED, settling_check_end(own, end, turn)
     volts, now = (c[DISTURBANCE], c[DISTURBANCE + 1]), end
     copy_figures(own, ahead)

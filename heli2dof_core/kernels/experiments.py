@@ -7,7 +7,7 @@ from math import inf, isnan, pi, sqrt
 from .augmented import inner_start, rate_filter
 from .digital import run_digital
 from .experiment import run_linear, run_nonlinear
-from .jit import copy_into, kernel
+from .jit import copy_into, keep_apart, kernel, read_only
 from .layout import (
     ANTI_WINDUP,
     BACK,
@@ -64,6 +64,7 @@ ABSOLUTE_TOLERANCE = 0.1
 @kernel
 def experiment_numbers(numbers, kind, K, integral, left_out, x):
     """The scenario on this loop, EXPERIMENT numbers; the axis `left_out` rests, −1 for none."""
+    keep_apart()
     theta_0 = numbers[ANGLE]
     for axis in range(2):
         base, asked, begins = theta_0 if axis == 0 else 0.0, numbers[ASKED + axis], numbers[BEGINNING + axis]
@@ -128,10 +129,12 @@ def run_of_linear_model(
     followed, states, voltages, axes, motors, course,
 ):  # fmt: skip
     """The linear model's course of an experiment."""
+    keep_apart()
     inner_start(numbers, trim, x, nothing, order, inner)
     run_linear(
-        size, numbers[ANGLE], law, by_reference, whole, driven, poles, x, inner[0], t, int(numbers[MOST_STEPS]),
-        nothing, v, ladder, nodes, followed, states, voltages, axes, motors, course,
+        size, numbers[ANGLE], read_only(law), read_only(by_reference), read_only(whole), read_only(driven),
+        read_only(poles), x, read_only(inner[0]), read_only(t), int(numbers[MOST_STEPS]), read_only(nothing), v,
+        ladder, nodes, followed, states, voltages, axes, motors, course,
     )  # fmt: skip
 
 
@@ -142,15 +145,21 @@ def run_of_rig(
     states, voltages, axes, motors, course,
 ):  # fmt: skip
     """The rig's course of an experiment, with the disturbance or without it, under either kind of controller."""
+    keep_apart()
     rtol, most = numbers[RTOL], int(numbers[MOST_STEPS])
     atol, since = ABSOLUTE_TOLERANCE * rtol, numbers[DISTURBED_FROM] if disturbed else inf
-    nonlinear_loop(size, rig, trim, numbers[ANGLE], law, by_reference, integral, x, more, c, m)
+    ends, times = read_only(poles), read_only(t)
+    rest = read_only(trim)
+    nonlinear_loop(
+        size, read_only(rig), rest, numbers[ANGLE], read_only(law), read_only(by_reference), read_only(integral), x,
+        read_only(more), c, m,
+    )  # fmt: skip
     if not disturbed:
         c[DISTURBANCE] = c[DISTURBANCE + 1] = 0.0
     if numbers[DIGITAL] == 0.0:
         inner_start(numbers, trim, x, nothing, order, inner)
         run_nonlinear(
-            size, c, m, poles, x, inner[1], t, since, rtol, atol, most, trim, w, raw, grid, followed,
+            size, c, m, ends, x, read_only(inner[1]), times, since, rtol, atol, most, rest, w, raw, grid, followed,
             states, voltages, axes, motors, course,
         )  # fmt: skip
         return
@@ -161,8 +170,8 @@ def run_of_rig(
         for j in range(w.shape[1]):
             w[i, j] = 0.0
     run_digital(
-        size, start, t, c, m, settings, estimated, poles, x, noise, since, rtol, atol, most, trim, w, plant, free,
-        grid, raw, followed, sampled, held, axes, motors, course,
+        size, start, times, c, m, settings, read_only(estimated), ends, x, read_only(noise), since, rtol, atol, most,
+        rest, w, plant, free, grid, raw, followed, sampled, held, axes, motors, course,
     )  # fmt: skip
     for k in range(len(t)):
         for i in range(len(size)):

@@ -11,7 +11,7 @@ from cmath import phase
 from math import nan, pi, sqrt
 
 from . import examples
-from .jit import copy_into, entry_point, kernel
+from .jit import copy_into, entry_point, keep_apart, kernel
 from .layout import (
     DELAY_MARGIN,
     GAIN_MARGIN,
@@ -68,6 +68,7 @@ def margins(f, g, p, table):
     opened loop has poles at 0, `control.margin` may report a gain margin of 0 for a state-space model, though not
     for its transfer function; it is no crossing. Scratch: `g`, as `POLYNOMIALS` says, and `p`.
     """
+    keep_apart()
     if len(f) == POLYNOMIALS[0]:  # no rotor takes time, nothing is estimated
         determinant(f, p[CLOSED], p[CLOSED_SIZES])
         even_and_odd_part(HALF, p, CLOSED, CLOSED_SIZES, CLOSED_HALVES)

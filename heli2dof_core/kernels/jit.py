@@ -8,13 +8,40 @@ from typing import Any
 
 if __name__.startswith("heli2dof_core.interpreted"):
     _compile: Callable[..., Any] | None = None
+
+    def read_only(array: Any) -> Any:
+        """The same, where nothing has a type."""
+        return array
+
+    def keep_apart() -> None:
+        """Nothing, where nothing is compiled."""
 else:
-    from numba import njit
+    from numba import njit, types
+    from numba.extending import intrinsic
 
     # Without Numba's runtime: no reference is counted, which takes longer than the sums here, and a
     # kernel that allocates does not compile. Scratch memory comes from the caller (`WORKSPACE`).
     options: Any = {"cache": True, "error_model": "numpy", "nogil": True, "_nrt": False}
     _compile = njit(**options)
+
+    @intrinsic
+    def read_only(typing_context, array):
+        """The same array as one that nobody may change: the type that kernels take of results."""
+
+        def same(context, builder, signature, arguments):
+            return arguments[0]
+
+        return array.copy(readonly=True)(array), same
+
+    @intrinsic
+    def keep_apart(typing_context):
+        """Keeps a large kernel out of those that call it: copies of it within would take minutes to compile."""
+
+        def mark(context, builder, signature, arguments):
+            builder.function.attributes.add("noinline")
+            return context.get_dummy_value()
+
+        return types.none(), mark
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:

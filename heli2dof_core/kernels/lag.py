@@ -12,7 +12,7 @@ from cmath import sqrt as complex_sqrt
 from math import inf, log2, sqrt
 
 from . import examples
-from .jit import entry_point, kernel
+from .jit import entry_point, keep_apart, kernel
 from .layout import LAG_WORKSPACE, POLYNOMIALS, ROUNDING, TERMS, VALUE, WHOLE_LAG
 from .polynomials import (
     SIZE,
@@ -44,6 +44,7 @@ def lag_margin(f, start, p):
     f is the loop's, of either kind (`layout.POLYNOMIALS`, `layout.WHOLE_POLYNOMIALS`); its own time constants do not
     count. Scratch: p.
     """
+    keep_apart()
     parts_of(f, p)
     if not stable_at(p, start):
         return start

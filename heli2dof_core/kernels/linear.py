@@ -6,7 +6,7 @@ gives the next k samples by one product with the k-th power of the step's matrix
 
 from __future__ import annotations
 
-from .jit import kernel
+from .jit import keep_apart, kernel
 from .layout import PLAIN
 
 TERMS = 16
@@ -20,6 +20,7 @@ def exact_response(size, M, dt, outputs, w, states, traces):
     The last state is 1 throughout; n is one more than the size. `outputs` (rows, n), `traces` (rows, samples).
     Scratch: `w`, (7 n, n).
     """
+    keep_apart()
     n = len(size) + 1
     samples = states.shape[1]
     power, other = w[6 * n : 7 * n], w[:n]
@@ -64,6 +65,7 @@ def row_times_samples(size, row, states, count, out, first):
 @kernel
 def matrix_exponential(size, M, dt, result, w):
     """exp(M dt) into `result`, by its series for M dt / 2ˢ, squared s times. Scratch: `w`, (6 n, n)."""
+    keep_apart()
     squarings = squarings_needed(size, M, dt)
     exponential_series(size, M, dt * 0.5**squarings, result, w)
     n = len(size) + 1
@@ -95,6 +97,7 @@ def squarings_needed(size, M, dt):
 @kernel
 def exponential_series(size, M, factor, result, w):
     """Σ (M `factor`)ⁿ/n! up to n = TERMS into `result`, in four polynomials of degree 3 (Paterson and Stockmeyer)."""
+    keep_apart()
     n = len(size) + 1
     A, A2, A3, A4, total, product = (
         w[:n],

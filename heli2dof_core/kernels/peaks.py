@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from . import examples
-from .jit import entry_point, kernel
+from .jit import entry_point, keep_apart, kernel
 from .layout import (
     DISK_FREQUENCY,
     DISK_MARGIN,
@@ -139,6 +139,7 @@ def sensitivity_peaks(f, poles, grid, both):
 
     `poles` are the loop's, complex; scratch: `grid`, (3, FREQUENCIES).
     """
+    keep_apart()
     count = sample_frequencies(f, poles, grid)
     both[SENSITIVITY_PEAK], both[PEAK_FREQUENCY] = global_maximum(f, grid, ANGLES, count)
     mu, both[DISK_FREQUENCY] = global_maximum(f, grid, DISKS, count)

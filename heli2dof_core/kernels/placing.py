@@ -9,7 +9,7 @@ from .derived import full_rank_gain, rig_model
 from .derived_rotors import full_rank_gain_with_rotors
 from .eigenvalues import EPS, balance, francis, in_range, to_hessenberg
 from .eigenvectors import condition_in_2_norm, condition_in_frobenius_norm, schur_vectors, squared
-from .jit import kernel
+from .jit import keep_apart, kernel
 from .layout import ROUNDING
 from .update_layout import (
     AIMS,
@@ -69,6 +69,7 @@ def is_plain(actuators):
 @kernel
 def place(numbers, A, B, trim, actuators, K, inverse, work):
     """A, B, trim, actuators, K and Ĝ(0)⁻¹; how it ended. Scratch: `work`, of 18."""
+    keep_apart()
     p = numbers[PARAMETERS : PARAMETERS + 12]
     outcome = is_controllable(numbers)
     if outcome != DONE:
@@ -280,6 +281,7 @@ def judge(numbers, n, closed, terms, column, squares, vectors, found, figures):
     `closed` and `terms`: n×n, overwritten. Scratch: `column` (4, n or more), `squares` (2, n or more, n or more), and
     `vectors` (3, 7, 6).
     """
+    keep_apart()
     if not in_range(closed):
         return False
     units, real, imaginary = column[0, :n], column[1, :n], column[2, :n]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from . import examples
-from .jit import copy_into, entry_point, kernel
+from .jit import copy_into, entry_point, keep_apart, kernel
 from .layout import (
     POLYNOMIAL_WORKSPACE,
     POLYNOMIALS,
@@ -28,6 +28,7 @@ TOTAL, SIZES, UPPER, LOWER = 0, 1, 2, 3
 @entry_point(lambda: (examples.given(*POLYNOMIALS), examples.zeros(*POLYNOMIAL_WORKSPACE)))
 def is_stable(f, p):
     """Whether every pole of the loop lies left of the imaginary axis, and not by rounding."""
+    keep_apart()
     if len(f) == POLYNOMIALS[0]:
         determinant(f, p[TOTAL], p[SIZES])
     else:

@@ -25,7 +25,7 @@ from .experiments import (
     run_of_rig,
 )
 from .frequency import margins as fill_margins
-from .jit import copy_into, entry_point, kernel
+from .jit import copy_into, entry_point, kernel, read_only
 from .lag import lag_margin as least_lag
 from .layout import ALL_STATES, KIND, KIND_ROW, OBSERVED, OWN, PI, SIZES, STATIC
 from .loop import pi_gains
@@ -157,12 +157,12 @@ def update(
         for i in range(2):
             for j in range(6):
                 polynomial_law[i, j] = law[i, j]
-        polynomial_matrices(A, inputs, polynomial_law, f)
+        polynomial_matrices(read_only(A), read_only(inputs), read_only(polynomial_law), f)
         loop = f
     else:
         controller_numbers(numbers, A, B, actuators, K, proportional, integral, kind, L, order, controller)
-        whole_polynomials(A, inputs, actuators[TAU : TAU + 2], controller, rows, minors, f_whole)
-    stable = is_stable(loop, p)
+        fill_polynomials(A, inputs, actuators, controller, rows, minors, f_whole)
+    stable = is_stable(read_only(loop), p)
     if numbers[AIMS] != 0.0:
         figures[PLACED_STABLE] = 1.0 if aims_left(numbers, figures) else 0.0
     else:
@@ -170,13 +170,13 @@ def update(
         if placed:
             alone = inner_whole
             controller_alone(K, controller)
-            whole_polynomials(A, inputs, actuators[TAU : TAU + 2], controller, rows, minors, inner_whole)
+            fill_polynomials(A, inputs, actuators, controller, rows, minors, inner_whole)
         else:
             for i in range(2):
                 for j in range(6):
                     polynomial_law[i, j] = -K[i, j] if j < 4 else 0.0
-            polynomial_matrices(A, B, polynomial_law, opened)
-        figures[PLACED_STABLE] = 1.0 if is_stable(alone, p) else 0.0
+            polynomial_matrices(read_only(A), read_only(B), read_only(polynomial_law), opened)
+        figures[PLACED_STABLE] = 1.0 if is_stable(read_only(alone), p) else 0.0
     plain = is_plain(actuators)
     outer = states > (6 if placed else 4)
     for i in range(2):
@@ -186,7 +186,7 @@ def update(
         stable = stable and figures[PLACED_STABLE] != 0.0
     figures[STABLE] = 1.0 if stable else 0.0
     start_lag = max(actuators[TAU], actuators[TAU + 1]) if placed else 0.0
-    least = least_lag(loop, start_lag, lag)
+    least = least_lag(read_only(loop), start_lag, lag)
     figures[LAG_MARGIN] = least if least > start_lag or stable else inf
     for i in range(2):
         for j in range(margins.shape[1]):
@@ -194,8 +194,8 @@ def update(
     for j in range(len(sensitivity)):
         sensitivity[j] = nan
     if stable:
-        fill_margins(loop, opened, p, margins)
-        sensitivity_peaks(loop, connected[:states], frequencies, sensitivity)
+        fill_margins(read_only(loop), opened, p, margins)
+        sensitivity_peaks(read_only(loop), read_only(connected[:states]), frequencies, sensitivity)
     # experiments
     rig_numbers(numbers, rig)
     more_constants(numbers, trim, actuators, estimator, order, squares, more)
@@ -218,22 +218,26 @@ def update(
             nothing, estimator, v, ladder, nodes, followed, linear[n], voltages[n, 0], axes[n, 0], motors[n, 0],
             courses[n, 0],
         )  # fmt: skip
-        if numbers[DISTURBED] != 0.0:  # first what is then written over
+        for disturbed in range(2):
+            if disturbed == 1 and numbers[DISTURBED] == 0.0:
+                break
             run_of_rig(
-                size, numbers, False, rig, trim, law, by_reference, integral, poles[: states + apart], order, x, more,
-                t, noise, estimated, settings, inner, nothing, start, w, c, m, plant, free, raw, grid, sampled, held,
-                followed, nonlinear[n], voltages[n, 1], calm_axes[n], motors[n, 1], calm_courses[n],
+                size, numbers, disturbed == 1, rig, trim, law, by_reference, integral, poles[: states + apart], order,
+                x, more, t, noise, estimated, settings, inner, nothing, start, w, c, m, plant, free, raw, grid,
+                sampled, held, followed, nonlinear[n], voltages[n, 1], axes[n, 1], motors[n, 1], courses[n, 1],
             )  # fmt: skip
-        run_of_rig(
-            size, numbers, numbers[DISTURBED] != 0.0, rig, trim, law, by_reference, integral, poles[: states + apart],
-            order, x, more, t, noise, estimated, settings, inner, nothing, start, w, c, m, plant, free, raw, grid,
-            sampled, held, followed, nonlinear[n], voltages[n, 1], axes[n, 1], motors[n, 1], courses[n, 1],
-        )  # fmt: skip
-        if numbers[DISTURBED] == 0.0:
-            copy_run(axes[n, 1], calm_axes[n])
-            copy_into(courses[n, 1], calm_courses[n])
+            if disturbed == 0:
+                copy_run(axes[n, 1], calm_axes[n])
+                copy_into(courses[n, 1], calm_courses[n])
         runs += 1
     outcome[1] = runs
+
+
+@kernel
+def fill_polynomials(A, inputs, actuators, controller, rows, minors, f):
+    """The eight polynomials of `kernels.whole`."""
+    tau = actuators[TAU : TAU + 2]
+    whole_polynomials(read_only(A), read_only(inputs), read_only(tau), read_only(controller), rows, minors, f)
 
 
 @kernel

@@ -17,7 +17,7 @@ no special case. The sizes of terms go along, as `polynomials` says.
 from __future__ import annotations
 
 from . import examples
-from .jit import copy_into, entry_point, kernel
+from .jit import copy_into, entry_point, keep_apart, kernel
 from .layout import (
     BY_ANGLES,
     BY_INTEGRALS,
@@ -275,6 +275,7 @@ def whole_polynomials(A, inputs, tau, controller, rows, minors, f):
     A (4, 4) and inputs (4, 2), thrust curves' slopes within, of the rig; tau (2,), s; controller (5, 10), as
     `layout.CONTROLLER` says. Scratch: rows and minors.
     """
+    keep_apart()
     for r in range(rows.shape[0]):
         for c in range(rows.shape[1]):
             clear(rows[r, c])

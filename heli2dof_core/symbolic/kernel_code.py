@@ -29,8 +29,8 @@ from .reading import (
     monomial_out,
     observer_in_letters,
     paper_gain_in_letters,
+    parts,
     plant_in_letters,
-    terms,
 )
 from .rotors import COEFFICIENTS
 
@@ -38,10 +38,10 @@ _HEAD = '''"""{about}
 
 Made of the derivation by `python -m tests.kernel_formulas`; not to be changed by hand.
 
-Arguments are p, the parameters in the order of `parameters.PARAMETER_INFO`; theta_0, rad; d, the coefficients of the
-desired polynomials, d₁₀, d₁₁ …, d₂₀, d₂₁ …, the leading 1 left out; c, the basis' shift, where `shifted`; `family`,
-where a structure stands in `couplings.STRUCTURES`{more}. A division by zero gives an infinity or NaN: callers look
-whether all is finite.
+p: the parameters, in the order of `parameters.PARAMETER_INFO`; theta_0: rad; d: coefficients of the desired
+polynomials, d₁₀, d₁₁ …, d₂₀, d₂₁ …, the leading 1 left out; tau: both rotors' time constants, s; family: where the
+structure stands in `couplings.STRUCTURES`; c: the basis' shift, looked at where `shifted`. Nothing is checked: where
+there is no such structure something is divided by zero.
 """
 
 from __future__ import annotations
@@ -65,13 +65,11 @@ def modules() -> dict[str, str]:
     """The files' texts by their names, before they are formatted."""
     paper = _HEAD.format(
         about="The rig's linear model, K of the paper's four states and L of the observer, in closed form.",
-        more="",
-        imports="from math import cos, sin\n\nfrom .jit import kernel",
+        imports="from math import cos, sin\n\nfrom .jit import keep_apart, kernel",
     )
     rotors = _HEAD.format(
         about="K of the six states, those of both rotors among them, in closed form.",
-        more="; tau, both rotors'\ntime constants, s",
-        imports="from .derived import entries\nfrom .jit import kernel",
+        imports="from .derived import entries\nfrom .jit import keep_apart, kernel",
     )
     return {
         "derived.py": "\n\n".join((paper, _entries(), _rig_model(), *_paper_gains(), _observer())),
@@ -81,7 +79,7 @@ def modules() -> dict[str, str]:
 
 def _entries() -> str:
     own = {x: value.subs({phi_p: 1, phi_y: 1}) for x, value in ENTRIES.items()}
-    (b_11, b_12), (b_21, b_22) = plant_in_letters()[1].to_Matrix()[2:, :].tolist()
+    (b_11, b_12), (b_21, b_22) = plant_in_letters()[1].to_Matrix().tolist()[2:]
     known = linear_model().definitions
     values = {
         **{x: known[x] for x in (alpha, beta_0, a)},
@@ -91,7 +89,7 @@ def _entries() -> str:
     given = {str(x): value.subs(_ANGLES) for x, value in values.items()}
     return _function(
         "entries(p, theta_0)",
-        f"{', '.join(map(str, _LETTERS))}: of what A and B are made; Delta is the determinant of B's lower half.",
+        f"{', '.join(map(str, _LETTERS))}: what A and B are made of; Delta is B₂'s determinant.",
         [_PARAMETERS],
         [*_assigned(given), f"return {', '.join(map(str, _LETTERS))}"],
     )
@@ -109,22 +107,20 @@ def _rig_model() -> str:
 
 
 def _paper_gains() -> Iterator[str]:
-    arguments = "d, p, theta_0, c, K, inverse"
     yield _choice(
-        f"full_rank_gain(family, shifted, {arguments})",
+        "full_rank_gain",
         "K, into the first four columns of what is given, and Ĝ(0)⁻¹, 2×2, of four states.",
-        "rig, d, c, K, inverse",
+        [_PAPER],
     )
     for structure, shifted in _members():
-        placed = paper_gain_in_letters(structure, shifted=shifted)
-        yield _gain(structure, shifted, placed, [_PAPER])
+        yield _gain(structure, shifted, paper_gain_in_letters(structure, shifted=shifted), [_PAPER])
 
 
 def _gains_with_rotors() -> Iterator[str]:
     yield _choice(
-        "full_rank_gain_with_rotors(family, shifted, d, p, theta_0, tau, c, K, inverse)",
-        "K, 2×6, and Ĝ(0)⁻¹, 2×2, of six states; thrust constants in p are times the curves' slopes φ′.",
-        "rig, d, tau, c, K, inverse",
+        "full_rank_gain_with_rotors",
+        "K, 2×6, and Ĝ(0)⁻¹, 2×2, of six states; the thrust constants in p are times the curves' slopes φ′.",
+        [_SIX, _TAU],
     )
     for structure, shifted in _members():
         yield _gain(structure, shifted, gain_in_letters(structure, shifted=shifted), [_SIX, _TAU])
@@ -152,41 +148,40 @@ def _members() -> Iterator[tuple[Structure, bool]]:
             yield structure, True
 
 
-def _name(structure: Structure, shifted: bool) -> str:
-    own = (
-        f"{structure.lead}_leads"
-        if structure.coupling == "triangular"
-        else structure.coupling.replace("-", "_")
-    )
-    return f"{own}_shifted" if shifted else own
+def _call(structure: Structure, shifted: bool, read: Sequence[Read], shift: str = "c") -> str:
+    triangular = structure.coupling == "triangular"
+    name = f"{structure.lead}_leads" if triangular else structure.coupling.replace("-", "_")
+    own = ["rig", *(array for array, _ in read), *([shift] if shifted else []), "K", "inverse"]
+    return f"{name}{'_shifted' if shifted else ''}({', '.join(own)})"
 
 
 def _gain(structure: Structure, shifted: bool, placed: FullRank, read: Sequence[Read]) -> str:
     K, inverse = placed.K, steady_state_inverse(placed.K, *plant_in_letters())
-    arguments = ["rig", *(name for name, _ in read), *(["c"] if shifted else []), "K", "inverse"]
     return _function(
-        f"{_name(structure, shifted)}({', '.join(arguments)})",
+        _call(structure, shifted, read),
         f"{structure.title.capitalize()}{', with a shift' if shifted else ''}; rig as `entries` gives it.",
         [_RIG, *read],
         _shared({**_cells("K", _written(K)), **_cells("inverse", _written(inverse))}),
     )
 
 
-def _choice(signature: str, about: str, arguments: str) -> str:
+def _choice(name: str, about: str, read: Sequence[Read]) -> str:
     """The function that calls the one for a structure."""
-    lines = ["rig = entries(p, theta_0)"]
-    plain = arguments.replace(" c,", "")
+    (d, _), *others = read
+    arguments = ["family", "shifted", d, "p", "theta_0", *(array for array, _ in others), "c", "K", "inverse"]
+    lines = ["keep_apart()", "rig = entries(p, theta_0)"]
     for i, structure in enumerate(STRUCTURES):
         lines.append(f"{'elif' if i else 'if'} family == {i}:")
-        shifted = f"{_name(structure, True)}({arguments})"
-        unshifted = f"{_name(structure, False)}({plain})"
-        if structure.coupling == "input-diagonal":
-            lines.append(f"    {shifted.replace(' c,', ' c if shifted else 0.0,')}")
-        elif structure.coupling == "axis-decoupled":
-            lines.append(f"    {unshifted}")
+        own = {
+            shifted: _call(structure, shifted, read) for member, shifted in _members() if member == structure
+        }
+        if len(own) > 1:
+            lines += ["    if shifted:", f"        {own[True]}", "    else:", f"        {own[False]}"]
+        elif True in own:
+            lines.append(f"    {_call(structure, True, read, 'c if shifted else 0.0')}")
         else:
-            lines += ["    if shifted:", f"        {shifted}", "    else:", f"        {unshifted}"]
-    return _function(signature, about, [], lines)
+            lines.append(f"    {own[False]}")
+    return _function(f"{name}({', '.join(arguments)})", about, [], lines)
 
 
 def _function(signature: str, about: str, read: Sequence[Read], body: Sequence[str]) -> str:
@@ -197,8 +192,8 @@ def _function(signature: str, about: str, read: Sequence[Read], body: Sequence[s
         used = [(str(x), f"{array}[{i}]") for i, x in enumerate(symbols) if str(x) in words]
         if array == "rig" and "rig" not in signature.partition("(")[2]:
             lines.append("rig = entries(p, theta_0)")
-        parts = (used[i : i + _IN_A_LINE] for i in range(0, len(used), _IN_A_LINE))
-        lines += [" = ".join(map(", ".join, zip(*part, strict=True))) for part in parts]
+        rows = (used[i : i + _IN_A_LINE] for i in range(0, len(used), _IN_A_LINE))
+        lines += [" = ".join(map(", ".join, zip(*row, strict=True))) for row in rows]
     lines += [f"{x} = {f}" for x, f in (("sin_0", "sin(theta_0)"), ("cos_0", "cos(theta_0)")) if x in words]
     return "\n".join(("@kernel", f"def {signature}:", *(f"    {line}" for line in (*lines, *body))))
 
@@ -215,7 +210,7 @@ def _written(matrix: DomainMatrix) -> sp.Matrix:
 def _entry(element: Any) -> sp.Expr:
     """Σ polynomial × (thrusts and c, over thrusts and Δ), each polynomial once."""
     sums: dict[Any, tuple[sp.Expr, sp.Expr]] = {}
-    for coefficient, outer in terms(element):
+    for coefficient, outer in parts(element):
         content, rest, shared = monomial_out(coefficient)
         own, rates = shared.as_independent(*RATES)
         key = (frozenset(rest.terms()), own)
@@ -226,14 +221,19 @@ def _entry(element: Any) -> sp.Expr:
 
 def _shared(targets: Mapping[str, sp.Expr]) -> list[str]:
     """Assignments; what recurs has a name of its own."""
+    found: Any
+    left: Any
     found, left = sp.cse([*targets.values()], symbols=sp.numbered_symbols("y_"))
-    own, known, numbered = {}, {}, sp.numbered_symbols("x_", start=1)
+    own: dict[str, Any] = {}
+    known: dict[Any, Any] = {}
+    numbered = sp.numbered_symbols("x_", start=1)
     for symbol, value in found:
         if (-value).is_Symbol:  # a sign is not worth a name
             known[symbol] = value.xreplace(known)
         else:
             name = next(numbered)
-            own[str(name)], known[symbol] = value.xreplace(known), name
+            own[str(name)] = value.xreplace(known)
+            known[symbol] = name
     return _assigned({**own, **dict(zip(targets, (value.xreplace(known) for value in left), strict=True))})
 
 

@@ -193,7 +193,7 @@ class _Writer:
 
     def _entry(self, element: Any, where: str) -> sp.Expr:
         return sp.Add(
-            *(self._group(coefficient, where) * outer.subs(RATES) for coefficient, outer in terms(element))
+            *(self._group(coefficient, where) * outer.subs(RATES) for coefficient, outer in _terms(element))
         )
 
     def _group(self, polynomial: Any, where: str) -> sp.Expr:
@@ -231,15 +231,47 @@ def monomial_out(polynomial: Any) -> tuple[sp.Expr, Any, sp.Expr]:
     return sp.Rational(int(content.numerator), int(content.denominator)), rest, shared
 
 
-def terms(element: Any) -> Iterator[tuple[Any, sp.Expr]]:
+def _terms(element: Any) -> Iterator[tuple[Any, sp.Expr]]:
     """Σ coefficient × (thrusts, over thrusts and the determinant): the coefficients hold neither thrusts nor c."""
-    above, below, power = element.numer, element.denom, 0
-    while (divided := below.div(_DETERMINANT))[1] == 0:
-        below, power = divided[0], power + 1
+    above, (below, power) = element.numer, _without_determinant(element.denom, -1)
     for k in range(power, -1, -1):
         above, piece = above.div(_DETERMINANT) if k else (above, above)
         for coefficient, outer in _by_thrusts(piece):
             yield coefficient, outer / (below.as_expr() * Delta**k)
+
+
+def parts(element: Any) -> Iterator[tuple[Any, sp.Expr]]:
+    """The same sum with the fewest differences of thrusts: for floats.
+
+    `_terms` takes Δ out of a product as often as it can, which leaves pieces that nearly cancel where b₁₁b₂₂ is
+    small against b₁₂b₂₁. Here what belongs to a product of the letters within, and to a power of c, stays in one
+    piece, in lowest terms.
+    """
+    below, power = _without_determinant(element.denom, -1)
+    ring, many = element.numer.ring, len(_THRUSTS)
+    outers, inners = dict[tuple[int, ...], Any](), dict[Any, tuple[Any, Any, int]]()
+    for powers, number in element.numer.terms():
+        thrusts = powers[:many] + (0,) * (len(powers) - many)
+        outers[powers[many:]] = outers.get(powers[many:], ring.zero) + ring.from_dict({thrusts: number})
+    for (shift, *within), polynomial in outers.items():
+        content, outer = polynomial.primitive()
+        if outer.LC < 0:
+            content, outer = -content, -outer
+        outer, taken = _without_determinant(outer, power)
+        outer = outer.mul_monom((0,) * many + (shift,) + (0,) * len(within))
+        inner = ring.from_dict({(0,) * (many + 1) + tuple(within): content})
+        key = frozenset(outer.terms()), power - taken
+        inners[key] = inners.get(key, (ring.zero,))[0] + inner, outer, power - taken
+    for inner, outer, left in inners.values():
+        yield inner, outer.as_expr() / (below.as_expr() * Delta**left)
+
+
+def _without_determinant(polynomial: Any, most: int) -> tuple[Any, int]:
+    """What is left when Δ is divided out, `most` times at most (−1: as often as it goes), and how often that was."""
+    power = 0
+    while power != most and (divided := polynomial.div(_DETERMINANT))[1] == 0:
+        polynomial, power = divided[0], power + 1
+    return polynomial, power
 
 
 def _by_thrusts(polynomial: Any) -> Iterator[tuple[Any, sp.Expr]]:

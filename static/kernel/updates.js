@@ -41,7 +41,7 @@ export class Updates {
 
   /** @param {string} key @param {number} size @param {number} samples */
   #made(key, size, samples) {
-    const name = 'update_any';
+    const name = 'update';
     const arrays = (/** @type {typeof block} */ shapes) =>
       Object.entries(shapes(size, samples)).map(
         ([own, [kind, ...shape]]) => /** @type {[string, Values]} */ ([own, this.kernels.array(kind, ...shape)]),

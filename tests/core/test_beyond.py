@@ -64,7 +64,7 @@ def test_letters_and_groups_put_in_give_the_derived_gain_exactly(structure, shif
     form = gain_in_letters(structure, shifted=shifted).form
     for shown, own in ((found.T, form.T), (found.Q, form.Q)):
         assert exactly(found.written_out(shown), values) == exactly(
-            found.written_out(own.to_Matrix().subs(reading._RATES)), values
+            found.written_out(own.to_Matrix().subs(reading.RATES)), values
         )
 
 

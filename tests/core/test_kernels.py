@@ -13,12 +13,9 @@ from numba.core.runtime import _nrt_python, rtsys
 from heli2dof_core import Spec, Uncertainty, evaluate, preset
 from heli2dof_core.engine import engine, interpreted
 from heli2dof_core.kernels.layout import PAPER, WORKSPACE
-from heli2dof_core.metrics import step_metrics
 from heli2dof_core.robustness import cloud
 from heli2dof_core.scenario import Digital
-from heli2dof_core.simulation.courses import run_experiments
-from heli2dof_core.simulation.linear import simulate_linear
-from heli2dof_core.simulation.nonlinear import NonlinearLoop, simulate_nonlinear
+from heli2dof_core.simulation.nonlinear import NonlinearLoop
 from tests.bench import floor
 from tests.core.test_nonlinear_response import LIMITS, random_loops
 
@@ -63,21 +60,6 @@ def alike(one, other):
     for name, value in vars(other).items():
         own = getattr(one, name)
         assert own is None if value is None else own == pytest.approx(value, rel=1e-7, abs=1e-12)
-
-
-def test_both_models_at_once_are_each_alone():
-    """The one call of an update gives what the separate simulations give, to the last digit."""
-    for loop, scenario in random_loops(40, seed=11):
-        scenarios = [scenario, replace(scenario, psi=None), replace(scenario, theta=None)]
-        together = run_experiments(loop, LIMITS, scenarios)
-        for n, each in enumerate(scenarios):
-            for response in (simulate_linear(loop, each), simulate_nonlinear(loop, LIMITS, each)):
-                own = together.response(n, response.model)
-                np.testing.assert_array_equal(own.states, response.states)
-                np.testing.assert_array_equal(own.voltages, response.voltages)
-                assert step_metrics(own) == step_metrics(response)
-                for name in ("t", "reference", "start", "saturated", "findings"):
-                    assert np.all(getattr(own, name) == getattr(response, name))
 
 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="needs a C compiler")
