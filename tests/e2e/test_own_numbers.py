@@ -92,7 +92,7 @@ def test_a_drag_sends_nothing(chromium: Browser, app: App, part: str, scene: str
             if not part:
                 assert alike(now["K"], K_of(now).tolist())
         assert wire.messages == []
-        assert len(seen) > 12
+        assert len(seen) > 4
         assert now["K"] != before["K"]
         page.mouse.up()
         settled(page)
