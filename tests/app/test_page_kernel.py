@@ -259,15 +259,49 @@ def keys(value: Any, above: str = "") -> set[str]:
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case[0]} {json.dumps(case[1])[:60]}")
 def test_the_pages_reply_is_the_servers(case: tuple[str, dict[str, Any]], ask: Ask):
+    """Of the native kernel's block and of the module's."""
     name, part = case
     asked = {"preset": SERVED[name], "part": part}
     found = ask(asked)
     assert found["served"]
     spec = spec_of({k: v for k, v in found["body"].items() if k != "each_axis"})
+    reply = reply_to(spec)
     block = fill_block(spec, placed=None, L=None, each_axis=True, most_steps=STEPS)
-    reply = json.loads(json_text(report_reply(evaluate(spec, each_axis=True), spec)))
-    answer = ask({**asked, "block": {own: told(v) for own, v in block.items()}, "reply": reply})
-    assert answer["difference"] is None
-    doubtful = {".gains.pole_error", ".gains.pole_error_bound"}
-    assert keys(answer["own"]) - keys(reply) == set()
-    assert keys(reply) - keys(answer["own"]) in (set(), doubtful)
+    for more in ({"block": {own: told(v) for own, v in block.items()}}, {}):
+        answer = ask({**asked, **more, "reply": reply})
+        assert answer["difference"] is None
+        doubtful = {".gains.pole_error", ".gains.pole_error_bound"}
+        assert keys(answer["own"]) - keys(reply) == set()
+        assert keys(reply) - keys(answer["own"]) in (set(), doubtful)
+
+
+def reply_to(spec: Spec) -> dict[str, Any]:
+    return json.loads(json_text(report_reply(evaluate(spec, each_axis=True), spec)))
+
+
+def test_random_designs_are_alike_here_and_there(ask: Ask):
+    """What the module says of whatever it serves is what the server says."""
+    draw, compared = random.Random(8), 0
+    while compared < 60:
+        name, part = random_part(draw)
+        found = ask({"preset": SERVED[name], "part": part})
+        if not found["served"]:
+            continue
+        try:
+            reply = reply_to(spec_of({k: v for k, v in found["body"].items() if k != "each_axis"}))
+        except Heli2DofError:  # the kernel says so as well
+            assert ask({"preset": SERVED[name], "part": part, "reply": EMPTY})["own"] is None, (name, part)
+            continue
+        answer = ask({"preset": SERVED[name], "part": part, "reply": reply})
+        assert answer["difference"] is None, (name, part)
+        compared += answer["own"] is not None
+
+
+EMPTY = {
+    "gains": {"findings": [], "controllability_indices": []},
+    "rga": {"findings": []},
+    "findings": [],
+    "axis_steps": {},
+    "open_loop_poles": [],
+}
+"""A reply of which nothing is known."""
