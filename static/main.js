@@ -210,8 +210,8 @@ function welcome() {
 
 /** The page's own numbers; where a browser cannot have them, the server goes on alone. */
 async function computeHere() {
-  const { loadModule, Own } = await fetched(() => import('./kernel/index.js'));
-  own = new Own(store, await loadModule(), ask).watch(window);
+  const { loadModule, MODULE, Own } = await fetched(() => import('./kernel/index.js'));
+  own = new Own(store, await loadModule(await fetched(() => fetch(MODULE))), ask).watch(window);
   document.documentElement.dataset.kernel = 'ready';
 }
 

@@ -2,13 +2,13 @@
  * The kernel `update` of kernels.wasm, its arrays made once for each number of states. Pure but for where it comes from.
  * @typedef {import('./module.js').Block} Values
  */
-import { compiled, instantiated, MODULE } from './module.js';
+import { compiled, instantiated } from './module.js';
 import { AT } from './layout.js';
 import { block, scratch } from './shapes.js';
 import { SIGNATURES } from './table.js';
 
-/** As soon as the file is there; rejects where a browser has no WebAssembly, or may not have it. */
-export const loadModule = async () => new Updates(await instantiated(await compiled(await fetch(MODULE))));
+/** Rejects where a browser has no WebAssembly, or may not have it. @param {Response|BufferSource} source of MODULE */
+export const loadModule = async (source) => new Updates(await instantiated(await compiled(source)));
 
 export class Updates {
   #numbers;
