@@ -83,7 +83,6 @@ const live = new Live({
   onReply: (reply) => {
     if (!answered) {
       welcome();
-      computeHere().catch(console.warn);
       furtherDown().catch(report);
     }
     answered = true;
@@ -224,6 +223,7 @@ async function furtherDown() {
     ),
   );
   schedule();
+  computeHere().catch(console.warn);
   const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await fetched(() =>
     Promise.all([import('./compare/index.js'), import('./recordings/index.js'), import('./paper/index.js')]),
   );

@@ -24,6 +24,7 @@ AWAY = "The server is away: remarks are of an earlier design."
 UNRESTING = """const later = window.setTimeout;
 window.setTimeout = (act, ms, ...more) => (ms === 200 ? 0 : later(act, ms, ...more));"""
 """However slow the machine, between two moves of the hand it does not count as resting."""
+LOCAL = "() => JSON.parse(document.documentElement.dataset.state).local"
 READY = "document.documentElement.dataset.kernel === 'ready'"
 
 
@@ -88,13 +89,14 @@ def test_a_drag_sends_nothing(chromium: Browser, app: App, part: str, scene: str
         seen = set()
         for k in range(1, 25):
             page.mouse.move(x + k, y)
+            page.wait_for_function(LOCAL)  # figures are written in turns
             now = state(page)
             assert now["local"] and not now["settled"]
             seen.add(now["poles"][3]["re"])
             if not part:
                 assert alike(now["K"], K_of(now).tolist())
         assert wire.messages == []
-        assert len(seen) > 2  # figures are written in turns
+        assert len(seen) > 2
         assert now["K"] != before["K"]
         page.mouse.up()
         settled(page)
@@ -159,7 +161,7 @@ def test_a_drag_is_drawn_in_the_frame_of_its_event(chromium: Browser, app: App):
             [x, y, PLOTS],
         )
         assert changed == [[], [], []]
-        assert state(page)["local"]
+        page.wait_for_function(LOCAL)
         page.mouse.up()
         settled(page)
 
@@ -182,8 +184,9 @@ def test_a_difference_is_told_and_the_servers_numbers_hold(chromium: Browser, ap
         page.mouse.move(x, y)
         page.mouse.down()
         page.mouse.move(x - 30, y, steps=5)
+        page.wait_for_function(LOCAL)
         wrong = state(page)
-        assert wrong["local"] and not alike(wrong["K"], K_of(wrong).tolist())
+        assert not alike(wrong["K"], K_of(wrong).tolist())
         page.mouse.up()
         until_state(page, "s.differences === 1")
         told = page.get_by_test_id("notice")
