@@ -72,11 +72,12 @@ steady: $(VENV)/.tools node_modules/.installed browser kernels ## the browser te
 mutation: $(VENV)/.tools node_modules/.installed ## change the core and the page in forty places, one by one: which changes does no test see?
 	$(BIN)/python -m tests.mutation --jobs 2 $(if $(SEED),--seed $(SEED))
 
-contract: $(VENV)/.tools ## make what follows from the core and the contract: the page's figures, methods, quantities, types; K as kernels
+contract: $(VENV)/.tools ## make what follows from the core and the contract: the page's figures, methods, quantities, layout, types; K as kernels
 	$(BIN)/python -m tests.kernel_formulas
 	$(BIN)/python -m tests.page_figures
 	$(BIN)/python -m tests.page_methods
 	$(BIN)/python -m tests.page_quantities
+	$(BIN)/python -m tests.page_kernel
 	$(BIN)/python -m tests.page_types
 
 wasm: $(VENV)/.tools ## make static/kernel/kernels.wasm and its table anew, from the kernels

@@ -1118,7 +1118,7 @@ export interface RobustnessRequest extends StepRequest {
   samples?: number;
   /** of the random rigs */
   seed?: number;
-  /** relative, per parameter; by default 0.1 for all but g */
+  /** relative, per parameter and per rotor's lag; by default 0.1 for all parameters but g */
   uncertainty?: Record<string, number> | null;
 }
 

@@ -72,8 +72,10 @@ const views = { plane: viewOf(plane), figures: figures.map(viewOf) };
 const turns = new Turns();
 const locked = new LockedControls(document.body);
 
-/** @type {Map<number, {stamp: number|undefined, design: import('./types.js').Design}>} */
-const asked = new Map();
+/** What was asked of the server. @type {Map<number, import('./types.js').Design>} */ const asked = new Map();
+/** When the hand moved, by what came of it. @type {WeakMap<import('./types.js').Design, number|undefined>} */
+const stamps = new WeakMap();
+/** @type {import('./kernel/index.js').Own|null} the page's own numbers, once they are loaded */ let own = null;
 let seq = 0;
 let answered = false;
 
@@ -84,7 +86,9 @@ const live = new Live({
       furtherDown().catch(report);
     }
     answered = true;
-    store.set({ reply, answered: asked.get(reply.seq)?.design ?? null, problem: null });
+    const design = asked.get(reply.seq) ?? null;
+    for (const old of asked.keys()) if (old <= reply.seq) asked.delete(old);
+    store.set(own?.heard(reply, design) ?? { reply, answered: design, heard: design, problem: null });
   },
   onProblem: (problem) => store.set({ problem }),
   onStatus: (connection) => store.set({ connection }),
@@ -99,10 +103,18 @@ store.addEventListener('design', (event) => {
   const { stamp } = /** @type {CustomEvent} */ (event).detail;
   // who has moved something needs no tour at the next visit
   if (stamp !== undefined && recall('tour') !== 'done') remember('tour', 'done');
+  stamps.set(design, stamp);
   seq += 1;
-  asked.set(seq, { stamp, design });
-  live.send(requestOf(design, seq));
+  if (!own?.edited()) ask();
 });
+
+/** The present design. */
+function ask() {
+  const { design } = store.state;
+  if (!design) return;
+  asked.set(seq, design);
+  live.send(requestOf(design, seq));
+}
 
 const lookers = [pins, address, locked].map((part) =>
   isolated((/** @type {State} */ state) => part.render(state), report),
@@ -119,8 +131,9 @@ function schedule() {
 }
 
 function render() {
-  scheduled = false;
   const begin = performance.now();
+  own?.frame();
+  scheduled = false;
   const { state } = store;
   // each says again which of its controls can be used
   if (locked.release(state)) for (const view of [views.plane, ...views.figures]) view.forget();
@@ -130,9 +143,8 @@ function render() {
   for (const always of lookers) always(state);
   if (!drawn) return;
   const now = performance.now();
-  const answered = state.reply?.seq ?? 0;
-  stats.drawn(now, asked.get(answered)?.stamp, now - begin);
-  for (const old of asked.keys()) if (old <= answered) asked.delete(old);
+  stats.drawn(now, state.answered ? stamps.get(state.answered) : undefined, now - begin);
+  if (state.answered) stamps.delete(state.answered);
 }
 
 /**
@@ -195,6 +207,13 @@ function welcome() {
   if (recall('tour') !== 'done') setTimeout(() => recall('tour') !== 'done' && tour(), 600);
 }
 
+/** The page's own numbers; where a browser cannot have them, the server goes on alone. */
+async function computeHere() {
+  const { loadModule, MODULE, Own } = await fetched(() => import('./kernel/index.js'));
+  own = new Own(store, await loadModule(await fetched(() => fetch(MODULE))), ask).watch(window);
+  document.documentElement.dataset.kernel = 'ready';
+}
+
 /** Panels that the first view does not need, fetched when it is there. */
 async function furtherDown() {
   const { LagPaths, MeasuredPart, RotorPoles } = await fetched(() => import('./machine/index.js'));
@@ -204,6 +223,7 @@ async function furtherDown() {
     ),
   );
   schedule();
+  computeHere().catch(console.warn);
   const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await fetched(() =>
     Promise.all([import('./compare/index.js'), import('./recordings/index.js'), import('./paper/index.js')]),
   );
@@ -218,7 +238,8 @@ async function furtherDown() {
 }
 
 /** The design and its key results in one attribute, for tests and scripts. @param {State} state */
-function publish({ design, reply, problem, connection, motion, dragging, locks, notice, pins: pinned }) {
+function publish(state) {
+  const { design, reply, problem, connection, motion, dragging, locks, notice, pins: pinned } = state;
   document.documentElement.dataset.state = JSON.stringify({
     ...design,
     connection,
@@ -227,6 +248,8 @@ function publish({ design, reply, problem, connection, motion, dragging, locks, 
     seq,
     answered: reply?.seq ?? null,
     settled: reply?.seq === seq && !problem,
+    local: state.heard !== state.answered,
+    differences: state.differences,
     K: reply?.gains.K ?? null,
     rga: reply?.rga?.rga ?? null,
     stable: reply?.stable ?? null,

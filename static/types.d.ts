@@ -170,8 +170,12 @@ export interface State {
   methods: contract.Method[];
   design: Design | null;
   reply: Reply | null;
-  /** the design that `reply` belongs to */
+  /** the design that the numbers of `reply` belong to: the server's, or the page's own while a hand moves */
   answered: Design | null;
+  /** the design that the server has answered last: the words of `reply` are about that one */
+  heard: Design | null;
+  /** how often the server's numbers differed from the page's own */
+  differences: number;
   problem: Problem | null;
   connection: Connection;
   motion: Motion;
@@ -187,7 +191,7 @@ export interface State {
   /** names in locks.js */
   locks: string[];
   recorded: Recorded;
-  /** what is to be said of the link that was opened */
+  /** what is to be said of the link that was opened, or of this design's numbers */
   notice: string | null;
   /** that a part of the page could not be drawn */
   fault: string | null;

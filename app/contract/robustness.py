@@ -7,13 +7,14 @@ from typing import Annotated
 from pydantic import Field
 
 from heli2dof_core.parameters import PARAMETER_INFO
-from heli2dof_core.robustness import MOST_SPREAD, Cloud, Uncertainty
+from heli2dof_core.robustness import LAGS, MOST_SPREAD, Cloud, Uncertainty
 
 from .experiment import StepRequest
 from .fields import Whole, asked
 from .model import Complex, Model, Reply, poles_reply
 from .places import UNCERTAINTY
 
+UNCERTAIN = (*PARAMETER_INFO, *LAGS)
 MOST_POLES = 2000
 """Rigs whose poles are sent; more make no other picture."""
 
@@ -25,9 +26,9 @@ class RobustnessRequest(StepRequest, asked(UNCERTAINTY)):
         dict[str, Annotated[float, Field(json_schema_extra={"minimum": 0.0, "maximum": MOST_SPREAD})]] | None
     ) = Field(
         default=None,
-        max_length=len(PARAMETER_INFO),
-        json_schema_extra={"propertyNames": {"enum": [*PARAMETER_INFO]}},
-        description="relative, per parameter; by default 0.1 for all but g",
+        max_length=len(UNCERTAIN),
+        json_schema_extra={"propertyNames": {"enum": [*UNCERTAIN]}},
+        description="relative, per parameter and per rotor's lag; by default 0.1 for all parameters but g",
     )
 
     def to_uncertainty(self) -> Uncertainty:

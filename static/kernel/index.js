@@ -1,2 +1,4 @@
 /** What other rooms may import of kernel/. */
 export { Block, compiled, instantiated, KernelError, Kernels, MODULE } from './module.js';
+export { Own } from './own.js';
+export { loadModule } from './updates.js';

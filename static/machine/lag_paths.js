@@ -48,7 +48,7 @@ export class LagPaths {
 
   /** @param {State} state */
   render(state) {
-    const { design, answered, problem, dragging, connection } = state;
+    const { design, heard, problem, dragging, connection } = state;
     if (!design) return;
     const shown = isShown(state);
     setAttr(this.toggle, 'aria-pressed', String(shown));
@@ -58,7 +58,7 @@ export class LagPaths {
       this.#put(null); // it is of another design
     }
     // what the server has refused has no track, and what it has not answered yet may be refused
-    if (!shown || dragging || problem || design !== answered || connection === 'lost' || key === this.#key) return;
+    if (!shown || dragging || problem || design !== heard || connection === 'lost' || key === this.#key) return;
     this.#key = key;
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#ask(key), REST_MS);

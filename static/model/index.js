@@ -62,7 +62,7 @@ export {
   RANGES,
   verdictOf,
 } from './requirements.js';
-export { QUANTITIES } from './quantities.js';
+export { OBSERVER_POLES, QUANTITIES } from './quantities.js';
 export {
   allowed,
   asProposed,
@@ -72,6 +72,7 @@ export {
   lags,
   proposedShown,
   quantities,
+  standardOf,
   valueOf,
   without,
   withValue,

@@ -30,6 +30,8 @@ export const initialState = () => ({
   design: null,
   reply: null,
   answered: null,
+  heard: null,
+  differences: 0,
   problem: null,
   connection: 'connecting',
   motion: 'both',
@@ -163,7 +165,9 @@ export class Store extends EventTarget {
 
   /** Ends a gesture: the next edit is a new step of undo. */
   commit() {
+    if (this.#gesture === null) return;
     this.#gesture = null;
+    this.dispatchEvent(new Event('change')); // who waits for the hand to rest looks again
   }
 
   /** Whether a gesture goes on. */
@@ -217,10 +221,10 @@ export class Store extends EventTarget {
 
   /** Keeps the present design beside those that follow. */
   pin() {
-    const { design, reply, answered, pins } = this.state;
+    const { design, reply, heard, pins } = this.state;
     if (!design) return;
     const index = [...pins.keys(), pins.length].find((i) => pins.every((p) => p.index !== i)) ?? pins.length;
-    this.addPins([{ index, name: `Design ${letterOf(index)}`, design, reply: answered === design ? reply : null }]);
+    this.addPins([{ index, name: `Design ${letterOf(index)}`, design, reply: heard === design ? reply : null }]);
   }
 
   /** @param {Omit<Pin, 'id'>[]} pins */

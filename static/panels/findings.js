@@ -11,6 +11,9 @@ const ICON = { error: '✕', warning: '▲', info: 'i' };
 const WORD = { error: 'Error', warning: 'Warning', info: 'Note' };
 const RANK = { error: 0, warning: 1, info: 2 };
 const SHOWN = 2;
+const AWAY = 'server_away';
+/** What the page itself says of its numbers. */
+const OWN = [AWAY, 'requirement_missed', 'lag_margin_missed'];
 /** What explains others of its severity, or says what they cost. */
 const CAUSES = ['slow_sampling', 'fast_tracking', 'unlike_linear'];
 
@@ -32,7 +35,7 @@ function missedWords({ reply, requirements }) {
 
 /** @param {import('../types.js').State} state @returns {import('../types.js').Finding[]} */
 export function findingsOf(state) {
-  const { reply, problem } = state;
+  const { reply, problem, heard, answered, connection } = state;
   if (problem)
     return [
       {
@@ -47,14 +50,17 @@ export function findingsOf(state) {
   const slower = missesLag(reply, state.requirements)
     ? say`Requirement missed: the loop bears ${textOf(LOOP.lag, reply?.lag_margin)} of lag in its rotors.`
     : '';
+  const away =
+    connection === 'lost' && heard !== answered ? t('The server is away: remarks are of an earlier design.') : '';
   const own = /** @type {import('../types.js').Finding[]} */ (
     [
+      { code: AWAY, severity: 'info', message: away },
       { code: 'requirement_missed', severity: 'warning', message: missed },
       { code: 'lag_margin_missed', severity: 'warning', message: slower },
     ].filter((f) => f.message)
   );
   const rank = (/** @type {import('../types.js').Finding} */ f) =>
-    (RANK[f.severity] ?? 3) - (CAUSES.includes(f.code) ? 0.5 : 0);
+    (f.code === AWAY ? -1 : (RANK[f.severity] ?? 3)) - (CAUSES.includes(f.code) ? 0.5 : 0);
   return [...own, ...(reply?.findings ?? [])].sort((a, b) => rank(a) - rank(b));
 }
 
@@ -118,7 +124,8 @@ export class FindingsPanel {
     const lead = place
       ? button({ class: 'finding', title: say`${f.message} Go there.`, onclick: () => this.#lead(f.code) }, words)
       : words;
-    return h('li', { class: severity, title: place ? undefined : f.message, 'data-code': f.code }, lead);
+    const kind = OWN.includes(f.code) ? `${severity} own` : severity;
+    return h('li', { class: kind, title: place ? undefined : f.message, 'data-code': f.code }, lead);
   }
 
   /** @param {import('../types.js').State} state */

@@ -45,12 +45,14 @@ export class Notice {
   }
 
   /** @param {import('../types.js').State} state */
-  render({ notice, fault, design, answered, connection, problem }) {
+  render({ notice, fault, design, answered, heard, connection, problem }) {
     const unheard = connection === 'lost' && design !== null && answered !== design;
     this.stale.hidden = !unheard;
     document.documentElement.classList.toggle('unheard', unheard);
     // a refused design has no figures: those shown are older
     document.documentElement.classList.toggle('stale', unheard || problem !== null);
+    // numbers of this design, computed here, beside what the server said of an earlier one
+    document.documentElement.classList.toggle('earlier', heard !== answered);
     this.fault.say(fault);
     if (notice !== this.#told) {
       this.#told = notice;

@@ -1,6 +1,6 @@
 /**
  * The cloud of uncertain rigs: the same controller on rigs whose parameters differ a little. A few rigs while something
- * moves, many once the hand rests.
+ * moves, many once the hand rests; none while the page computes itself what moves, since then the server is not asked.
  * @typedef {import('../types.js').State} State
  * @typedef {import('../types.js').Design} Design
  * @typedef {ReturnType<typeof cloudRequest>} CloudRequest
@@ -70,13 +70,17 @@ export class CloudFeed {
   }
 
   /** @param {State} state */
-  render({ design, spread, motion, dragging, connection, cloud }) {
+  render({ design, answered, heard, spread, motion, dragging, connection, cloud }) {
     if (!design || !spread) {
       if (this.#socket || this.#key || cloud) this.#stop();
       return;
     }
-    if (connection === 'lost') {
-      this.#key = ''; // asked again when it is back
+    const own = heard !== answered;
+    if (own && cloud && (dragging || connection === 'lost')) this.store.set({ cloud: null }); // it is of another design
+    if (own || connection === 'lost') {
+      clearTimeout(this.#timer);
+      this.#timer = undefined;
+      this.#key = ''; // asked again when the hand rests, or the server is back
       return;
     }
     const names = uncertain(design, this.store.preset);
@@ -115,8 +119,9 @@ export class CloudFeed {
   /** A cloud, or a problem, which has a status. @param {import('../types.js').Cloud & {status?: number}} message */
   #receive(message) {
     const refused = message.status !== undefined;
-    // A few rigs of a larger cloud say less than the last whole one; they only tell that it is coming.
-    if (refused || message.done >= Math.min(FEW, message.samples)) this.store.set({ cloud: refused ? null : message });
+    // A few rigs of a larger cloud say less than the last whole one; they only tell that it is coming. What comes
+    // while nothing is asked is of a design that is no more.
+    if (this.#key && (refused || message.done >= Math.min(FEW, message.samples))) this.store.set({ cloud: refused ? null : message });
     if (refused || message.done === message.samples) this.#socket?.done();
   }
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.contract.robustness import RobustnessReply
+from app.contract.robustness import UNCERTAIN, RobustnessReply
 from tests.app.test_rest import PAPER, post
 
 
@@ -22,6 +22,13 @@ def test_rest_gives_the_whole_cloud(client):
         ({"scenario": {"disturbance": {"V_p": 1.0}}}, "scenario.disturbance"),
     ):
         assert post(client, "robustness", body, status=422)["field"] == field
+
+
+def test_all_that_is_uncertain_may_be_so_at_once(client):
+    """Every parameter but g, and both rotors' lags: what the page asks for an Aero."""
+    names = [name for name in UNCERTAIN if name != "g"]
+    body = {"preset": "quanser-aero-2", "samples": 20, "uncertainty": dict.fromkeys(names, 0.1)}
+    assert post(client, "robustness", body)["done"] == 20
 
 
 def test_socket_tells_progress(client):

@@ -107,7 +107,7 @@ test('an unstable design has no figures of its step, and figures that read the s
 
 test('a pin keeps design, its reply only if that answers it, and takes the first free letter', () => {
   const { design } = store.state;
-  store.set({ reply: reply(1, 1), answered: design });
+  store.set({ reply: reply(1, 1), answered: design, heard: design });
   store.pin();
   store.edit((d) => ({ ...d, theta0: 0.1 }));
   store.pin();
@@ -206,7 +206,7 @@ test('missing replies are asked for one by one while open, refusals are told, an
 });
 
 test("a plot's numbers: units in the header, a column for each line, another time where a pin has one", () => {
-  store.set({ reply: reply(1, 0.2), answered: store.state.design });
+  store.set({ reply: reply(1, 0.2), answered: store.state.design, heard: store.state.design });
   store.pin();
   const pin = store.state.pins[0];
   const slow = structuredClone(pin.reply);

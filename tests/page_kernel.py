@@ -1,0 +1,219 @@
+"""The page's module of the kernel's layout: `python -m tests.page_kernel` makes it of the core's.
+
+As Prettier has it, so that it is checked like any other module; a test holds it to the core.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import get_args
+
+from heli2dof_core.couplings import STRUCTURES
+from heli2dof_core.figures import AXIS, MARGINS
+from heli2dof_core.kernels import layout
+from heli2dof_core.kernels import update_layout as update
+from heli2dof_core.parameters import PARAMETER_INFO
+from heli2dof_core.poles import ZERO
+from heli2dof_core.quantities import Field
+from heli2dof_core.request import Place, quantities
+from heli2dof_core.rotors import AT_ONCE
+from heli2dof_core.scenario import AntiWindup, Measured
+from tests.children import ROOT
+from tests.page_source import WIDTH, key, literal, quoted
+
+PAGE = ROOT / "static" / "kernel" / "layout.js"
+SHAPES = PAGE.with_name("shapes.js")
+HEAD = """/**
+ * What stands where in the numbers that the kernel `update` takes and in the block that it fills, and what a request
+ * may be. Made of heli2dof_core/kernels/update_layout.py and the core's dataclasses by `python -m tests.page_kernel`;
+ * not to be changed by hand.
+ */
+"""
+NUMBERS = (
+    *("PARAMETERS", "ANGLE", "LIMITS", "POLES", "ROTOR_POLES", "ROTORS_PLACED", "FAMILY", "SHIFTED", "SHIFT"),
+    *(
+        "PI_LOOPS",
+        "PI_GAINS",
+        "CROSSWISE",
+        "DECOUPLED",
+        "LAGS",
+        "QUADRATIC",
+        "DEAD_ZONES",
+        "MATCHED",
+        "FRICTION",
+    ),
+    *("MEASURED", "OBSERVER_POLES", "OBSERVER_FAMILY", "ASKED", "BEGINNING", "DURATION", "SATURATION"),
+    *(
+        "WINDUP_KIND",
+        "TRACKING_TIME",
+        "STOPS",
+        "FEEDFORWARD",
+        "RTOL",
+        "DIGITAL",
+        "SAMPLE_TIME",
+        "LATE",
+        "COUNTS",
+    ),
+    *(
+        "RATES_FILTERED",
+        "DISTURBED",
+        "DISTURBANCE_VOLTS",
+        "DISTURBED_FROM",
+        "EACH_AXIS",
+        "MOST_STEPS",
+        "AIMS",
+    ),
+    "NUMBERS",
+)
+GIVEN = ("K_GIVEN", "GIVEN_K", "GIVEN_INVERSE", "OWN_INTEGRAL", "GIVEN_INTEGRAL", "L_GIVEN", "GIVEN_L")
+"""Numbers that the page leaves 0: what other methods have found."""
+OUTCOMES = ("DONE", "EXACT", "UNCONTROLLABLE", "NO_STRUCTURE", "NO_CURVE", "NO_SLOPE", "NO_EIGENVALUES")
+FIGURES = (
+    *("DETERMINANT", "PLACED_STABLE", "NORM", "SPECTRAL_NORM", "CONDITION", "POLE_ERROR", "POLE_ERROR_BOUND"),
+    *("DOUBTFUL", "RELATIVE_GAIN", "STABLE", "LAG_MARGIN", "CONNECTED"),
+)
+COURSE = ("DEVIATION", "SHARE", "HELD", "OUTCOME", "IMPACTS", "REACHED")
+SENSITIVITY = ("SENSITIVITY_PEAK", "PEAK_FREQUENCY", "DISK_MARGIN", "DISK_FREQUENCY")
+MOTOR = ("PEAK_VOLTAGE", "EFFORT")
+ENDS = ("ENDED", "OUT_OF_STEPS", "OUT_OF_SWITCHES", "OUT_OF_BOUNDS")
+EXPERIMENT = ("REFERENCE", "START", "BOUND", "STOP")
+
+
+def module() -> str:
+    """The whole module."""
+    known = {path: (place, known) for path, place, known in quantities()}
+    parts = (
+        HEAD,
+        _places("Offsets within the numbers.", "AT", update, NUMBERS),
+        _list("Parameters, in the numbers' order.", "PARAMETERS", PARAMETER_INFO),
+        _list(
+            "Coupling and leading axis of each family of structures, by its number.",
+            "FAMILIES",
+            (f"{own.coupling}/{own.lead}" for own in STRUCTURES),
+        ),
+        _list("What is measured, by its number.", "MEASURED", get_args(Measured)),
+        _list("Kinds of anti-windup, by their numbers.", "WINDUPS", get_args(AntiWindup)),
+        _places("How an update ended.", "OUTCOMES", update, OUTCOMES),
+        _places("Columns of the figures.", "FIGURES", update, FIGURES),
+        _places("Columns of an experiment.", "EXPERIMENT", layout, EXPERIMENT),
+        _list("Columns of an axis' metrics.", "AXIS", AXIS),
+        _places("Columns of a motor's metrics.", "MOTOR", layout, MOTOR),
+        _places("Columns of a course.", "COURSE", layout, COURSE),
+        _places("How a course ended.", "ENDS", layout, ENDS),
+        _list("Columns of a motor's margins.", "MARGINS", MARGINS),
+        _places("Columns of what both motors bear.", "SENSITIVITY", layout, SENSITIVITY),
+        _numbers(),
+        _set(
+            "Paths in a request whose values may be null.",
+            "MAY_LACK",
+            known,
+            lambda q: bool(q.quantity.absent),
+        ),
+        _set("Those whose numbers are whole.", "WHOLE", known, lambda q: q.kind is int),
+    )
+    return "\n".join(parts)
+
+
+def _numbers() -> str:
+    own = {
+        "RUNS": ("Experiments in a block, filled or not.", update.RUNS),
+        "PLAIN": ("States of the paper's rig, with rotors or friction, with an estimator.", layout.PLAIN),
+        "LAGGED": ("", layout.LAGGED),
+        "FULL": ("", layout.FULL),
+        "ROTORS": ("Where the rotors' speeds stand among the states.", layout.PLAIN),
+        "ZERO": ("Parts of poles below this are 0, rad/s.", ZERO),
+        "AT_ONCE": ("Rotors below this follow at once, s.", AT_ONCE),
+    }
+    return "".join(
+        f"{f'/** {words} */' + chr(10) if words else ''}export const {name} = {literal(value)};\n"
+        for name, (words, value) in own.items()
+    )
+
+
+def _places(about: str, name: str, where: object, names: Iterable[str]) -> str:
+    entries = [f"{own}: {getattr(where, own)}" for own in names]
+    one = f"export const {name} = {{ {', '.join(entries)} }};"
+    if len(one) > WIDTH:
+        one = "\n".join((f"export const {name} = {{", *(f"  {entry}," for entry in entries), "};"))
+    return f"/** {about} */\n{one}\n"
+
+
+def _list(about: str, name: str, words: Iterable[str]) -> str:
+    entries = [quoted(word) for word in words]
+    return f"/** {about} */\n{_array(f'export const {name} = ', entries, ';')}\n"
+
+
+def _array(before: str, entries: list[str], after: str) -> str:
+    one = f"{before}[{', '.join(entries)}]{after}"
+    return (
+        one
+        if len(one) <= WIDTH
+        else "\n".join((f"{before}[", *(f"  {entry}," for entry in entries), f"]{after}"))
+    )
+
+
+def _set(
+    about: str, name: str, known: Mapping[str, tuple[Place, Field]], which: Callable[[Field], bool]
+) -> str:
+    entries = [quoted(path) for path, (_, own) in known.items() if which(own)]
+    return f"/** {about} */\n{_array(f'export const {name} = new Set(', entries, ');')}\n"
+
+
+SHAPES_HEAD = """/**
+ * The arrays of the kernel `update` for a loop of n states: what their elements are, and their shapes. Made of
+ * heli2dof_core/kernels/update_layout.py by `python -m tests.page_kernel`; not to be changed by hand.
+ *
+ * @typedef {['f64' | 'i64' | 'c128', ...number[]]} Kind  c128: two f64
+ */
+"""
+KINDS = {"float64": "f64", "int64": "i64", "complex128": "c128"}
+
+
+def shapes() -> str:
+    """The module of the arrays' shapes."""
+    block = _shapes("What it fills.", "block", update.block_shapes)
+    return (
+        f"{SHAPES_HEAD}\n{block}\n{_shapes('What it writes into besides.', 'scratch', update.scratch_shapes)}"
+    )
+
+
+def _shapes(
+    about: str, name: str, shapes_of: Callable[[int, int], dict[str, tuple[update.Shape, str]]]
+) -> str:
+    sizes = (layout.PLAIN, layout.LAGGED, layout.FULL)
+    few, many = ([shapes_of(n, samples) for n in sizes] for samples in (100, 300))
+    lines = []
+    for own, (shape, kind) in few[0].items():
+        dims = [
+            _dimension([at[own][0][i] for at in few], [at[own][0][i] for at in many])
+            for i in range(len(shape))
+        ]
+        lines.append(f"  {key(own)}: [{', '.join((quoted(KINDS[kind]), *dims))}],")
+    head = "@param {number} n @param {number} samples @returns {Record<string, Kind>}"
+    return "\n".join(
+        (f"/** {about} {head} */", f"export const {name} = (n, samples) => ({{", *lines, "});", "")
+    )
+
+
+def _dimension(few: list[int], many: list[int]) -> str:
+    """One dimension in JavaScript, by 6, 8, 14 states, of 100 and of 300 samples."""
+    if few != many:
+        if few[0] != few[1] or many[0] - few[0] != 200:
+            raise ValueError(f"The page has no words for {few}, {many}")
+        return "samples" if few[0] == 100 else f"samples + {few[0] - 100}"
+    plain, lagged, full = few
+    if plain == full:
+        return str(plain)
+    if lagged == full:
+        return f"n === {layout.PLAIN} ? {plain} : {full}"
+    slope = (full - plain) // (layout.FULL - layout.PLAIN)
+    rest = plain - slope * layout.PLAIN
+    if lagged != slope * layout.LAGGED + rest or full != slope * layout.FULL + rest:
+        raise ValueError(f"The page has no words for {few}")
+    term = "n" if slope == 1 else f"{slope} * n"
+    return f"{term} + {rest}" if rest else term
+
+
+if __name__ == "__main__":
+    PAGE.write_text(module(), encoding="utf-8")
+    SHAPES.write_text(shapes(), encoding="utf-8")
