@@ -121,7 +121,8 @@ export class CloudFeed {
     const refused = message.status !== undefined;
     // A few rigs of a larger cloud say less than the last whole one; they only tell that it is coming. What comes
     // while nothing is asked is of a design that is no more.
-    if (this.#key && (refused || message.done >= Math.min(FEW, message.samples))) this.store.set({ cloud: refused ? null : message });
+    if (this.#key && (refused || message.done >= Math.min(FEW, message.samples)))
+      this.store.set({ cloud: refused ? null : message });
     if (refused || message.done === message.samples) this.#socket?.done();
   }
 }
