@@ -111,6 +111,8 @@ COMPILED = """() => {
 
 def test_the_page_runs_its_kernels_and_no_code_made_of_text(listening: Visit, app: App):
     listening.page.goto(app.url)
+    settled(listening.page)
+    expect(listening.page.get_by_test_id("scene-notice")).to_be_hidden()
     assert listening.page.evaluate(KERNELS) == {"streamed": True, "imaginary": [3, -3]}
     assert violations(listening.page) == []
     assert listening.page.evaluate(MADE_OF_TEXT) == "EvalError"
