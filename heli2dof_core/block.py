@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 from math import inf, nan
 from typing import Any
@@ -21,11 +22,15 @@ from .kernels.update_layout import (
     GIVEN_L,
     K_GIVEN,
     L_GIVEN,
+    MOST_STEPS,
     NUMBERS,
     OWN_INTEGRAL,
+    POLES,
+    ROTOR_POLES,
     block_shapes,
 )
-from .plant import plant
+from .plant import Plant, plant
+from .poles import PoleSet
 from .scenario import Digital, Disturbance
 from .scratch import scratch
 from .signals import Floats
@@ -44,38 +49,79 @@ _ANOTHER_METHOD, _EXACT = 1.0, 2.0
 """Where K comes from that is given."""
 
 
+@dataclass(frozen=True, eq=False)
+class Task:
+    """A spec as `update` takes it.
+
+    Attributes:
+        spec: what the user chose.
+        each_axis: as in `evaluate`.
+        plant: the rig at its operating point.
+        numbers: laid out as `kernels.update_layout` says; nobody has given K and L yet.
+        order: number of the loop's states.
+        noise: on what a digital controller measures.
+    """
+
+    spec: Spec
+    each_axis: bool
+    plant: Plant
+    numbers: Floats
+    order: int
+    noise: Floats
+
+    @classmethod
+    def of(cls, spec: Spec, *, each_axis: bool) -> Task:
+        """The spec's."""
+        scenario = spec.scenario
+        order = PLAIN if spec.actuators is None else LAGGED
+        order = order if scenario.measured == "states" else FULL
+        noise = NO_NOISE if scenario.controller is None else noise_of(scenario, scenario.controller)
+        rig, numbers = plant(spec.parameters, spec.theta_0), np.array(numbers_of(spec, each_axis))
+        return cls(spec, each_axis, rig, numbers, order, noise)
+
+    def with_poles(self, poles: PoleSet) -> Task:
+        """The same with other poles, on which nothing else depends."""
+        numbers = self.numbers.copy()
+        numbers[POLES:ROTOR_POLES] = [part for pole in poles.values for part in (pole.real, pole.imag)]
+        return Task(self.spec.with_poles(poles), self.each_axis, self.plant, numbers, self.order, self.noise)
+
+    @property
+    def alone(self) -> tuple[str, ...]:
+        """The axes that are stepped alone, each in an experiment behind the scenario's."""
+        scenario = self.spec.scenario
+        if not self.each_axis:
+            return ()
+        return tuple(name for name in ("theta", "psi") if getattr(scenario, name) is not None)
+
+    @property
+    def has_closed_form(self) -> bool:
+        """Whether `update` finds K itself."""
+        return self.spec.method == FULL_RANK and not self.plant.nearly_parallel
+
+
 def fill_block(
-    spec: Spec, *, placed: Design | None, L: Floats | None, each_axis: bool, most_steps: int | None
+    task: Task, *, placed: Design | None, L: Floats | None, most_steps: int | None, passing: bool
 ) -> Block:
-    """What the kernel `update` makes of a spec.
+    """What the kernel `update` makes of a task.
 
     Args:
-        spec: what the user chose.
+        task: the spec in numbers.
         placed: its design, where the kernel cannot find K itself: of another method, or where a closed form would lose
             digits.
         L: gain of the observer, 4×2, where it is no full-rank one's.
-        each_axis: as in `evaluate`.
         most_steps: as in `evaluate`.
+        passing: whether this thread's next passing block may overwrite it.
     """
-    kernels, scenario = engine(), spec.scenario
-    numbers = np.array(numbers_of(spec, each_axis, most_steps or kernels.most_steps))
+    kernels, numbers, samples = engine(), task.numbers.copy(), task.spec.scenario.samples
+    numbers[MOST_STEPS] = most_steps or kernels.most_steps
     if placed is not None:
         _give(numbers, placed)
     if L is not None:
         numbers[L_GIVEN], numbers[GIVEN_L:] = 1.0, L.ravel()
-    order = PLAIN if spec.actuators is None else LAGGED
-    order = order if scenario.measured == "states" else FULL
-    size = SIZES[(PLAIN, LAGGED, FULL).index(order)]
-    memory = np.empty((), _layout(order, scenario.samples))
-    block = {name: memory[name] for name in memory.dtype.names or ()}
-    noise = NO_NOISE if scenario.controller is None else noise_of(scenario, scenario.controller)
-    kernels.update(size, numbers, noise, *block.values(), *scratch.update(order, scenario.samples))
+    size, room = SIZES[(PLAIN, LAGGED, FULL).index(task.order)], (task.order, samples)
+    block = scratch.block(room, _room) if passing else _room(*room)
+    kernels.update(size, numbers, task.noise, *block.values(), *scratch.update(*room))
     return block
-
-
-def has_closed_form(spec: Spec) -> bool:
-    """Whether `update` finds K itself."""
-    return spec.method == FULL_RANK and not plant(spec.parameters, spec.theta_0).nearly_parallel
 
 
 def _give(numbers: Floats, placed: Design) -> None:
@@ -90,13 +136,18 @@ def _give(numbers: Floats, placed: Design) -> None:
         numbers[OWN_INTEGRAL], numbers[GIVEN_INTEGRAL:AIMS] = 1.0, placed.integral.ravel()
 
 
+def _room(order: int, samples: int) -> Block:
+    memory = np.empty((), _layout(order, samples))
+    return {name: memory[name] for name in memory.dtype.names or ()}
+
+
 @lru_cache(maxsize=64)
 def _layout(order: int, samples: int) -> np.dtype[np.void]:
     return np.dtype([(name, kind, shape) for name, (shape, kind) in block_shapes(order, samples).items()])
 
 
-def numbers_of(spec: Spec, each_axis: bool, most_steps: int) -> list[float]:
-    """All that `update` takes of a spec, laid out as `kernels.update_layout` says; K and L are given by nobody yet."""
+def numbers_of(spec: Spec, each_axis: bool) -> list[float]:
+    """All that `update` takes of a spec, laid out as `kernels.update_layout` says; nobody has given K, L and steps yet."""
     limits, structure, outer, observer = spec.limits, spec.structure, spec.outer, spec.observer or _USUAL
     pitch, yaw = outer.pitch, outer.yaw
     rotors, frictions = spec.rotors.both, spec.friction.both
@@ -150,6 +201,6 @@ def numbers_of(spec: Spec, each_axis: bool, most_steps: int) -> list[float]:
         volts.V_y,
         volts.time if disturbance else inf,
         each_axis,
-        most_steps,
+        0.0,
         *_CLOSED_FORM,
     ]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
-from .figures import AXIS, MOTOR, STEP, AxisMetrics, MotorMetrics
+from .figures import AXIS, MOTOR, NO_AXIS_METRICS, STEP, AxisMetrics, MotorMetrics, axis_figures
 from .kernels.layout import DEVIATION
-from .signals import INPUTS, OUTPUTS
+from .signals import OUTPUTS
 from .simulation.response import Measured, Response
 from .tables import Shown, Table, number
 
@@ -84,14 +86,56 @@ def step_metrics(response: Response, calm: Measured | None = None) -> StepMetric
     """
     own = response.measured
     steps = calm or own
-    stepped = [i for i in range(2) if response.reference[i] != response.start[i]]
-    return StepMetrics(
-        {OUTPUTS[i].name: AxisMetrics.of(steps.axes[i].tolist()) for i in stepped},
-        float(steps.course[DEVIATION + 1 - stepped[0]]) if len(stepped) == 1 else None,
+    ends = (*response.reference, *response.start)
+    rows = (steps.axes.tolist(), steps.course.tolist(), own.motors.tolist())
+    return metrics_in(metrics_numbers(ends, *rows, response.saturated))
+
+
+class Numbers(NamedTuple):
+    """The numbers of `StepMetrics`, what does not exist left out: as replies hold them and remarks read them."""
+
+    axes: dict[str, dict[str, Any]]
+    coupling_peak: float | None
+    motors: dict[str, dict[str, float]]
+
+
+def metrics_numbers(
+    ends: Sequence[float],
+    axes: Sequence[Sequence[float]],
+    course: Sequence[float],
+    motors: Sequence[Sequence[float]],
+    saturated: Sequence[float],
+) -> Numbers:
+    """Figures of merit of a course as the kernels fill them (`kernels.layout`).
+
+    Args:
+        ends: references θ, ψ and start θ, ψ, rad.
+        axes: of both axes.
+        course: what else is known.
+        motors: of both motors.
+        saturated: shares of time at their limits.
+    """
+    pitch, yaw = ends[0] != ends[2], ends[1] != ends[3]
+    own, coupling = {}, None
+    if pitch:
+        own["theta"] = axis_figures(axes[0])
+    if yaw:
+        own["psi"] = axis_figures(axes[1])
+    if pitch is not yaw:
+        coupling = course[DEVIATION + 1 if pitch else DEVIATION]
+    (peak_p, effort_p), (peak_y, effort_y) = motors
+    return Numbers(
+        own,
+        coupling,
         {
-            signal.name: MotorMetrics(peak, saturated, effort)
-            for signal, saturated, (peak, effort) in zip(
-                INPUTS, response.saturated, own.motors.tolist(), strict=True
-            )
+            "V_p": {"peak": peak_p, "saturated": saturated[0], "effort": effort_p},
+            "V_y": {"peak": peak_y, "saturated": saturated[1], "effort": effort_y},
         },
     )
+
+
+def metrics_in(numbers: Numbers) -> StepMetrics:
+    """The numbers as objects."""
+    axes = {name: AxisMetrics(**NO_AXIS_METRICS | own) for name, own in numbers.axes.items()}
+    motors = {name: MotorMetrics(**own) for name, own in numbers.motors.items()}
+    return StepMetrics(axes, numbers.coupling_peak, motors)

@@ -1,30 +1,39 @@
-"""Design and loop of an update's block: what the steps one by one would make, without computing it again."""
+"""What an update's block says: its numbers as they are judged and replied, and the objects that stand for them."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import isfinite, isnan
 
 import numpy as np
 
-from .block import Block
+from .behaviour import Course, Experiment
+from .block import Block, Task
 from .design import FULL_RANK, Design
 from .estimators import Estimator, estimator
-from .kernels.layout import PLAIN
+from .findings import Finding
+from .judged import Judged, Placed, Size
+from .kernels.layout import HELD, PLAIN, SHARE
 from .kernels.update_layout import (
     CONDITION,
     CONNECTED,
     DETERMINANT,
     DOUBTFUL,
     LAG_MARGIN,
+    NORM,
     PLACED_STABLE,
+    POLE_ERROR,
     POLE_ERROR_BOUND,
+    SPECTRAL_NORM,
     STABLE,
 )
 from .loop import Loop
+from .metrics import metrics_numbers
 from .placement.verdict import Verdict
-from .plant import plant
 from .poles import match_poles
 from .signals import Complexes
+from .simulation.nonlinear import rig_findings
+from .simulation.response import end_of_course
 from .spec import Spec
 
 
@@ -33,15 +42,109 @@ def exists(number: float) -> float | None:
     return None if isnan(number) else float(number)
 
 
-def design_of(spec: Spec, block: Block, placed: Design | None) -> Design:
+def placed_in(task: Task, block: Block, own: Design | None) -> Placed:
+    """The design's numbers; `own` is it where the kernel was given its K, or where floats do not tell its poles."""
+    if own is not None:
+        return own.numbers
+    figures, spec = block["figures"].tolist(), task.spec
+    rotors, wanted = spec.rotor_poles if spec.place_rotors else None, [*spec.poles.values]
+    if rotors is None:
+        K = block["K"][:, :4].tolist()
+    else:
+        K, wanted = block["K"].tolist(), [*wanted, *map(complex, rotors)]
+    return Placed(
+        task.plant,
+        FULL_RANK,
+        K,
+        None,
+        wanted,
+        rotors,
+        True,
+        block["closed"][: len(wanted)].tolist(),
+        figures[POLE_ERROR],
+        figures[POLE_ERROR_BOUND],
+        bool(figures[PLACED_STABLE]),
+        figures[DETERMINANT] != 0.0,
+    )
+
+
+def size_in(block: Block) -> Size:
+    """Figures of the gain."""
+    norm, spectral, condition = block["figures"][NORM : CONDITION + 1].tolist()
+    return Size(norm, spectral, exists(condition))
+
+
+def judged_in(task: Task, block: Block, placed: Placed, loop: Callable[[], Loop]) -> Judged:
+    """The loop's numbers; `loop` is asked where they are not in the block."""
+    spec, figures = task.spec, block["figures"].tolist()
+    static = placed.integral is None and spec.outer.outer != "pi"
+    by_axis = None if static else block["integral"].T.tolist()
+    connected, stable, lag = int(figures[CONNECTED]), bool(figures[STABLE]), figures[LAG_MARGIN]
+    apart = sum(not any(driven) for driven in by_axis or ())
+    observed = spec.scenario.measured == "observer"
+    own = None if stable or not observed else loop().estimator
+    return Judged(
+        placed,
+        by_axis,
+        spec.outer,
+        block["connected"][:connected].tolist(),
+        block["poles"][: connected + apart].tolist(),
+        stable,
+        lag if isfinite(lag) else None,
+        spec.actuators,
+        own and own.growing,
+        block["L"].tolist() if observed else None,
+        block["estimator_poles"].tolist() if observed else None,
+    )
+
+
+def experiments_in(
+    task: Task, block: Block, sampling: Callable[[], tuple[Finding, ...]]
+) -> tuple[Experiment, ...]:
+    """What both models have made of the experiments; `sampling`: what is to be said of the controller's."""
+    runs, scenario = 1 + len(task.alone), task.spec.scenario
+    asked, axes, motors, courses = (block[name][:runs].tolist() for name in _OF_EXPERIMENTS)
+    calm = None
+    if scenario.disturbance is not None:
+        calm = (block["calm_axes"].tolist(), block["calm_courses"].tolist())
+    sampled = sampling()
+    return tuple(
+        _experiment(n, block["t"], asked[n], axes[n], motors[n], courses[n], sampled, calm) for n in range(runs)
+    )
+
+
+_OF_EXPERIMENTS = ("experiments", "axes", "motors", "courses")
+
+
+def _experiment(n, t, x, axes, motors, courses, sampled, calm) -> Experiment:  # noqa: ANN001
+    ends, (own, rig) = x[:4], courses
+    linear = Course(
+        metrics_numbers(ends, axes[0], own, motors[0], (0.0, 0.0)), end_of_course("linear", t, own)
+    )
+    steps = (axes[1], rig) if calm is None else (calm[0][n], calm[1][n])
+    metrics = metrics_numbers(ends, *steps, motors[1], rig[SHARE:HELD])
+    found = (*rig_findings(t, x, rig), *sampled)
+    if calm is not None and metrics.axes:
+        found = (*found, CALM)
+    return Experiment((ends[0] - ends[2], ends[1] - ends[3]), linear, Course(metrics, found))
+
+
+CALM = Finding(
+    "disturbance_left_out",
+    "info",
+    "The steps' figures (rise, settling, overshoot, errors) are those without the disturbance; the motors' "
+    "include it.",
+)
+
+
+def design_of(task: Task, block: Block, placed: Design | None) -> Design:
     """The design; `placed` is it where the kernel was given its K."""
-    rig, figures = plant(spec.parameters, spec.theta_0), block["figures"]
-    own = placed
+    spec, figures, own = task.spec, block["figures"], placed
     if own is None:
         rotors = spec.rotor_poles if spec.place_rotors else None
         K = block["K"] if spec.place_rotors else np.ascontiguousarray(block["K"][:, :4])
-        task = (rig, spec.poles, FULL_RANK, spec.structure, K, block["inverse"])
-        own = Design(*task, None, True, spec.actuators, rotors)
+        made = (task.plant, spec.poles, FULL_RANK, spec.structure, K, block["inverse"])
+        own = Design(*made, None, True, spec.actuators, rotors)
     known = {"steady_state_determinant": float(figures[DETERMINANT]), "stable": bool(figures[PLACED_STABLE])}
     known["eigenvector_condition"] = exists(figures[CONDITION])
     if not figures[DOUBTFUL]:

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations
-from math import sqrt
-
-import numpy as np
+from math import pi, sqrt
 
 from .findings import Finding
 from .kernels.layout import ROUNDING
 from .kernels.update_layout import NEARLY_PARALLEL
 from .plant import Plant
-from .signals import AXES, Complexes, Floats
+from .signals import AXES, Floats
 from .tables import conjugates
 
 COINCIDENT = 1e-6
@@ -22,13 +20,19 @@ FAR_OUT = 1e3
 
 
 def design_remarks(
-    plant: Plant, K: Floats, poles: Sequence[complex], error: float | None, *, stable: bool, steady: bool
+    plant: Plant,
+    K: Sequence[Sequence[float]] | Floats,
+    poles: Sequence[complex],
+    error: float | None,
+    *,
+    stable: bool,
+    steady: bool,
 ) -> tuple[Finding, ...]:
     """Findings on a design.
 
     Args:
         plant: the rig.
-        K: its state feedback.
+        K: rows of its state feedback.
         poles: those asked for, or the method's own where it chooses them (error None), rad/s.
         error: distance of the poles as computed from those asked for, rad/s.
         stable: see `Design.stable`.
@@ -74,7 +78,9 @@ def _on_stability(poles: Sequence[complex], *, stable: bool, steady: bool, place
         )
 
 
-def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Finding]:
+def _on_choice(
+    plant: Plant, poles: Sequence[complex], K: Sequence[Sequence[float]] | Floats
+) -> Iterator[Finding]:
     largest = max(map(abs, poles))
     repeated = [p for p, q in combinations(poles, 2) if abs(p - q) <= COINCIDENT * max(largest, 1.0)]
     if repeated:
@@ -93,8 +99,8 @@ def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Fi
             f"The pole at {conjugates(at_open[0])} rad/s is a pole of the open loop: feedback leaves it where it is.",
         )
     if largest > FAR_OUT:
-        volts = float(np.max(np.abs(K[:, :2]))) * np.pi / 180
-        left_out = "Noise and dead time" if K.shape[1] > 4 else "Noise, dead time and motor lag"
+        volts = max(abs(gain) for row in K for gain in row[:2]) * pi / 180
+        left_out = "Noise and dead time" if len(K[0]) > 4 else "Noise, dead time and motor lag"
         yield Finding(
             "far_out",
             "warning",
@@ -159,7 +165,9 @@ def lag_instability(lag: float, limit: float) -> Finding:
     )
 
 
-def loop_remarks(kp: Sequence[float], integral: Floats, *, no_decoupler: bool) -> Iterator[Finding]:
+def loop_remarks(
+    kp: Sequence[float], integral: Sequence[Sequence[float]], *, no_decoupler: bool
+) -> Iterator[Finding]:
     """Which PI loops are open, and whether there is a static decoupler.
 
     Args:
@@ -167,7 +175,7 @@ def loop_remarks(kp: Sequence[float], integral: Floats, *, no_decoupler: bool) -
         integral: what each axis' integral drives, 2×2, V/(rad·s), rows are the axes of the errors.
         no_decoupler: whether one is asked for that does not exist, as there is no steady state.
     """
-    for name, gain, driven in zip(AXES, kp, integral.tolist(), strict=True):
+    for name, gain, driven in zip(AXES, kp, integral, strict=True):
         if gain == 0:
             words = (
                 f"The {name} loop is open: its gain is 0. Its integrator drives nothing and does not count."
@@ -185,7 +193,9 @@ def loop_remarks(kp: Sequence[float], integral: Floats, *, no_decoupler: bool) -
         )
 
 
-def loop_instability(poles: Complexes, closed: Sequence[str], *, aims: bool, placed: bool) -> Finding:
+def loop_instability(
+    poles: Sequence[complex], closed: Sequence[str], *, aims: bool, placed: bool
+) -> Finding:
     """What the connected loops have done.
 
     Args:
@@ -194,7 +204,7 @@ def loop_instability(poles: Complexes, closed: Sequence[str], *, aims: bool, pla
         aims: whether the method aims at poles.
         placed: whether the placed poles are stable.
     """
-    slowest, reach = poles[0], sqrt(ROUNDING) * max(abs(poles))
+    slowest, reach = poles[0], sqrt(ROUNDING) * max(map(abs, poles))
     crosses = slowest.real > reach
     where = f"lies at {conjugates(slowest, 3)} rad/s"
     if not crosses:
