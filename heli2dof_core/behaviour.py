@@ -48,10 +48,12 @@ class Experiment(NamedTuple):
     """One experiment by both models.
 
     Attributes:
-        steps: how far its references are from its start, θ and ψ, rad.
+        reference: θ and ψ, absolute, rad.
+        steps: how far they are from its start, rad.
         linear, rig: what the models have made of it.
     """
 
+    reference: tuple[float, float]
     steps: tuple[float, float]
     linear: Course
     rig: Course

@@ -192,7 +192,7 @@ class Report(Shown):
         return {"linear": self._step(n, "linear", 0), "nonlinear": self._step(n, "nonlinear", 1)}
 
     def _step(self, n: int, model: Model, m: int) -> Step:
-        block, course = self._views, self.experiments[n][1 + m]
+        block, course = self._views, self.experiments[n][2 + m]
         found = Measured(block["axes"][n, m], block["motors"][n, m], block["courses"][n, m])
         curves = (block[model][n], block["voltages"][n, m])
         task = (self.loop, block["experiments"][n], block["t"], curves, found, course.findings)

@@ -120,7 +120,8 @@ def loop_findings(loop: Judged) -> Iterator[Finding]:
     elif not loop.stable and (loop.by_axis is not None or loop.placed.stable):
         yield _instability(loop)
     if loop.by_axis is not None and loop.placed.integral is None:
-        yield from loop_remarks(loop.kp, loop.by_axis, no_decoupler=loop.decoupler and not loop.steady)
+        kp, lacking = (loop.outer.pitch.kp, loop.outer.yaw.kp), loop.outer.decoupler and not loop.placed.steady
+        yield from loop_remarks(kp, loop.by_axis, no_decoupler=lacking)
     if loop.stable:
         damping = min((-p.real / abs(p) for p in loop.connected if p != 0), default=1.0)
         if damping < RINGING:

@@ -126,7 +126,8 @@ def _experiment(n, t, x, axes, motors, courses, sampled, calm) -> Experiment:  #
     found = (*rig_findings(t, x, rig), *sampled)
     if calm is not None and metrics.axes:
         found = (*found, CALM)
-    return Experiment((ends[0] - ends[2], ends[1] - ends[3]), linear, Course(metrics, found))
+    theta, psi, *start = ends
+    return Experiment((theta, psi), (theta - start[0], psi - start[1]), linear, Course(metrics, found))
 
 
 CALM = Finding(

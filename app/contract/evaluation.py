@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import orjson
 from pydantic import Field
 
 from heli2dof_core import Report, Spec
@@ -10,11 +13,13 @@ from heli2dof_core.request import (
     LIMITS,
 )
 
-from .design import Gains, ObserverGains, gains_reply, own_observer
-from .experiment import BothModels, OfLoop, StepRequest, loop_reply, step_reply
+from .design import Gains, ObserverGains, gains_reply, open_loop_poles, own_observer
+from .curves import Curves, curves_of, placed_curves
+from .encoding import framed
+from .experiment import BothModels, OfLoop, StepRequest, course_reply, loop_reply, numbers_reply
 from .fields import Whole
-from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, rga_reply, sensitivity_reply
-from .model import Complex, Finding, Model, Reply, Voltages, findings_reply, poles_reply
+from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, relative_gains_reply, sensitivity_reply
+from .model import Complex, Finding, Model, Reply, Voltages, findings_reply, fixed
 from .presets import Limits
 
 
@@ -56,26 +61,43 @@ class Evaluation(OfLoop):
     findings: list[Finding]
 
 
-def report_reply(report: Report, spec: Spec) -> Reply:
-    """Everything at once: what the page needs after a drag."""
-    loop, common = report.loop, loop_reply(report.loop)
-    observer, unsolved = own_observer(spec, report.design, loop)
+def report_reply(report: Report, spec: Spec, curves: Curves | None = None) -> Reply:
+    """Everything at once: what the page needs after a drag; `curves` are the block's arrays where left out."""
+    loop, known = report.judged, fixed(findings_reply(report.known))
+    common = loop_reply(loop)
+    common["loop_poles"], common["trim"] = fixed(common["loop_poles"]), fixed(common["trim"])
+    observer, unsolved = own_observer(spec, loop, lambda: report.design)
+
+    def both(n: int) -> Reply:
+        experiment, own = report.experiments[n], drawn[n]
+        courses = (experiment.linear, experiment.rig)
+        return {
+            model: course_reply(
+                common,
+                curves,
+                experiment.reference,
+                numbers_reply(course.metrics),
+                findings_reply(merged(report.known, course.findings)) if course.findings else known,
+            )
+            for model, course, curves in zip(("linear", "nonlinear"), courses, own, strict=True)
+        }
+
+    drawn = curves or curves_of(report)
     return {
         **common,
-        "gains": gains_reply(
-            report.design,
-            loop.lag_margin,
-            observer,
-        ),
-        "open_loop_poles": poles_reply(report.design.plant.poles),
-        "rga": rga_reply(report.design, report.interaction),
-        "step": {model: step_reply(step, loop, common) for model, step in report.step.items()},
-        "axis_steps": {
-            axis: {model: step_reply(step, loop, common) for model, step in steps.items()}
-            for axis, steps in report.axis_steps.items()
-        },
-        "margins": margins_reply(report.margins),
+        "gains": gains_reply(loop, report.size, observer, report.placed_findings),
+        "open_loop_poles": open_loop_poles(spec.parameters, spec.theta_0),
+        "rga": relative_gains_reply(report.placed_findings, report.interaction),
+        "step": both(0),
+        "axis_steps": {axis: both(n) for n, axis in enumerate(report.alone, 1)},
+        "margins": margins_reply(report.motors),
         **sensitivity_reply(report.sensitivity),
         "limits": LIMITS.proposal(spec.limits),
         "findings": findings_reply(merged(report.findings, unsolved)),
     }
+
+
+def report_frame(report: Report, spec: Spec, **own: Any) -> bytes:
+    """The same as a binary frame, with what else is to stand in its header."""
+    places, data = placed_curves(report)
+    return framed(orjson.dumps({**own, **report_reply(report, spec, places)}), data)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from pydantic import Field
 
 from heli2dof_core import Loop
 from heli2dof_core.evaluate import Step as CoreStep
 from heli2dof_core.figures import AXIS, MOTOR, STEP
 from heli2dof_core.figures import LOOP as FIGURES_OF_LOOP
-from heli2dof_core.metrics import StepMetrics
+from heli2dof_core.judged import Judged
+from heli2dof_core.metrics import Numbers, StepMetrics
 from heli2dof_core.request import (
     DIGITAL,
     DISTURBANCE,
@@ -162,32 +165,43 @@ class BothModels(Model):
     nonlinear: Step
 
 
-def loop_reply(loop: Loop) -> Reply:
+def loop_reply(loop: Judged) -> Reply:
     """What every response of a loop has in common."""
-    lag = loop.lag_margin
     return {
-        **({} if lag is None else {"lag_margin": lag}),
+        **({} if loop.lag_margin is None else {"lag_margin": loop.lag_margin}),
         "loop_poles": poles_reply(loop.poles),
         "stable": loop.stable,
-        "trim": voltages_reply(loop.design.trim),
-        **observer_reply(loop.estimator),
+        "trim": voltages_reply(loop.trim),
+        **observer_reply(loop.L, loop.observer_poles),
     }
 
 
-def step_reply(step: CoreStep, loop: Loop, common: Reply | None = None) -> Reply:
-    """Trajectories and metrics of one response; the long arrays are NumPy's. `common` is `loop_reply`'s, if known."""
+def step_reply(step: CoreStep, loop: Loop) -> Reply:
+    """Trajectories and metrics of one response; the long arrays are NumPy's."""
     response, rotors = step.response, step.response.rotors
-    return {
-        **(common or loop_reply(loop)),
+    curves = {
         "t": response.t,
         "theta": response.theta,
         "psi": response.psi,
         "V_p": response.V_p,
         "V_y": response.V_y,
         **({} if rotors is None else {"rotors": dict(zip(("v_p", "v_y"), rotors, strict=True))}),
-        "reference": dict(zip(("theta", "psi"), response.reference, strict=True)),
-        "metrics": metrics_reply(step.metrics),
-        "findings": findings_reply(step.findings),
+    }
+    metrics, findings = metrics_reply(step.metrics), findings_reply(step.findings)
+    return course_reply(loop_reply(loop.judged), curves, response.reference, metrics, findings)
+
+
+def course_reply(
+    common: Reply, curves: Reply, reference: tuple[float, float], metrics: Reply, findings: Any
+) -> Reply:
+    """One response of a loop: what all of them have in common, and its own."""
+    theta, psi = reference
+    return {
+        **common,
+        **curves,
+        "reference": {"theta": theta, "psi": psi},
+        "metrics": metrics,
+        "findings": findings,
     }
 
 
@@ -205,5 +219,10 @@ def metrics_reply(metrics: StepMetrics) -> Reply:
     """Metrics by axis and motor."""
     motors = {name: dict(vars(motor)) for name, motor in metrics.motors.items()}
     axes = {name: present(vars(axis)) for name, axis in metrics.axes.items()}
+    return numbers_reply(Numbers(axes, metrics.coupling_peak, motors))
+
+
+def numbers_reply(metrics: Numbers) -> Reply:
+    """The same of plain numbers."""
     other = {} if metrics.coupling_peak is None else {"coupling_peak": metrics.coupling_peak}
-    return {**axes, **other, **motors}
+    return {**metrics.axes, **other, **metrics.motors}

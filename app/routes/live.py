@@ -14,8 +14,8 @@ from pydantic import ValidationError
 from heli2dof_core import Heli2DofError, Spec, evaluate
 from heli2dof_core.design import FULL_RANK
 
-from ..contract.encoding import BINARY_SUBPROTOCOL, binary_frame, json_text
-from ..contract.evaluation import LiveRequest, report_reply
+from ..contract.encoding import BINARY_SUBPROTOCOL, json_text
+from ..contract.evaluation import LiveRequest, report_frame, report_reply
 from ..contract.problems import TEXT_START, problem_of
 from ..edge.connections import connection_of
 from ..edge.messages import Mailbox, received
@@ -129,7 +129,8 @@ def _evaluate(text: str | bytes, binary: bool, most_steps: int | None = None, *,
         report = evaluate(spec, each_axis=request.each_axis, most_steps=most_steps)
         if most_steps is not None and any(f.code == "integration_stopped" for f in report.findings):
             return None
-        reply = {**seq, **report_reply(report, spec)}
+        return (
+            report_frame(report, spec, **seq) if binary else json_text({**seq, **report_reply(report, spec)})
+        )
     except (orjson.JSONDecodeError, ValidationError, Heli2DofError) as error:
         return json_text({**problem_of(error), **seq})
-    return binary_frame(reply) if binary else json_text(reply)
