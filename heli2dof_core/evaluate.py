@@ -125,6 +125,11 @@ class Report(Shown):
         return experiments_in(self.task, self.block, self._sampling)
 
     @property
+    def given_up(self) -> bool:
+        """Whether a response was, after the most steps that it may take."""
+        return any(f.code == "integration_stopped" for f in self.findings)
+
+    @property
     def alone(self) -> tuple[str, ...]:
         """The axes that are stepped alone, in the order of their experiments behind the scenario."""
         return self.task.alone

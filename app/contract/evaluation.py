@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import orjson
 from pydantic import Field
 
 from heli2dof_core import Report, Spec
+from heli2dof_core.block import Task
 from heli2dof_core.findings import merged
-from heli2dof_core.request import (
-    LIMITS,
-)
+from heli2dof_core.request import LIMITS, poles_of
 
 from .design import Gains, ObserverGains, gains_reply, open_loop_poles, own_observer
 from .curves import Curves, curves_of, placed_curves
 from .encoding import framed
 from .experiment import BothModels, OfLoop, StepRequest, course_reply, loop_reply, numbers_reply
-from .fields import Whole
+from .fields import Whole, complex_number
 from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, relative_gains_reply, sensitivity_reply
 from .model import Complex, Finding, Model, Reply, Voltages, findings_reply, fixed
 from .presets import Limits
+
+
+LARGEST_SEQ = 2**53
+POLES = 4
 
 
 class EvaluateRequest(StepRequest):
@@ -32,7 +35,58 @@ class EvaluateRequest(StepRequest):
 class LiveRequest(EvaluateRequest):
     """An evaluate request with the number that its answer will carry."""
 
-    seq: Whole = Field(ge=0, le=2**53)
+    seq: Whole = Field(ge=0, le=LARGEST_SEQ)
+
+
+class Asked(NamedTuple):
+    """What a live request asks for: its number, and an update."""
+
+    seq: int
+    task: Task
+
+
+class LiveReader:
+    """Reads one socket's requests.
+
+    From one to the next of a drag the poles alone change: what else is said is judged again only where it differs from
+    the request before.
+    """
+
+    def __init__(self) -> None:
+        self._rest = b""
+        self._split: Any = None
+        self._task: Task | None = None
+
+    def read(self, text: str | bytes) -> Asked:
+        """What a message asks for.
+
+        Raises:
+            orjson.JSONDecodeError, pydantic.ValidationError, Heli2DofError: it is no request, or not a valid one.
+        """
+        data = orjson.loads(text)
+        rest = b""
+        if isinstance(data, dict):
+            others = data.copy()
+            seq, poles = others.pop("seq", None), others.pop("poles", None)
+            rest = orjson.dumps(others)  # which tells true from 1 and 1 from 1.0
+            if self._task is not None and rest == self._rest and type(seq) is int and 0 <= seq <= LARGEST_SEQ:
+                values = _four_poles(poles)
+                if values is not None:
+                    return Asked(seq, self._task.with_poles(poles_of(values, self._split)))
+        request = LiveRequest.model_validate(data)
+        task = Task.of(request.to_spec(), each_axis=request.each_axis)
+        self._rest, self._split, self._task = rest, request.split, task
+        return Asked(request.seq, task)
+
+
+def _four_poles(given: Any) -> list[complex] | None:
+    """Poles as a request gives them; None where they are none, so that its schema says why."""
+    if type(given) is not list or len(given) != POLES:
+        return None
+    try:
+        return [complex_number(pole) for pole in given]
+    except ValueError:
+        return None
 
 
 class AxisSteps(Model):

@@ -59,7 +59,7 @@ def _kind(known: Quantified) -> Any:
 PresetName = Annotated[str, Field(json_schema_extra={"enum": [*PRESETS]})]
 
 
-def _complex(value: Any) -> complex:
+def complex_number(value: Any) -> complex:
     """A plain number, or ``{"re": …, "im": …}``; ranges are the core's business."""
     parts = (value, 0.0)
     if isinstance(value, dict):
@@ -77,7 +77,7 @@ def _complex(value: Any) -> complex:
 _NUMBER = {"type": "number", "minimum": -LARGEST, "maximum": LARGEST}
 Pole = Annotated[
     complex,
-    BeforeValidator(_complex),
+    BeforeValidator(complex_number),
     WithJsonSchema(
         {
             "anyOf": [

@@ -11,11 +11,12 @@ import orjson
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
 
-from heli2dof_core import Heli2DofError, Spec, evaluate
+from heli2dof_core import Heli2DofError, Spec
 from heli2dof_core.design import FULL_RANK
+from heli2dof_core.evaluate import report_of
 
 from ..contract.encoding import BINARY_SUBPROTOCOL, json_text
-from ..contract.evaluation import LiveRequest, report_frame, report_reply
+from ..contract.evaluation import LiveReader, report_frame, report_reply
 from ..contract.problems import TEXT_START, problem_of
 from ..edge.connections import connection_of
 from ..edge.messages import Mailbox, received
@@ -61,15 +62,15 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
 async def _answer(
     socket: WebSocket, mailbox: Mailbox[_Request], compute: Compute, metrics: Metrics, *, binary: bool
 ) -> None:
-    connection = connection_of(socket)
+    connection, reader = connection_of(socket), LiveReader()
     while True:
         since, text = await mailbox.take()
         try:
-            answer = _evaluate_inline(text, binary) if compute.compiled else None
+            answer = _evaluate_inline(reader, text, binary) if compute.compiled else None
             if answer is None:
-                answer = await compute.run(_evaluate, text, binary, MEDIUM_STEPS)
+                answer = await compute.run(_evaluate, reader, text, binary, MEDIUM_STEPS)
             if answer is None:
-                answer = await compute.run_slow(_evaluate, text, binary)
+                answer = await compute.run_slow(_evaluate, reader, text, binary)
         except Exception as error:
             body = problem_of(error)
             if body["status"] == 500:
@@ -87,13 +88,13 @@ async def _answer(
         await asyncio.sleep(0)  # others' turn, even where nothing above had to wait
 
 
-def _evaluate_inline(text: str | bytes, binary: bool) -> str | bytes | None:
+def _evaluate_inline(reader: LiveReader, text: str | bytes, binary: bool) -> str | bytes | None:
     """The answer in the event loop, where it takes a millisecond or two; None if it might take longer.
 
     A thread would cost as much again: two changes of threads, and with many clients the wait for Python's
     lock, which a computing thread keeps for 5 ms (twenty clients at 20 Hz: 15 ms instead of 54, median).
     """
-    return _evaluate(text, binary, QUICK_STEPS, small=True) if len(text) <= INLINE_LENGTH else None
+    return _evaluate(reader, text, binary, QUICK_STEPS, small=True) if len(text) <= INLINE_LENGTH else None
 
 
 def _seq_of(text: str | bytes) -> dict[str, int]:
@@ -112,25 +113,23 @@ def _is_small(spec: Spec) -> bool:
     return plain and scenario.digital is None and scenario.samples <= MOST_SAMPLES
 
 
-def _evaluate(text: str | bytes, binary: bool, most_steps: int | None = None, *, small: bool = False) -> Any:
+def _evaluate(
+    reader: LiveReader, text: str | bytes, binary: bool, most_steps: int | None = None, *, small: bool = False
+) -> Any:
     """One request's answer: JSON as text, or a binary frame as bytes.
 
     None where a response would take more than `most_steps`, or where the work is not small though it shall be.
     """
-    seq: dict[str, Any] = {}
     try:
-        data = orjson.loads(text)
-        if isinstance(data, dict) and isinstance(data.get("seq"), int):
-            seq = {"seq": data["seq"]}
-        request = LiveRequest.model_validate(data)
-        spec = request.to_spec()
+        asked = reader.read(text)
+        spec = asked.task.spec
         if small and not _is_small(spec):
             return None
-        report = evaluate(spec, each_axis=request.each_axis, most_steps=most_steps)
-        if most_steps is not None and any(f.code == "integration_stopped" for f in report.findings):
+        report = report_of(asked.task, most_steps, passing=True)
+        if most_steps is not None and report.given_up:
             return None
-        return (
-            report_frame(report, spec, **seq) if binary else json_text({**seq, **report_reply(report, spec)})
-        )
+        if binary:
+            return report_frame(report, spec, seq=asked.seq)
+        return json_text({"seq": asked.seq, **report_reply(report, spec)})
     except (orjson.JSONDecodeError, ValidationError, Heli2DofError) as error:
-        return json_text({**problem_of(error), **seq})
+        return json_text({**problem_of(error), **_seq_of(text)})
