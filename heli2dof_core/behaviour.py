@@ -79,7 +79,7 @@ def behaviour_remarks(
     """
     if not loop.stable:
         return ()
-    told = {name: each for each in experiments for name in each.rig.metrics.axes}
+    told = {name: each for each in experiments for name in _NAMES if name in each.rig.metrics}
     axes = {name: each for name, each in told.items() if not _explained(each)}
     return (
         *_on_delay(delays, scenario),
@@ -131,9 +131,9 @@ def _on_gain(loop: Judged, limits: Limits) -> Iterator[Finding]:
     bounds = (limits.V_p, limits.V_p, limits.V_y, limits.V_y)
     gains = (*loop.placed.K[0][:2], *loop.placed.K[1][:2])
     shares = [abs(gain) / bound for gain, bound in zip(gains, bounds, strict=True)]
-    worst = shares.index(max(shares))
-    volts, bound, motor, axis = radians(abs(gains[worst])), bounds[worst], AXES[worst // 2], AXES[worst % 2]
-    if volts > bound:
+    if radians(max(shares)) > 1.0:
+        worst = shares.index(max(shares))
+        volts, bound, motor, axis = radians(abs(gains[worst])), bounds[worst], AXES[worst // 2], AXES[worst % 2]
         yield Finding(
             "high_gain",
             "warning",
@@ -164,7 +164,7 @@ def _on_settling(
         each = axes.get(name)
         if each is None:
             continue
-        own, ideal = each.rig.metrics.axes[name], each.linear.metrics.axes[name].get("settling_time")
+        own, ideal = each.rig.metrics[name], each.linear.metrics[name].get("settling_time")
         if not own["settled"]:
             linear = "" if ideal is None else f" (linear: settled in {_time(ideal)})"
             held = held or bool(linear and loop.actuators is not None and loop.actuators.breakaway[i])
@@ -202,9 +202,9 @@ def _on_models(
         if each is None:
             continue
         rig, linear = each.rig.metrics, each.linear.metrics
-        at_limit = any(motor["saturated"] > 0 for motor in rig.motors.values())
+        at_limit = rig["V_p"]["saturated"] > 0 or rig["V_y"]["saturated"] > 0
         ratio = UNLIKE_AT_LIMITS if at_limit else UNLIKE
-        told = _difference(rig.axes[name], linear.axes[name], ratio)
+        told = _difference(rig[name], linear[name], ratio)
         if told:
             parts.append(f"the {AXES[i]} step {told}")
             limited = limited or at_limit
@@ -246,7 +246,8 @@ def _listed(words: Sequence[str]) -> str:
 
 
 def _explained(each: Experiment) -> bool:
-    return any(f.code in _OTHER_CAUSES for own in (each.rig, each.linear) for f in own.findings)
+    found = (*each.rig.findings, *each.linear.findings)
+    return bool(found) and any(finding.code in _OTHER_CAUSES for finding in found)
 
 
 def _time(seconds: float) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 from math import inf, nan
 from typing import Any
@@ -29,7 +28,7 @@ from .kernels.update_layout import (
     ROTOR_POLES,
     block_shapes,
 )
-from .plant import Plant, plant
+from .plant import plant
 from .poles import PoleSet
 from .scenario import Digital, Disturbance
 from .scratch import scratch
@@ -42,6 +41,7 @@ Block = dict[str, Any]
 """Arrays by name, as `kernels.update_layout.block_shapes` says, in one piece of memory."""
 
 _MEASURED = {"states": ALL_STATES, "filtered": FILTERED_RATES, "observer": OBSERVED}
+_SIZES = dict(zip((PLAIN, LAGGED, FULL), SIZES, strict=True))
 _FAMILIES = {structure: float(i) for i, structure in enumerate(STRUCTURES)}
 _USUAL, _DIGITAL, _NO_DISTURBANCE = Observer(), Digital(), Disturbance()
 _CLOSED_FORM = tuple(float(i == AIMS) for i in range(K_GIVEN, NUMBERS))
@@ -49,54 +49,61 @@ _ANOTHER_METHOD, _EXACT = 1.0, 2.0
 """Where K comes from that is given."""
 
 
-@dataclass(frozen=True, eq=False)
+class Rest:
+    """What of a task no pole changes.
+
+    Attributes:
+        spec: what the user chose, poles apart.
+        each_axis: as in `evaluate`.
+        plant: the rig at its operating point.
+        order: number of the loop's states.
+        noise: on what a digital controller measures.
+        alone: the axes that are stepped alone, each in an experiment behind the scenario's.
+        runs: how many experiments there are.
+        has_closed_form: whether `update` finds K itself.
+        has_kalman_filter: whether L comes from a Riccati equation.
+    """
+
+    __slots__ = ("alone", "each_axis", "has_closed_form", "has_kalman_filter", "noise", "order", "plant", "runs", "spec")
+
+    def __init__(self, spec: Spec, *, each_axis: bool) -> None:
+        self.spec, scenario = spec, spec.scenario
+        self.each_axis, self.plant = each_axis, plant(spec.parameters, spec.theta_0)
+        order = PLAIN if spec.actuators is None else LAGGED
+        self.order = order if scenario.measured == "states" else FULL
+        self.noise = NO_NOISE if scenario.controller is None else noise_of(scenario, scenario.controller)
+        stepped = (name for name in ("theta", "psi") if getattr(scenario, name) is not None)
+        self.alone = tuple(stepped) if each_axis else ()
+        self.runs = 1 + len(self.alone)
+        self.has_closed_form = spec.method == FULL_RANK and not self.plant.nearly_parallel
+        kalman = spec.observer is not None and spec.observer.method == "kalman"
+        self.has_kalman_filter = kalman and scenario.measured == "observer"
+
+
 class Task:
     """A spec as `update` takes it.
 
     Attributes:
         spec: what the user chose.
-        each_axis: as in `evaluate`.
-        plant: the rig at its operating point.
-        numbers: laid out as `kernels.update_layout` says; nobody has given K and L yet.
-        order: number of the loop's states.
-        noise: on what a digital controller measures.
+        rest: what of it no pole changes.
+        numbers: laid out as `kernels.update_layout` says; nobody has given K, L and steps yet.
     """
 
-    spec: Spec
-    each_axis: bool
-    plant: Plant
-    numbers: Floats
-    order: int
-    noise: Floats
+    __slots__ = ("numbers", "rest", "spec")
+
+    def __init__(self, spec: Spec, rest: Rest, numbers: Floats) -> None:
+        self.spec, self.rest, self.numbers = spec, rest, numbers
 
     @classmethod
     def of(cls, spec: Spec, *, each_axis: bool) -> Task:
         """The spec's."""
-        scenario = spec.scenario
-        order = PLAIN if spec.actuators is None else LAGGED
-        order = order if scenario.measured == "states" else FULL
-        noise = NO_NOISE if scenario.controller is None else noise_of(scenario, scenario.controller)
-        rig, numbers = plant(spec.parameters, spec.theta_0), np.array(numbers_of(spec, each_axis))
-        return cls(spec, each_axis, rig, numbers, order, noise)
+        return cls(spec, Rest(spec, each_axis=each_axis), np.array(numbers_of(spec, each_axis)))
 
     def with_poles(self, poles: PoleSet) -> Task:
-        """The same with other poles, on which nothing else depends."""
-        numbers = self.numbers.copy()
-        numbers[POLES:ROTOR_POLES] = [part for pole in poles.values for part in (pole.real, pole.imag)]
-        return Task(self.spec.with_poles(poles), self.each_axis, self.plant, numbers, self.order, self.noise)
-
-    @property
-    def alone(self) -> tuple[str, ...]:
-        """The axes that are stepped alone, each in an experiment behind the scenario's."""
-        scenario = self.spec.scenario
-        if not self.each_axis:
-            return ()
-        return tuple(name for name in ("theta", "psi") if getattr(scenario, name) is not None)
-
-    @property
-    def has_closed_form(self) -> bool:
-        """Whether `update` finds K itself."""
-        return self.spec.method == FULL_RANK and not self.plant.nearly_parallel
+        """The same with other poles."""
+        numbers, (p, q, r, s) = self.numbers.copy(), poles.values
+        numbers[POLES:ROTOR_POLES] = (p.real, p.imag, q.real, q.imag, r.real, r.imag, s.real, s.imag)
+        return Task(self.spec.with_poles(poles), self.rest, numbers)
 
 
 def fill_block(
@@ -112,15 +119,15 @@ def fill_block(
         most_steps: as in `evaluate`.
         passing: whether this thread's next passing block may overwrite it.
     """
-    kernels, numbers, samples = engine(), task.numbers.copy(), task.spec.scenario.samples
+    kernels, numbers, rest = engine(), task.numbers.copy(), task.rest
     numbers[MOST_STEPS] = most_steps or kernels.most_steps
     if placed is not None:
         _give(numbers, placed)
     if L is not None:
         numbers[L_GIVEN], numbers[GIVEN_L:] = 1.0, L.ravel()
-    size, room = SIZES[(PLAIN, LAGGED, FULL).index(task.order)], (task.order, samples)
+    room = (rest.order, task.spec.scenario.samples)
     block = scratch.block(room, _room) if passing else _room(*room)
-    kernels.update(size, numbers, task.noise, *block.values(), *scratch.update(*room))
+    kernels.update(_SIZES[rest.order], numbers, rest.noise, *block.values(), *scratch.update(*room))
     return block
 
 

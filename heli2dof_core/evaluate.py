@@ -120,7 +120,7 @@ class Report(Shown):
         return sensitivity_of(self.block["sensitivity"]) if self.judged.stable else None
 
     @cached_property
-    def experiments(self) -> tuple[Experiment, ...]:
+    def experiments(self) -> list[Experiment]:
         """The scenario, and each axis alone where it is asked for: what both models have made of it."""
         return experiments_in(self.task, self.block, self._sampling)
 
@@ -132,7 +132,7 @@ class Report(Shown):
     @property
     def alone(self) -> tuple[str, ...]:
         """The axes that are stepped alone, in the order of their experiments behind the scenario."""
-        return self.task.alone
+        return self.task.rest.alone
 
     @cached_property
     def step(self) -> dict[Model, Step]:
@@ -272,11 +272,11 @@ def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = No
 
 def report_of(task: Task, most_steps: int | None = None, *, passing: bool = False) -> Report:
     """As `evaluate`, of a task; `passing`: this thread's next passing report may overwrite this one's numbers."""
-    spec = task.spec
-    scenario, observer = spec.scenario, spec.observer
-    kalman = scenario.measured == "observer" and observer is not None and observer.method == "kalman"
-    placed = place(spec) if kalman or not task.has_closed_form else None
-    estimated = estimator(placed, scenario.measured, observer) if placed and kalman else None
+    spec, rest = task.spec, task.rest
+    placed = None if rest.has_closed_form and not rest.has_kalman_filter else place(spec)
+    estimated = None
+    if placed is not None and rest.has_kalman_filter:
+        estimated = estimator(placed, spec.scenario.measured, spec.observer)
     how = {"L": estimated and estimated.L, "most_steps": most_steps, "passing": passing}
     block = fill_block(task, placed=placed, **how)
     if block["outcome"][0] != DONE and placed is None:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 from .figures import AXIS, MOTOR, NO_AXIS_METRICS, STEP, AxisMetrics, MotorMetrics, axis_figures
 from .kernels.layout import DEVIATION
-from .signals import OUTPUTS
+from .signals import INPUTS, OUTPUTS
 from .simulation.response import Measured, Response
 from .tables import Shown, Table, number
 
@@ -88,54 +88,50 @@ def step_metrics(response: Response, calm: Measured | None = None) -> StepMetric
     steps = calm or own
     ends = (*response.reference, *response.start)
     rows = (steps.axes.tolist(), steps.course.tolist(), own.motors.tolist())
-    return metrics_in(metrics_numbers(ends, *rows, response.saturated))
+    return metrics_in(metrics_numbers(ends, rows, response.saturated))
 
 
-class Numbers(NamedTuple):
-    """The numbers of `StepMetrics`, what does not exist left out: as replies hold them and remarks read them."""
+Rows = Sequence[Sequence[float]]
+Courses = tuple[Rows, Sequence[float], Rows]
+"""Of both axes, of the course as a whole, and of both motors, laid out as `kernels.layout` says."""
 
-    axes: dict[str, dict[str, Any]]
-    coupling_peak: float | None
-    motors: dict[str, dict[str, float]]
+
+Numbers = dict[str, Any]
+"""The numbers of `StepMetrics`, what does not exist left out: by output, ``coupling_peak``, by input; as replies hold
+them and remarks read them."""
 
 
 def metrics_numbers(
-    ends: Sequence[float],
-    axes: Sequence[Sequence[float]],
-    course: Sequence[float],
-    motors: Sequence[Sequence[float]],
-    saturated: Sequence[float],
+    ends: Sequence[float], rows: Courses, saturated: Sequence[float]
 ) -> Numbers:
-    """Figures of merit of a course as the kernels fill them (`kernels.layout`).
+    """Figures of merit of a course.
 
     Args:
         ends: references θ, ψ and start θ, ψ, rad.
-        axes: of both axes.
-        course: what else is known.
-        motors: of both motors.
-        saturated: shares of time at their limits.
+        rows: as the kernels fill them.
+        saturated: shares of time at both motors' limits.
     """
-    pitch, yaw = ends[0] != ends[2], ends[1] != ends[3]
-    own, coupling = {}, None
-    if pitch:
-        own["theta"] = axis_figures(axes[0])
-    if yaw:
-        own["psi"] = axis_figures(axes[1])
-    if pitch is not yaw:
-        coupling = course[DEVIATION + 1 if pitch else DEVIATION]
-    (peak_p, effort_p), (peak_y, effort_y) = motors
-    return Numbers(
-        own,
-        coupling,
-        {
-            "V_p": {"peak": peak_p, "saturated": saturated[0], "effort": effort_p},
-            "V_y": {"peak": peak_y, "saturated": saturated[1], "effort": effort_y},
-        },
-    )
+    axes, course, ((peak_p, effort_p), (peak_y, effort_y)) = rows
+    theta, psi, theta_from, psi_from = ends
+    motors = {
+        "V_p": {"peak": peak_p, "saturated": saturated[0], "effort": effort_p},
+        "V_y": {"peak": peak_y, "saturated": saturated[1], "effort": effort_y},
+    }
+    if theta == theta_from:
+        if psi == psi_from:
+            return motors
+        return {"psi": axis_figures(axes[1]), "coupling_peak": course[DEVIATION], **motors}
+    if psi == psi_from:
+        return {"theta": axis_figures(axes[0]), "coupling_peak": course[DEVIATION + 1], **motors}
+    return {"theta": axis_figures(axes[0]), "psi": axis_figures(axes[1]), **motors}
 
 
 def metrics_in(numbers: Numbers) -> StepMetrics:
     """The numbers as objects."""
-    axes = {name: AxisMetrics(**NO_AXIS_METRICS | own) for name, own in numbers.axes.items()}
-    motors = {name: MotorMetrics(**own) for name, own in numbers.motors.items()}
-    return StepMetrics(axes, numbers.coupling_peak, motors)
+    axes = {
+        signal.name: AxisMetrics(**NO_AXIS_METRICS | numbers[signal.name])
+        for signal in OUTPUTS
+        if signal.name in numbers
+    }
+    motors = {signal.name: MotorMetrics(**numbers[signal.name]) for signal in INPUTS}
+    return StepMetrics(axes, numbers.get("coupling_peak"), motors)

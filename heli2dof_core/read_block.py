@@ -13,7 +13,7 @@ from .design import FULL_RANK, Design
 from .estimators import Estimator, estimator
 from .findings import Finding
 from .judged import Judged, Placed, Size
-from .kernels.layout import HELD, PLAIN, SHARE
+from .kernels.layout import HELD, PLAIN, SHARE, START
 from .kernels.update_layout import (
     CONDITION,
     CONNECTED,
@@ -24,7 +24,6 @@ from .kernels.update_layout import (
     PLACED_STABLE,
     POLE_ERROR,
     POLE_ERROR_BOUND,
-    SPECTRAL_NORM,
     STABLE,
 )
 from .loop import Loop
@@ -53,7 +52,7 @@ def placed_in(task: Task, block: Block, own: Design | None) -> Placed:
     else:
         K, wanted = block["K"].tolist(), [*wanted, *map(complex, rotors)]
     return Placed(
-        task.plant,
+        task.rest.plant,
         FULL_RANK,
         K,
         None,
@@ -70,7 +69,7 @@ def placed_in(task: Task, block: Block, own: Design | None) -> Placed:
 
 def size_in(block: Block) -> Size:
     """Figures of the gain."""
-    norm, spectral, condition = block["figures"][NORM : CONDITION + 1].tolist()
+    norm, spectral, condition = block["figures"][NORM:POLE_ERROR].tolist()
     return Size(norm, spectral, exists(condition))
 
 
@@ -80,7 +79,7 @@ def judged_in(task: Task, block: Block, placed: Placed, loop: Callable[[], Loop]
     static = placed.integral is None and spec.outer.outer != "pi"
     by_axis = None if static else block["integral"].T.tolist()
     connected, stable, lag = int(figures[CONNECTED]), bool(figures[STABLE]), figures[LAG_MARGIN]
-    apart = sum(not any(driven) for driven in by_axis or ())
+    apart = 0 if by_axis is None else (not any(by_axis[0])) + (not any(by_axis[1]))
     observed = spec.scenario.measured == "observer"
     own = None if stable or not observed else loop().estimator
     return Judged(
@@ -100,36 +99,31 @@ def judged_in(task: Task, block: Block, placed: Placed, loop: Callable[[], Loop]
 
 def experiments_in(
     task: Task, block: Block, sampling: Callable[[], tuple[Finding, ...]]
-) -> tuple[Experiment, ...]:
+) -> list[Experiment]:
     """What both models have made of the experiments; `sampling`: what is to be said of the controller's."""
-    runs, scenario = 1 + len(task.alone), task.spec.scenario
-    asked, axes, motors, courses = (block[name][:runs].tolist() for name in _OF_EXPERIMENTS)
-    calm = None
-    if scenario.disturbance is not None:
-        calm = (block["calm_axes"].tolist(), block["calm_courses"].tolist())
-    sampled = sampling()
-    return tuple(
-        _experiment(n, block["t"], asked[n], axes[n], motors[n], courses[n], sampled, calm) for n in range(runs)
-    )
+    runs, scenario, t = task.rest.runs, task.spec.scenario, block["t"]
+    x, axes = block["experiments"].tolist(), block["axes"].tolist()
+    motors, courses = block["motors"].tolist(), block["courses"].tolist()
+    calm_axes, calm_courses, pushed = axes, courses, scenario.disturbance is not None
+    if pushed:
+        calm_axes = [(None, own) for own in block["calm_axes"].tolist()]
+        calm_courses = [(None, own) for own in block["calm_courses"].tolist()]
+    sampled, found = sampling() if scenario.controller is not None else (), []
+    for n in range(runs):
+        ends, (own, rig), (of_linear, of_rig) = x[n][: START + 2], courses[n], motors[n]
+        linear = metrics_numbers(ends, (axes[n][0], own, of_linear), _NEVER)
+        limited = metrics_numbers(ends, (calm_axes[n][1], calm_courses[n][1], of_rig), rig[SHARE:HELD])
+        findings = (*rig_findings(t, x[n], rig), *sampled)
+        if pushed and ("theta" in limited or "psi" in limited):
+            findings = (*findings, CALM)
+        theta, psi, theta_from, psi_from = ends
+        both = (Course(linear, end_of_course("linear", t, own)), Course(limited, findings))
+        found.append(Experiment((theta, psi), (theta - theta_from, psi - psi_from), *both))
+    return found
 
 
-_OF_EXPERIMENTS = ("experiments", "axes", "motors", "courses")
-
-
-def _experiment(n, t, x, axes, motors, courses, sampled, calm) -> Experiment:  # noqa: ANN001
-    ends, (own, rig) = x[:4], courses
-    linear = Course(
-        metrics_numbers(ends, axes[0], own, motors[0], (0.0, 0.0)), end_of_course("linear", t, own)
-    )
-    steps = (axes[1], rig) if calm is None else (calm[0][n], calm[1][n])
-    metrics = metrics_numbers(ends, *steps, motors[1], rig[SHARE:HELD])
-    found = (*rig_findings(t, x, rig), *sampled)
-    if calm is not None and metrics.axes:
-        found = (*found, CALM)
-    theta, psi, *start = ends
-    return Experiment((theta, psi), (theta - start[0], psi - start[1]), linear, Course(metrics, found))
-
-
+_NEVER = (0.0, 0.0)
+"""Shares of time at limits that a linear model knows nothing of."""
 CALM = Finding(
     "disturbance_left_out",
     "info",
@@ -144,7 +138,7 @@ def design_of(task: Task, block: Block, placed: Design | None) -> Design:
     if own is None:
         rotors = spec.rotor_poles if spec.place_rotors else None
         K = block["K"] if spec.place_rotors else np.ascontiguousarray(block["K"][:, :4])
-        made = (task.plant, spec.poles, FULL_RANK, spec.structure, K, block["inverse"])
+        made = (task.rest.plant, spec.poles, FULL_RANK, spec.structure, K, block["inverse"])
         own = Design(*made, None, True, spec.actuators, rotors)
     known = {"steady_state_determinant": float(figures[DETERMINANT]), "stable": bool(figures[PLACED_STABLE])}
     known["eigenvector_condition"] = exists(figures[CONDITION])

@@ -57,7 +57,7 @@ _OWN_POLES = Finding(
 
 
 def _on_stability(poles: Sequence[complex], *, stable: bool, steady: bool, placed: bool) -> Iterator[Finding]:
-    if any(p.real > 0 for p in poles) and not stable:
+    if not stable and any(p.real > 0 for p in poles):
         yield Finding(
             "right_half_plane",
             "error",
@@ -82,7 +82,8 @@ def _on_choice(
     plant: Plant, poles: Sequence[complex], K: Sequence[Sequence[float]] | Floats
 ) -> Iterator[Finding]:
     largest = max(map(abs, poles))
-    repeated = [p for p, q in combinations(poles, 2) if abs(p - q) <= COINCIDENT * max(largest, 1.0)]
+    near = COINCIDENT * max(largest, 1.0)
+    repeated = [p for p, q in combinations(poles, 2) if abs(p - q) <= near]
     if repeated:
         yield Finding(
             "repeated_poles",
@@ -91,7 +92,13 @@ def _on_choice(
             "moves a double pole by about √ε.",
         )
     own = plant.poles.tolist()
-    at_open = [p for p in poles if p != 0 and min(abs(q - p) for q in own) <= COINCIDENT * max(abs(p), 1.0)]
+    at_open = [
+        p
+        for p in poles
+        if p != 0
+        for near in (COINCIDENT * max(abs(p), 1.0),)
+        if not all([abs(q - p) > near for q in own])  # a list, as a generator takes longer than four numbers
+    ]
     if at_open:
         yield Finding(
             "open_loop_pole",

@@ -13,7 +13,7 @@ from heli2dof_core.figures import DESIGN
 from heli2dof_core.placement.registry import METHODS
 
 from .design import Gains, gains_reply
-from .experiment import Metrics, StepRequest, numbers_reply
+from .experiment import Metrics, StepRequest
 from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, relative_gains_reply, sensitivity_reply
 from .model import Complex, Model, Reply, findings_reply, parts_of, poles_reply, reply_of
 from .problems import problem_of
@@ -101,9 +101,9 @@ def _row(row: Row) -> Reply:
     return {
         **reply,
         **{key: value for key, value in (gains | rga).items() if key not in _LEFT_OUT},
-        "metrics": numbers_reply(scenario.rig.metrics),
+        "metrics": scenario.rig.metrics,
         "axis_metrics": {
-            axis: numbers_reply(each.rig.metrics) for axis, each in zip(report.alone, alone, strict=True)
+            axis: each.rig.metrics for axis, each in zip(report.alone, alone, strict=True)
         },
         "margins": margins_reply(report.motors),
         **sensitivity_reply(report.sensitivity),

@@ -21,7 +21,7 @@ def curves_of(report: Report) -> Curves:
     """The block's own arrays."""
     block, lags = report.block, _lags(report)
     t, found = block["t"], []
-    for n in range(len(report.experiments)):
+    for n in range(report.task.rest.runs):
         both = []
         for m, states in enumerate((block["linear"][n], block["nonlinear"][n])):
             rows = [states[0], states[1], *block["voltages"][n, m]]
@@ -33,7 +33,7 @@ def curves_of(report: Report) -> Curves:
 
 def placed_curves(report: Report) -> tuple[Curves, memoryview]:
     """Their places in a frame, and what stands there: t, then per experiment and model one curve after the other."""
-    block, lags, runs = report.block, _lags(report), len(report.experiments)
+    block, lags, runs = report.block, _lags(report), report.task.rest.runs
     samples, rows = len(block["t"]), 4 + len(lags)
     data = np.empty(samples * (1 + 2 * runs * rows), "<f4")
     data[:samples] = block["t"]

@@ -5,11 +5,10 @@ Every field is optional: what is left out comes from the preset. Unknown fields 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from functools import lru_cache
 from typing import Any
 
-import numpy as np
 from pydantic import Field, create_model
 
 from heli2dof_core import (
@@ -45,6 +44,8 @@ from heli2dof_core.request import (
     STRUCTURE,
     judged_spec,
 )
+from heli2dof_core.plant import Plant
+from heli2dof_core.rotors import Actuators
 from heli2dof_core.scenario import OuterLoop
 from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
 from heli2dof_core.tuning import Suggestion as CoreSuggestion
@@ -57,7 +58,6 @@ from .model import (
     Model,
     Reply,
     findings_reply,
-    fixed,
     poles_reply,
     proposed,
     reply_of,
@@ -242,23 +242,19 @@ class Suggestion(Model):
 
 
 @lru_cache(maxsize=256)
-def _model(parameters: Parameters, theta_0: float, rotors: tuple[Sequence[float], Sequence[float]] | None) -> Reply:
-    """What no pole changes of a design's model: made once, not at every drag.
-
-    Each rotor, of both time constants and slopes, lengthens its motor's chain by one.
-    """
+def _indices(parameters: Parameters, theta_0: float) -> tuple[int, ...]:
+    """The rig's controllability indices, which no pole changes: scanned once, not at every drag."""
     rig = plant(parameters, theta_0)
-    A, B, indices = rig.A, rig.B, controllability_indices(rig.A, rig.B)
-    if rotors is not None:
-        A, B = with_rotors(A, B * np.array(rotors[1]), np.array(rotors[0]))
+    return controllability_indices(rig.A, rig.B)
+
+
+def model_reply(rig: Plant, placed_rotors: Actuators | None) -> Reply:
+    """What no pole changes of the model that K is designed for; each rotor lengthens its motor's chain by one."""
+    A, B, indices = rig.A, rig.B, _indices(rig.parameters, rig.theta_0)
+    if placed_rotors is not None:
+        A, B = with_rotors(A, B * placed_rotors.slope, placed_rotors.tau)
         indices = tuple(i + 1 for i in indices)
-    return {"A": fixed(A.tolist()), "B": fixed(B.tolist()), "controllability_indices": fixed(indices)}
-
-
-@lru_cache(maxsize=256)
-def open_loop_poles(parameters: Parameters, theta_0: float) -> Any:
-    """The rig's own poles, likewise."""
-    return fixed(poles_reply(plant(parameters, theta_0).poles))
+    return {"A": A.tolist(), "B": B.tolist(), "controllability_indices": [*indices]}
 
 
 def gains_of(spec: Spec) -> Reply:
@@ -289,18 +285,22 @@ def own_observer(
     return observer_reply(None if own.L is None else own.L.tolist(), own.poles), ()
 
 
-def gains_reply(loop: Judged, size: Size, observer: Reply, findings: Iterable[CoreFinding]) -> Reply:
-    """K and what it does to the poles, with the whole loop's lag margin, an observer, and what is to be said."""
-    placed, own = loop.placed, loop.actuators
-    rig, rotors = placed.plant, None
-    if placed.rotor_poles is not None and own is not None:
-        rotors = (tuple(own.tau.tolist()), tuple(own.slope.tolist()))
+def gains_reply(
+    loop: Judged, size: Size, observer: Reply, findings: Iterable[CoreFinding], model: Reply | None = None
+) -> Reply:
+    """K and what it does to the poles, with the whole loop's lag margin, an observer, and what is to be said.
+
+    `model` is `model_reply`'s, if it is known.
+    """
+    placed, rotors = loop.placed, loop.placed.rotor_poles
+    if model is None:
+        model = model_reply(placed.plant, None if rotors is None else loop.actuators)
     reply: Reply = {
         "norm": size.norm,
         "spectral_norm": size.spectral_norm,
         "method": placed.method,
         "K": placed.K,
-        **_model(rig.parameters, rig.theta_0, rotors),
+        **model,
         "poles": poles_reply(placed.wanted[:4]),
         "closed_loop_poles": poles_reply(placed.poles),
         **observer,
@@ -310,7 +310,7 @@ def gains_reply(loop: Judged, size: Size, observer: Reply, findings: Iterable[Co
         reply["pole_error"], reply["pole_error_bound"] = placed.error, placed.bound
     if placed.integral is not None:
         reply["integral"] = placed.integral
-    if placed.rotor_poles is not None:
+    if rotors is not None:
         reply["rotor_poles"] = poles_reply(placed.wanted[4:])
     if size.eigenvector_condition is not None:
         reply["eigenvector_condition"] = size.eigenvector_condition

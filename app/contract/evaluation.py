@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import orjson
 from pydantic import Field
 
 from heli2dof_core import Report, Spec
-from heli2dof_core.block import Task
+from heli2dof_core.block import Rest, Task
 from heli2dof_core.findings import merged
 from heli2dof_core.request import LIMITS, poles_of
 
-from .design import Gains, ObserverGains, gains_reply, open_loop_poles, own_observer
+from .design import Gains, ObserverGains, gains_reply, model_reply, own_observer
 from .curves import Curves, curves_of, placed_curves
 from .encoding import framed
-from .experiment import BothModels, OfLoop, StepRequest, course_reply, loop_reply, numbers_reply
+from .experiment import BothModels, OfLoop, StepRequest, loop_reply
 from .fields import Whole, complex_number
 from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, relative_gains_reply, sensitivity_reply
-from .model import Complex, Finding, Model, Reply, Voltages, findings_reply, fixed
+from .model import Complex, Finding, Model, Reply, Voltages, findings_reply, fixed, poles_reply, voltages_reply
 from .presets import Limits
 
 
@@ -115,39 +116,61 @@ class Evaluation(OfLoop):
     findings: list[Finding]
 
 
+class _Fixed(NamedTuple):
+    """What no pole changes of a reply."""
+
+    model: Reply
+    open_loop_poles: Any
+    limits: Any
+    trim: Any
+
+
+@lru_cache(maxsize=64)
+def _fixed(rest: Rest) -> _Fixed:
+    spec = rest.spec
+    own = spec.actuators if spec.place_rotors else None
+    model = {name: fixed(value) for name, value in model_reply(rest.plant, own).items()}
+    limits, trim = LIMITS.proposal(spec.limits), (spec.actuators or rest.plant).trim
+    return _Fixed(
+        model, fixed(poles_reply(rest.plant.poles)), fixed(limits), fixed(voltages_reply(trim.tolist()))
+    )
+
+
 def report_reply(report: Report, spec: Spec, curves: Curves | None = None) -> Reply:
     """Everything at once: what the page needs after a drag; `curves` are the block's arrays where left out."""
-    loop, known = report.judged, fixed(findings_reply(report.known))
+    loop, known, same = report.judged, report.known, _fixed(report.task.rest)
     common = loop_reply(loop)
-    common["loop_poles"], common["trim"] = fixed(common["loop_poles"]), fixed(common["trim"])
+    common["loop_poles"], common["trim"] = fixed(common["loop_poles"]), same.trim
     observer, unsolved = own_observer(spec, loop, lambda: report.design)
-
-    def both(n: int) -> Reply:
-        experiment, own = report.experiments[n], drawn[n]
-        courses = (experiment.linear, experiment.rig)
-        return {
-            model: course_reply(
-                common,
-                curves,
-                experiment.reference,
-                numbers_reply(course.metrics),
-                findings_reply(merged(report.known, course.findings)) if course.findings else known,
+    known_reply = fixed(findings_reply(known))
+    both = []
+    for experiment, (of_linear, of_rig) in zip(report.experiments, curves or curves_of(report), strict=True):
+        theta, psi = experiment.reference
+        replies = []
+        for course, drawn in ((experiment.linear, of_linear), (experiment.rig, of_rig)):
+            found = course.findings
+            replies.append(
+                {
+                    **common,
+                    **drawn,
+                    "reference": {"theta": theta, "psi": psi},
+                    "metrics": course.metrics,
+                    "findings": findings_reply(merged(known, found)) if found else known_reply,
+                }
             )
-            for model, course, curves in zip(("linear", "nonlinear"), courses, own, strict=True)
-        }
-
-    drawn = curves or curves_of(report)
+        both.append({"linear": replies[0], "nonlinear": replies[1]})
+    findings = merged(report.findings, unsolved) if unsolved else report.findings
     return {
         **common,
-        "gains": gains_reply(loop, report.size, observer, report.placed_findings),
-        "open_loop_poles": open_loop_poles(spec.parameters, spec.theta_0),
+        "gains": gains_reply(loop, report.size, observer, report.placed_findings, same.model),
+        "open_loop_poles": same.open_loop_poles,
         "rga": relative_gains_reply(report.placed_findings, report.interaction),
-        "step": both(0),
-        "axis_steps": {axis: both(n) for n, axis in enumerate(report.alone, 1)},
+        "step": both[0],
+        "axis_steps": dict(zip(report.alone, both[1:], strict=True)),
         "margins": margins_reply(report.motors),
         **sensitivity_reply(report.sensitivity),
-        "limits": LIMITS.proposal(spec.limits),
-        "findings": findings_reply(merged(report.findings, unsolved)),
+        "limits": same.limits,
+        "findings": findings_reply(findings),
     }
 
 

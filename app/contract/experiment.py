@@ -11,7 +11,7 @@ from heli2dof_core.evaluate import Step as CoreStep
 from heli2dof_core.figures import AXIS, MOTOR, STEP
 from heli2dof_core.figures import LOOP as FIGURES_OF_LOOP
 from heli2dof_core.judged import Judged
-from heli2dof_core.metrics import Numbers, StepMetrics
+from heli2dof_core.metrics import StepMetrics
 from heli2dof_core.request import (
     DIGITAL,
     DISTURBANCE,
@@ -167,13 +167,15 @@ class BothModels(Model):
 
 def loop_reply(loop: Judged) -> Reply:
     """What every response of a loop has in common."""
-    return {
-        **({} if loop.lag_margin is None else {"lag_margin": loop.lag_margin}),
+    reply: Reply = {
         "loop_poles": poles_reply(loop.poles),
         "stable": loop.stable,
         "trim": voltages_reply(loop.trim),
         **observer_reply(loop.L, loop.observer_poles),
     }
+    if loop.lag_margin is not None:
+        reply["lag_margin"] = loop.lag_margin
+    return reply
 
 
 def step_reply(step: CoreStep, loop: Loop) -> Reply:
@@ -187,21 +189,13 @@ def step_reply(step: CoreStep, loop: Loop) -> Reply:
         "V_y": response.V_y,
         **({} if rotors is None else {"rotors": dict(zip(("v_p", "v_y"), rotors, strict=True))}),
     }
-    metrics, findings = metrics_reply(step.metrics), findings_reply(step.findings)
-    return course_reply(loop_reply(loop.judged), curves, response.reference, metrics, findings)
-
-
-def course_reply(
-    common: Reply, curves: Reply, reference: tuple[float, float], metrics: Reply, findings: Any
-) -> Reply:
-    """One response of a loop: what all of them have in common, and its own."""
-    theta, psi = reference
+    theta, psi = response.reference
     return {
-        **common,
+        **loop_reply(loop.judged),
         **curves,
         "reference": {"theta": theta, "psi": psi},
-        "metrics": metrics,
-        "findings": findings,
+        "metrics": metrics_reply(step.metrics),
+        "findings": findings_reply(step.findings),
     }
 
 
@@ -219,10 +213,5 @@ def metrics_reply(metrics: StepMetrics) -> Reply:
     """Metrics by axis and motor."""
     motors = {name: dict(vars(motor)) for name, motor in metrics.motors.items()}
     axes = {name: present(vars(axis)) for name, axis in metrics.axes.items()}
-    return numbers_reply(Numbers(axes, metrics.coupling_peak, motors))
-
-
-def numbers_reply(metrics: Numbers) -> Reply:
-    """The same of plain numbers."""
     other = {} if metrics.coupling_peak is None else {"coupling_peak": metrics.coupling_peak}
-    return {**metrics.axes, **other, **metrics.motors}
+    return {**axes, **other, **motors}

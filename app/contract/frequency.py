@@ -127,10 +127,10 @@ def relative_gains_reply(of_design: Iterable[CoreFinding], gains: Interaction) -
     """RGA, pairing and Niederlinski index; without steady state only the findings, those of the design among them."""
     no_steady_state = [f for f in of_design if f.code == "no_steady_state"]
     reply: Reply = {"findings": findings_reply([*no_steady_state, *gains.findings])}
-    rga, index, cross = gains.rga, gains.niederlinski, gains.niederlinski_cross
-    if rga is not None:
-        reply["rga"] = rga.tolist()
-        reply["pairing"] = [list(pair) for pair in gains.pairing]
+    rga, index, cross = gains.entries, gains.niederlinski, gains.niederlinski_cross
+    if rga:
+        reply["rga"] = rga
+        reply["pairing"] = gains.pairing
         reply["reason"] = gains.reason
     if index is not None:
         reply["niederlinski"] = index

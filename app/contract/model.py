@@ -133,7 +133,7 @@ def fixed(value: Any) -> orjson.Fragment:
 
 def findings_reply(findings: Iterable[CoreFinding]) -> list[Reply]:
     """Findings as objects."""
-    return [dict(vars(finding)) for finding in findings]
+    return [vars(finding) for finding in findings]
 
 
 class Voltages(Model):

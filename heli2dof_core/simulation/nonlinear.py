@@ -172,7 +172,11 @@ def limited_response(
 
 def rig_findings(t: Floats, x: Sequence[float], course: Sequence[float]) -> tuple[Finding, ...]:
     """What is to be said of the rig's course of an experiment, both laid out as `layout` says."""
-    return (*end_of_course("nonlinear", t, course), *_remarks(x, course))
+    end = end_of_course("nonlinear", t, course)
+    quiet = not (course[SHARE] or course[SHARE + 1] or course[IMPACTS])
+    if quiet and abs(x[START]) <= x[STOP] and abs(x[REFERENCE]) <= x[STOP]:
+        return end
+    return (*end, *_remarks(x, course))
 
 
 def _remarks(x: Sequence[float], course: Sequence[float]) -> Iterator[Finding]:

@@ -13,6 +13,7 @@ from ..findings import Finding
 from ..frozen import Frozen
 from ..kernels.layout import (
     COURSE,
+    ENDED,
     HELD,
     MOTOR_METRICS,
     OUT_OF_STEPS,
@@ -156,6 +157,8 @@ def end_of_course(
 ) -> tuple[Finding, ...]:
     """How a course ended before its time: without bound, or given up; `course` as `layout` says."""
     held, outcome = course[HELD], course[OUTCOME]
+    if held >= len(t) and outcome == ENDED:
+        return ()
     if held < len(t):
         message = f"The response grows without bound. It is shown until t = {t[int(held) - 1]:.3g} s."
         return (Finding("diverges", "error", message),)
