@@ -126,20 +126,22 @@ def _on_lag(loop: Judged) -> Iterator[Finding]:
 
 
 def _on_gain(loop: Judged, limits: Limits) -> Iterator[Finding]:
+    (a, b, *_), (c, d, *_) = loop.placed.K
+    pitch, yaw = radians(max(abs(a), abs(b))), radians(max(abs(c), abs(d)))
+    if pitch <= limits.V_p and yaw <= limits.V_y:
+        return
     if max(map(abs, loop.placed.poles)) > FAR_OUT:
         return  # said of the poles already
-    bounds = (limits.V_p, limits.V_p, limits.V_y, limits.V_y)
-    gains = (*loop.placed.K[0][:2], *loop.placed.K[1][:2])
-    shares = [abs(gain) / bound for gain, bound in zip(gains, bounds, strict=True)]
-    if radians(max(shares)) > 1.0:
-        worst = shares.index(max(shares))
-        volts, bound, motor, axis = radians(abs(gains[worst])), bounds[worst], AXES[worst // 2], AXES[worst % 2]
-        yield Finding(
-            "high_gain",
-            "warning",
-            f"One degree of {axis} error asks the {motor} motor for {volts:.3g} V; its limit is {bound:g} V. "
-            "Place slower poles.",
-        )
+    volts, bound, motor, row = pitch, limits.V_p, AXES[0], (a, b)
+    if yaw / limits.V_y > pitch / limits.V_p:
+        volts, bound, motor, row = yaw, limits.V_y, AXES[1], (c, d)
+    axis = AXES[0 if abs(row[0]) >= abs(row[1]) else 1]
+    yield Finding(
+        "high_gain",
+        "warning",
+        f"One degree of {axis} error asks the {motor} motor for {volts:.3g} V; its limit is {bound:g} V. "
+        "Place slower poles.",
+    )
 
 
 def _on_slow_poles(loop: Judged) -> Iterator[Finding]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from .frozen import frozen
 from .interaction import Interaction
 from .judged import Judged, Placed, Size, loop_findings, placed_findings
 from .kernels.update_layout import DONE, DOUBTFUL, RELATIVE_GAIN
+from .lazily import computed
 from .loop import Loop, close_loop
 from .margins import margin_figures, margin_table, margins_in
 from .metrics import StepMetrics, metrics_in, step_metrics
@@ -70,38 +70,38 @@ class Report(Shown):
         """What the user chose."""
         return self.task.spec
 
-    @cached_property
+    @computed
     def placed(self) -> Placed:
         """The design's numbers."""
         told = self._placed is None and not self.block["figures"][DOUBTFUL]
         return placed_in(self.task, self.block, None if told else self.design)
 
-    @cached_property
+    @computed
     def size(self) -> Size:
         """Figures of K."""
         return size_in(self.block)
 
-    @cached_property
+    @computed
     def judged(self) -> Judged:
         """The whole loop's numbers."""
         return judged_in(self.task, self.block, self.placed, lambda: self.loop)
 
-    @cached_property
+    @computed
     def design(self) -> Design:
         """K and the placed poles."""
         return design_of(self.task, self._views, self._placed)
 
-    @cached_property
+    @computed
     def interaction(self) -> Interaction:
         """RGA and pairing."""
         return Interaction(exists(self.block["figures"][RELATIVE_GAIN]), self.spec.outer.pairing)
 
-    @cached_property
+    @computed
     def loop(self) -> Loop:
         """The whole loop and its poles."""
         return loop_in(self.spec, self._views, self.design, self._estimator)
 
-    @cached_property
+    @computed
     def motors(self) -> tuple[dict[str, float], dict[str, float]] | None:
         """Margins at the pitch and the yaw motor, those that exist by name; None if the loop is unstable."""
         if not self.judged.stable:
@@ -114,12 +114,12 @@ class Report(Shown):
         """At the pitch and the yaw motor; None if the loop is unstable."""
         return self.motors and margins_in(self.motors)
 
-    @cached_property
+    @computed
     def sensitivity(self) -> Sensitivity | None:
         """At both motors at once; None if the loop is unstable."""
         return sensitivity_of(self.block["sensitivity"]) if self.judged.stable else None
 
-    @cached_property
+    @computed
     def experiments(self) -> list[Experiment]:
         """The scenario, and each axis alone where it is asked for: what both models have made of it."""
         return experiments_in(self.task, self.block, self._sampling)
@@ -134,27 +134,27 @@ class Report(Shown):
         """The axes that are stepped alone, in the order of their experiments behind the scenario."""
         return self.task.rest.alone
 
-    @cached_property
+    @computed
     def step(self) -> dict[Model, Step]:
         """The scenario's response, by model."""
         return self._both(0)
 
-    @cached_property
+    @computed
     def axis_steps(self) -> dict[str, dict[Model, Step]]:
         """By output name and model, each axis stepped alone; empty unless asked for."""
         return {name: self._both(n) for n, name in enumerate(self.alone, 1)}
 
-    @cached_property
+    @computed
     def known(self) -> tuple[Finding, ...]:
         """Remarks on the design and on the whole loop."""
         return merged(self.placed_findings, loop_findings(self.judged))
 
-    @cached_property
+    @computed
     def placed_findings(self) -> tuple[Finding, ...]:
         """Remarks on the design alone."""
         return placed_findings(self.placed)
 
-    @cached_property
+    @computed
     def findings(self) -> tuple[Finding, ...]:
         """All remarks, the gravest first."""
         behaviour: tuple[Finding, ...] = ()
@@ -183,7 +183,7 @@ class Report(Shown):
             *((Table.of("findings", ("", "what"), findings),) if self.findings else ()),
         )
 
-    @cached_property
+    @computed
     def _views(self) -> Block:
         """The block's arrays, which may be made read-only, though the kernel will fill them again."""
         return {name: array.view() for name, array in self.block.items()}

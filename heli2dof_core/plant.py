@@ -75,6 +75,11 @@ class Plant(Frozen, Shown):
         """Poles of the rig without feedback, rad/s, shape (4,)."""
         return frozen(np.array(eigenvalues(self.A)))
 
+    @cached_property
+    def own_poles(self) -> tuple[complex, ...]:
+        """The same as plain numbers."""
+        return tuple(self.poles.tolist())
+
     def to_control(self) -> control.StateSpace:
         """The rig without feedback: V_p, V_y to θ, ψ, V to rad, in deviations from the trim.
 

@@ -81,7 +81,8 @@ def _on_stability(poles: Sequence[complex], *, stable: bool, steady: bool, place
 def _on_choice(
     plant: Plant, poles: Sequence[complex], K: Sequence[Sequence[float]] | Floats
 ) -> Iterator[Finding]:
-    largest = max(map(abs, poles))
+    sizes = [*map(abs, poles)]
+    largest = max(sizes)
     near = COINCIDENT * max(largest, 1.0)
     repeated = [p for p, q in combinations(poles, 2) if abs(p - q) <= near]
     if repeated:
@@ -91,14 +92,10 @@ def _on_choice(
             f"Two poles coincide at {conjugates(repeated[0])} rad/s. This works, but is sensitive: a model error ε "
             "moves a double pole by about √ε.",
         )
-    own = plant.poles.tolist()
-    at_open = [
-        p
-        for p in poles
-        if p != 0
-        for near in (COINCIDENT * max(abs(p), 1.0),)
-        if not all([abs(q - p) > near for q in own])  # a list, as a generator takes longer than four numbers
+    pairs = [
+        (abs(p - q), p, size) for p, size in zip(poles, sizes, strict=True) for q in plant.own_poles if size
     ]
+    at_open = [p for distance, p, size in pairs if distance <= near and distance <= COINCIDENT * max(size, 1.0)]
     if at_open:
         yield Finding(
             "open_loop_pole",
