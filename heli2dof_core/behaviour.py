@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from math import degrees, radians
+from math import degrees, inf, radians
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -79,32 +79,30 @@ def behaviour_remarks(
     """
     if not loop.stable:
         return ()
-    told = {name: each for each in experiments for name in _NAMES if name in each.rig.metrics}
-    axes = {name: each for name, each in told.items() if not _explained(each)}
-    return (
-        *_on_delay(delays, scenario),
-        *_on_lag(loop),
-        *_on_gain(loop, limits),
-        *_on_slow_poles(loop),
-        *_on_settling(loop, axes, scenario, misses),
-        *(() if scenario.disturbance else _on_models(axes, scenario, loop.actuators)),
-    )
+    axes: dict[str, Experiment] = {}
+    for each in experiments:
+        for name in _NAMES:
+            if name in each.rig.metrics:
+                axes[name] = each
+    axes = {name: each for name, each in axes.items() if not _explained(each)}
+    found = [*_on_delay(delays, scenario), *_on_lag(loop), *_on_gain(loop, limits), *_on_slow_poles(loop)]
+    if not all([each.rig.metrics[name]["settled"] for name, each in axes.items()]):
+        found += _on_settling(loop, axes, scenario, misses)
+    if scenario.disturbance is None:
+        found += _on_models(axes, scenario, loop.actuators)
+    return tuple(found)
 
 
 def _on_delay(delays: Sequence[float | None], scenario: Scenario) -> Iterator[Finding]:
     sample = USUAL_SAMPLE_TIME if scenario.digital is None else scenario.digital.sample_time
-    short = {
-        axis: delay
-        for axis, delay in zip(AXES, delays, strict=True)
-        if delay is not None and delay < DEAD_SAMPLES * sample
-    }
-    if short:
-        axis = min(short, key=lambda name: short[name])
+    least = min([delay for delay in delays if delay is not None], default=inf)
+    if least < DEAD_SAMPLES * sample:
+        axis = AXES[[*delays].index(least)]
         usual = "this" if scenario.digital else "a usual"
         yield Finding(
             "short_delay_margin",
             "warning",
-            f"The {axis} motor's delay margin is {_time(short[axis])}. A digital controller with {usual} sample "
+            f"The {axis} motor's delay margin is {_time(least)}. A digital controller with {usual} sample "
             f"time of {_time(sample)} adds up to {_time(DEAD_SAMPLES * sample)} of dead time. Place slower poles "
             "or lower the gains.",
         )

@@ -121,9 +121,10 @@ def loop_findings(loop: Judged) -> Iterator[Finding]:
         yield _instability(loop)
     if loop.by_axis is not None and loop.placed.integral is None:
         kp, lacking = (loop.outer.pitch.kp, loop.outer.yaw.kp), loop.outer.decoupler and not loop.placed.steady
-        yield from loop_remarks(kp, loop.by_axis, no_decoupler=lacking)
+        if lacking or not (any(loop.by_axis[0]) and any(loop.by_axis[1])):
+            yield from loop_remarks(kp, loop.by_axis, no_decoupler=lacking)
     if loop.stable:
-        damping = min((-p.real / abs(p) for p in loop.connected if p != 0), default=1.0)
+        damping = min([-p.real / abs(p) for p in loop.connected if p.imag], default=1.0)
         if damping < RINGING:
             yield Finding(
                 "poorly_damped",

@@ -60,10 +60,15 @@ class Plant(Frozen, Shown):
         return (a, b), (c, d)
 
     @cached_property
+    def independence(self) -> float:
+        """That of the motors: see `Parameters`."""
+        return self.parameters.independence
+
+    @cached_property
     def nearly_parallel(self) -> bool:
         """Whether closed forms lose digits, as they divide by γ and its powers."""
         p = self.parameters
-        return p.independence < NEARLY_PARALLEL or abs(p.gamma) < SMALLEST
+        return self.independence < NEARLY_PARALLEL or abs(p.gamma) < SMALLEST
 
     @cached_property
     def statics(self) -> Floats:

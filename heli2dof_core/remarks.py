@@ -15,6 +15,8 @@ from .tables import conjugates
 
 COINCIDENT = 1e-6
 """Poles closer than this share of their size count as one."""
+ACCURATE = 1e-6
+"""Share of the largest pole by which poles may miss those asked for without a word."""
 FAR_OUT = 1e3
 """Poles beyond this, rad/s, are remarked on: a lab rig's motors and sensors end far below."""
 
@@ -38,15 +40,16 @@ def design_remarks(
         stable: see `Design.stable`.
         steady: whether there is a steady state.
     """
-    on_stability = tuple(_on_stability(poles, stable=stable, steady=steady, placed=error is not None))
-    if error is None:
-        return (_OWN_POLES, *on_stability, *_on_plant(plant))
-    return (
-        *on_stability,
-        *_on_choice(plant, poles, K),
-        *_on_plant(plant),
-        *_on_accuracy(poles, error),
-    )
+    found: list[Finding] = [] if error is not None else [_OWN_POLES]
+    if not (stable and steady):
+        found += _on_stability(poles, stable=stable, steady=steady, placed=error is not None)
+    if error is not None:
+        found += _on_choice(plant, poles, K)
+    if plant.independence < NEARLY_PARALLEL:
+        found.append(_nearly_uncontrollable(plant.independence))
+    if error is not None and error > ACCURATE * max(1.0, *map(abs, poles)):
+        found.append(_inaccurate(error))
+    return tuple(found)
 
 
 _OWN_POLES = Finding(
@@ -81,8 +84,7 @@ def _on_stability(poles: Sequence[complex], *, stable: bool, steady: bool, place
 def _on_choice(
     plant: Plant, poles: Sequence[complex], K: Sequence[Sequence[float]] | Floats
 ) -> Iterator[Finding]:
-    sizes = [*map(abs, poles)]
-    largest = max(sizes)
+    largest = max(map(abs, poles))
     near = COINCIDENT * max(largest, 1.0)
     repeated = [p for p, q in combinations(poles, 2) if abs(p - q) <= near]
     if repeated:
@@ -92,10 +94,13 @@ def _on_choice(
             f"Two poles coincide at {conjugates(repeated[0])} rad/s. This works, but is sensitive: a model error ε "
             "moves a double pole by about √ε.",
         )
-    pairs = [
-        (abs(p - q), p, size) for p, size in zip(poles, sizes, strict=True) for q in plant.own_poles if size
-    ]
-    at_open = [p for distance, p, size in pairs if distance <= near and distance <= COINCIDENT * max(size, 1.0)]
+    at_open: list[complex] = []
+    if min([abs(p - q) for p in poles for q in plant.own_poles]) <= near:  # hardly ever
+        at_open = [
+            p
+            for p in poles
+            if p != 0 and min(abs(p - q) for q in plant.own_poles) <= COINCIDENT * max(abs(p), 1.0)
+        ]
     if at_open:
         yield Finding(
             "open_loop_pole",
@@ -113,25 +118,22 @@ def _on_choice(
         )
 
 
-def _on_plant(plant: Plant) -> Iterator[Finding]:
-    share = plant.parameters.independence
-    if share < NEARLY_PARALLEL:
-        yield Finding(
-            "nearly_uncontrollable",
-            "warning",
-            f"Both motors act nearly alike: K_pp K_yy and K_py K_yp differ by only {100 * share:.2g} % of their sum. "
-            "Expect high gains.",
-        )
+def _nearly_uncontrollable(share: float) -> Finding:
+    return Finding(
+        "nearly_uncontrollable",
+        "warning",
+        f"Both motors act nearly alike: K_pp K_yy and K_py K_yp differ by only {100 * share:.2g} % of their sum. "
+        "Expect high gains.",
+    )
 
 
-def _on_accuracy(poles: Sequence[complex], error: float) -> Iterator[Finding]:
-    if error > 1e-6 * max(1.0, *map(abs, poles)):
-        yield Finding(
-            "pole_error",
-            "warning",
-            f"The computed poles miss the requested ones by up to {error:.2g} rad/s: repeated or very fast poles are "
-            "sensitive to rounding.",
-        )
+def _inaccurate(error: float) -> Finding:
+    return Finding(
+        "pole_error",
+        "warning",
+        f"The computed poles miss the requested ones by up to {error:.2g} rad/s: repeated or very fast poles are "
+        "sensitive to rounding.",
+    )
 
 
 def flat_thrust(axes: Sequence[str], *, stable: bool) -> Finding:

@@ -157,7 +157,8 @@ def _refined(coefficients: Sequence[Any], guesses: list[complex], precision: int
             settled = settled and step >> precision == 0 and step <= own >> precision // 2
         if settled:
             tiny = 1 << precision  # what is left of a part that is 0
-            parts = ([0 if abs(v) < tiny else v for v in point] for point in points)
+            parts = [[0 if abs(v) < tiny else v for v in point] for point in points]
+            parts.sort(key=lambda point: (abs(point[1]), point[0]))
             return [mpc(*(mpf((v, exponent - bits)) for v in point)) for point in parts]
     return None
 
