@@ -37,6 +37,7 @@ _OTHER_CAUSES = frozenset(
     ("diverges", "integration_stopped", "starts_on_stop", "reference_beyond_stop", "travel_stop")
 )
 
+
 class Course(NamedTuple):
     """What one model has made of an experiment: its figures, and the remarks on it."""
 
@@ -63,6 +64,7 @@ def behaviour_remarks(
     loop: Judged,
     limits: Limits,
     scenario: Scenario,
+    *,
     delays: Sequence[float | None],
     experiments: Sequence[Experiment],
     misses: Callable[[], bool],
@@ -86,7 +88,7 @@ def behaviour_remarks(
                 axes[name] = each
     axes = {name: each for name, each in axes.items() if not _explained(each)}
     found = [*_on_delay(delays, scenario), *_on_lag(loop), *_on_gain(loop, limits), *_on_slow_poles(loop)]
-    if not all([each.rig.metrics[name]["settled"] for name, each in axes.items()]):
+    if not all(each.rig.metrics[name]["settled"] for name, each in axes.items()):
         found += _on_settling(loop, axes, scenario, misses)
     if scenario.disturbance is None:
         found += _on_models(axes, scenario, loop.actuators)

@@ -41,7 +41,7 @@ Block = dict[str, Any]
 """Arrays by name, as `kernels.update_layout.block_shapes` says, in one piece of memory."""
 
 _MEASURED = {"states": ALL_STATES, "filtered": FILTERED_RATES, "observer": OBSERVED}
-_SIZES = dict(zip((PLAIN, LAGGED, FULL), SIZES, strict=True))
+_SIZES: dict[int, Any] = dict(zip((PLAIN, LAGGED, FULL), SIZES, strict=True))
 _FAMILIES = {structure: float(i) for i, structure in enumerate(STRUCTURES)}
 _USUAL, _DIGITAL, _NO_DISTURBANCE = Observer(), Digital(), Disturbance()
 _CLOSED_FORM = tuple(float(i == AIMS) for i in range(K_GIVEN, NUMBERS))
@@ -64,7 +64,17 @@ class Rest:
         has_kalman_filter: whether L comes from a Riccati equation.
     """
 
-    __slots__ = ("alone", "each_axis", "has_closed_form", "has_kalman_filter", "noise", "order", "plant", "runs", "spec")
+    __slots__ = (
+        "alone",
+        "each_axis",
+        "has_closed_form",
+        "has_kalman_filter",
+        "noise",
+        "order",
+        "plant",
+        "runs",
+        "spec",
+    )
 
     def __init__(self, spec: Spec, *, each_axis: bool) -> None:
         self.spec, scenario = spec, spec.scenario
@@ -113,8 +123,8 @@ def fill_block(
 
     Args:
         task: the spec in numbers.
-        placed: its design, where the kernel cannot find K itself: of another method, or where a closed form would lose
-            digits.
+        placed: its design, where the kernel cannot find K itself: of another method, or where a closed form would
+            lose digits.
         L: gain of the observer, 4×2, where it is no full-rank one's.
         most_steps: as in `evaluate`.
         passing: whether this thread's next passing block may overwrite it.
@@ -154,7 +164,10 @@ def _layout(order: int, samples: int) -> np.dtype[np.void]:
 
 
 def numbers_of(spec: Spec, each_axis: bool) -> list[float]:
-    """All that `update` takes of a spec, laid out as `kernels.update_layout` says; nobody has given K, L and steps yet."""
+    """All that `update` takes of a spec, laid out as `kernels.update_layout` says.
+
+    Nobody has given K, L and steps yet.
+    """
     limits, structure, outer, observer = spec.limits, spec.structure, spec.outer, spec.observer or _USUAL
     pitch, yaw = outer.pitch, outer.yaw
     rotors, frictions = spec.rotors.both, spec.friction.both

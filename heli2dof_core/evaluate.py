@@ -160,8 +160,14 @@ class Report(Shown):
         behaviour: tuple[Finding, ...] = ()
         if self.motors is not None:
             delays = [own.get("delay_margin") for own in self.motors]
-            task = (self.judged, self.spec.limits, self.spec.scenario, delays, self.experiments)
-            behaviour = behaviour_remarks(*task, lambda: loop_misses(self.loop))
+            behaviour = behaviour_remarks(
+                self.judged,
+                self.spec.limits,
+                self.spec.scenario,
+                delays=delays,
+                experiments=self.experiments,
+                misses=lambda: loop_misses(self.loop),
+            )
         courses = (course.findings for each in self.experiments for course in (each.linear, each.rig))
         return merged(self.known, self.interaction.findings, *courses, behaviour)
 
@@ -200,8 +206,8 @@ class Report(Shown):
         block, course = self._views, self.experiments[n][2 + m]
         found = Measured(block["axes"][n, m], block["motors"][n, m], block["courses"][n, m])
         curves = (block[model][n], block["voltages"][n, m])
-        task = (self.loop, block["experiments"][n], block["t"], curves, found, course.findings)
-        response = limited_response(*task) if m else linear_response(*task)
+        task = (self.loop, block["experiments"][n], block["t"], curves, found)
+        response = (limited_response if m else linear_response)(*task, findings=course.findings)
         own = merged(self.known, course.findings) if course.findings else self.known
         return Step(response, metrics_in(course.metrics), own)
 

@@ -19,7 +19,6 @@ from .remarks import (
     observer_instability,
 )
 from .rotors import Actuators
-from .scenario import OuterLoop
 from .signals import AXES
 
 Rows = Sequence[Sequence[float]]
@@ -82,7 +81,8 @@ class Judged(NamedTuple):
         placed: its design.
         by_axis: what each axis' integral drives, rows are the axes of the errors, V/(rad·s); None where nothing
             integrates.
-        outer: what is around the state feedback.
+        kp: of the PI loops of pitch and yaw, V/rad.
+        decoupler: whether a static one is asked for.
         connected: the poles of the loop's connected states, slowest first, rad/s.
         poles: all of them, one per state.
         stable: whether the whole loop is.
@@ -94,7 +94,8 @@ class Judged(NamedTuple):
 
     placed: Placed
     by_axis: Rows | None
-    outer: OuterLoop
+    kp: tuple[float, float]
+    decoupler: bool
     connected: Sequence[complex]
     poles: Sequence[complex]
     stable: bool
@@ -120,9 +121,9 @@ def loop_findings(loop: Judged) -> Iterator[Finding]:
     elif not loop.stable and (loop.by_axis is not None or loop.placed.stable):
         yield _instability(loop)
     if loop.by_axis is not None and loop.placed.integral is None:
-        kp, lacking = (loop.outer.pitch.kp, loop.outer.yaw.kp), loop.outer.decoupler and not loop.placed.steady
+        lacking = loop.decoupler and not loop.placed.steady
         if lacking or not (any(loop.by_axis[0]) and any(loop.by_axis[1])):
-            yield from loop_remarks(kp, loop.by_axis, no_decoupler=lacking)
+            yield from loop_remarks(loop.kp, loop.by_axis, no_decoupler=lacking)
     if loop.stable:
         damping = min([-p.real / abs(p) for p in loop.connected if p.imag], default=1.0)
         if damping < RINGING:

@@ -9,7 +9,7 @@ T = TypeVar("T")
 
 
 class computed(cached_property[T]):  # noqa: N801 # a decorator, as its base
-    """As `functools.cached_property`, which before Python 3.12 takes a lock: a microsecond for each value of an update.
+    """As `functools.cached_property`, which before Python 3.12 takes a lock: a microsecond for each value.
 
     Two threads may compute it twice; what they find is the same.
     """

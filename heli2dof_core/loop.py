@@ -240,19 +240,20 @@ class Loop(Frozen, Shown):
     def judged(self) -> Judged:
         """Its numbers, as remarks and replies take them."""
         own = self.estimator
-        observer = None if own is None or own.L is None else own
+        L = None if own is None or own.L is None else own.L.tolist()
         return Judged(
             self.design.numbers,
             None if self.integral is None else self.integral.T.tolist(),
-            self.outer,
+            (self.outer.pitch.kp, self.outer.yaw.kp),
+            self.outer.decoupler,
             self.connected_poles.tolist(),
             self.poles.tolist(),
             self.stable,
             self.lag_margin,
             self.actuators,
             None if own is None else own.growing,
-            observer and observer.L.tolist(),
-            observer and observer.poles.tolist(),
+            L,
+            None if own is None or L is None else own.poles.tolist(),
         )
 
     @cached_property

@@ -42,10 +42,10 @@ def margin_figures(row: Sequence[float]) -> dict[str, float]:
 def margins_in(both: tuple[Mapping[str, float], Mapping[str, float]]) -> tuple[Margins, Margins]:
     """The figures of both motors as objects."""
     pitch, yaw = both
-    return Margins(**_UNLIMITED | pitch), Margins(**_UNLIMITED | yaw)
+    return Margins(**{**_UNLIMITED, **pitch}), Margins(**{**_UNLIMITED, **yaw})
 
 
-_UNLIMITED: Mapping[str, Any] = dict.fromkeys(FIGURES)
+_UNLIMITED: dict[str, Any] = dict.fromkeys(FIGURES)
 
 
 def margin_table(margins: tuple[Margins, Margins]) -> Table:

@@ -101,9 +101,7 @@ Numbers = dict[str, Any]
 them and remarks read them."""
 
 
-def metrics_numbers(
-    ends: Sequence[float], rows: Courses, saturated: Sequence[float]
-) -> Numbers:
+def metrics_numbers(ends: Sequence[float], rows: Courses, saturated: Sequence[float]) -> Numbers:
     """Figures of merit of a course.
 
     Args:

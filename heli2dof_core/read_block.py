@@ -75,8 +75,8 @@ def size_in(block: Block) -> Size:
 
 def judged_in(task: Task, block: Block, placed: Placed, loop: Callable[[], Loop]) -> Judged:
     """The loop's numbers; `loop` is asked where they are not in the block."""
-    spec, figures = task.spec, block["figures"].tolist()
-    static = placed.integral is None and spec.outer.outer != "pi"
+    spec, outer, figures = task.spec, task.spec.outer, block["figures"].tolist()
+    static = placed.integral is None and outer.outer != "pi"
     by_axis = None if static else block["integral"].T.tolist()
     connected, stable, lag = int(figures[CONNECTED]), bool(figures[STABLE]), figures[LAG_MARGIN]
     apart = 0 if by_axis is None else (not any(by_axis[0])) + (not any(by_axis[1]))
@@ -85,7 +85,8 @@ def judged_in(task: Task, block: Block, placed: Placed, loop: Callable[[], Loop]
     return Judged(
         placed,
         by_axis,
-        spec.outer,
+        (outer.pitch.kp, outer.yaw.kp),
+        outer.decoupler,
         block["connected"][:connected].tolist(),
         block["poles"][: connected + apart].tolist(),
         stable,
@@ -97,9 +98,7 @@ def judged_in(task: Task, block: Block, placed: Placed, loop: Callable[[], Loop]
     )
 
 
-def experiments_in(
-    task: Task, block: Block, sampling: Callable[[], tuple[Finding, ...]]
-) -> list[Experiment]:
+def experiments_in(task: Task, block: Block, sampling: Callable[[], tuple[Finding, ...]]) -> list[Experiment]:
     """What both models have made of the experiments; `sampling`: what is to be said of the controller's."""
     runs, scenario, t = task.rest.runs, task.spec.scenario, block["t"]
     x, axes = block["experiments"].tolist(), block["axes"].tolist()

@@ -199,9 +199,7 @@ def loop_remarks(
         )
 
 
-def loop_instability(
-    poles: Sequence[complex], closed: Sequence[str], *, aims: bool, placed: bool
-) -> Finding:
+def loop_instability(poles: Sequence[complex], closed: Sequence[str], *, aims: bool, placed: bool) -> Finding:
     """What the connected loops have done.
 
     Args:

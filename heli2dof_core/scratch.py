@@ -43,9 +43,7 @@ class _Scratch(threading.local):
         """Of `update`, for a loop with so many states, sampled so often."""
         return _kept(self._updates, (order, samples), _update)
 
-    def block(
-        self, key: tuple[int, int], make: Callable[[int, int], dict[str, Any]]
-    ) -> dict[str, Any]:
+    def block(self, key: tuple[int, int], make: Callable[[int, int], dict[str, Any]]) -> dict[str, Any]:
         """Of a result that nobody keeps, for a loop with so many states, sampled so often."""
         return _kept(self._blocks, key, make)
 

@@ -102,9 +102,7 @@ def _row(row: Row) -> Reply:
         **reply,
         **{key: value for key, value in (gains | rga).items() if key not in _LEFT_OUT},
         "metrics": scenario.rig.metrics,
-        "axis_metrics": {
-            axis: each.rig.metrics for axis, each in zip(report.alone, alone, strict=True)
-        },
+        "axis_metrics": {axis: each.rig.metrics for axis, each in zip(report.alone, alone, strict=True)},
         "margins": margins_reply(report.motors),
         **sensitivity_reply(report.sensitivity),
         "loop_poles": poles_reply(report.judged.poles),

@@ -29,6 +29,7 @@ from heli2dof_core.findings import merged
 from heli2dof_core.judged import Judged, Rows, Size
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.placement.with_rotors import with_rotors
+from heli2dof_core.plant import Plant
 from heli2dof_core.presets import DEFAULT
 from heli2dof_core.request import (
     FRICTION,
@@ -44,7 +45,6 @@ from heli2dof_core.request import (
     STRUCTURE,
     judged_spec,
 )
-from heli2dof_core.plant import Plant
 from heli2dof_core.rotors import Actuators
 from heli2dof_core.scenario import OuterLoop
 from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal

@@ -60,7 +60,8 @@ def array_at(offset: int, length: int) -> dict[str, list[int]]:
 def framed(header: bytes, *data: bytes | memoryview) -> bytes:
     """uint32 header length, JSON header, then float32 arrays, all little endian.
 
-    In the header each array is ``{"$f32": [offset, length]}``. It is padded with spaces so that the arrays are aligned.
+    In the header each array is ``{"$f32": [offset, length]}``. It is padded with spaces so that they are
+    aligned.
     """
     padding = b" " * (-len(header) % 4)
     return b"".join((struct.pack("<I", len(header) + len(padding)), header, padding, *data))

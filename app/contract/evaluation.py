@@ -13,15 +13,24 @@ from heli2dof_core.block import Rest, Task
 from heli2dof_core.findings import merged
 from heli2dof_core.request import LIMITS, poles_of
 
-from .design import Gains, ObserverGains, gains_reply, model_reply, own_observer
 from .curves import Curves, curves_of, placed_curves
+from .design import Gains, ObserverGains, gains_reply, model_reply, own_observer
 from .encoding import framed
 from .experiment import BothModels, OfLoop, StepRequest, loop_reply
 from .fields import Whole, complex_number
 from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, relative_gains_reply, sensitivity_reply
-from .model import Complex, Finding, Model, Reply, Voltages, findings_reply, fixed, poles_reply, voltages_reply
+from .model import (
+    Complex,
+    Finding,
+    Model,
+    Reply,
+    Voltages,
+    findings_reply,
+    fixed,
+    poles_reply,
+    voltages_reply,
+)
 from .presets import Limits
-
 
 LARGEST_SEQ = 2**53
 POLES = 4
@@ -49,8 +58,8 @@ class Asked(NamedTuple):
 class LiveReader:
     """Reads one socket's requests.
 
-    From one to the next of a drag the poles alone change: what else is said is judged again only where it differs from
-    the request before.
+    From one to the next of a drag the poles alone change: what else is said is judged again only where it differs
+    from the request before.
     """
 
     def __init__(self) -> None:

@@ -61,8 +61,8 @@ class _Live:
     async def serve(self) -> None:
         """Answers until the visitor has gone.
 
-        A common update is answered here, where it came in; what takes longer in a task of its own, while this one goes
-        on receiving.
+        A common update is answered here, where it came in; what takes longer in a task of its own, while this one
+        goes on receiving.
         """
         answers = asyncio.create_task(self._answer_all())
         try:

@@ -163,9 +163,9 @@ class AxisMetrics:
 
 
 def axis_figures(row: Sequence[float]) -> dict[str, Any]:
-    """A kernel's row by the names of `AxisMetrics`, whose attributes are its columns; what did not happen is left out.
+    """A kernel's row by the names of `AxisMetrics`, whose attributes are its columns.
 
-    It is NaN in the row.
+    What did not happen, NaN there, is left out.
     """
     rise, settling, overshoot, undershoot, peak, peak_time, error, iae, itae, settled = row
     found = {  # a display of constant names: by zip it takes thrice as long, and a drag makes eight

@@ -130,9 +130,9 @@ def _simple_roots(coefficients: Sequence[Any], near: Complexes) -> list[Any]:
 def _refined(coefficients: Sequence[Any], guesses: list[complex], precision: int) -> list[Any] | None:
     """All roots to `precision` bits of the largest, from guesses; None where these do not lead there.
 
-    By the iteration of Ehrlich and Aberth (Aberth, Math. Comp. 27 (1973) 339), which triples the digits of simple roots
-    in each round, in whole numbers, each a multiple of a small power of two: tens of times as fast as numbers that
-    carry their exponents.
+    By the iteration of Ehrlich and Aberth (Aberth, Math. Comp. 27 (1973) 339), which triples the digits of simple
+    roots in each round, in whole numbers, each a multiple of a small power of two: tens of times as fast as numbers
+    that carry their exponents.
     """
     from mpmath import mpc, mpf
 

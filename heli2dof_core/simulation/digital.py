@@ -70,7 +70,9 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
     course, voltages = np.ascontiguousarray(states.T), np.ascontiguousarray(held.T)
     remarks = rig_findings(t, system.experiment.tolist(), found[2].tolist())
     remarks = (*remarks, *sampling_findings(loop, scenario, digital))
-    return limited_response(loop, system.experiment, t, (course, voltages), Measured(*found), remarks)
+    return limited_response(
+        loop, system.experiment, t, (course, voltages), Measured(*found), findings=remarks
+    )
 
 
 def noise_of(scenario: Scenario, digital: Digital) -> Floats:

@@ -54,7 +54,7 @@ def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = Non
         *found,
     )
     remarks = end_of_course("linear", t, found[2].tolist())
-    return linear_response(loop, x, t, (states, voltages), Measured(*found), remarks)
+    return linear_response(loop, x, t, (states, voltages), Measured(*found), findings=remarks)
 
 
 def linear_response(
@@ -63,6 +63,7 @@ def linear_response(
     t: Floats,
     course: tuple[Floats, Floats],
     found: Measured,
+    *,
     findings: tuple[Finding, ...],
 ) -> Response:
     """The course of an experiment: states as the kernel has filled them, voltages, and what is to be said of it."""

@@ -143,7 +143,9 @@ def simulate_nonlinear(
         *found,
     )
     remarks = rig_findings(t, system.experiment.tolist(), found[2].tolist())
-    return limited_response(loop, system.experiment, t, (states, voltages), Measured(*found), remarks)
+    return limited_response(
+        loop, system.experiment, t, (states, voltages), Measured(*found), findings=remarks
+    )
 
 
 def limited_response(
@@ -152,6 +154,7 @@ def limited_response(
     t: Floats,
     course: tuple[Floats, Floats],
     found: Measured,
+    *,
     findings: tuple[Finding, ...],
 ) -> Response:
     """The course of an experiment: states as the kernel has filled them, voltages, and what is to be said of it."""

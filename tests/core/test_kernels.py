@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from heli2dof_core.simulation.courses import run_experiments
 from numba import njit
 from numba.core.runtime import _nrt_python, rtsys
 
@@ -16,7 +17,6 @@ from heli2dof_core.kernels.layout import PAPER, WORKSPACE
 from heli2dof_core.metrics import step_metrics
 from heli2dof_core.robustness import cloud
 from heli2dof_core.scenario import Digital
-from heli2dof_core.simulation.courses import run_experiments
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.simulation.nonlinear import NonlinearLoop, simulate_nonlinear
 from tests.bench import floor
