@@ -1,4 +1,4 @@
-"""Live answers beside REST's, for all kinds of specs; and requests of one socket, each judged beside the one before."""
+"""Live answers beside REST's, for all kinds of specs; requests of one socket, each beside the one before."""
 
 from __future__ import annotations
 
