@@ -57,7 +57,7 @@ class Rest:
         each_axis: as in `evaluate`.
         plant: the rig at its operating point.
         order: number of the loop's states.
-        noise: on what a digital controller measures.
+        controller: the digital one that is simulated; None where it is continuous.
         alone: the axes that are stepped alone, each in an experiment behind the scenario's.
         runs: how many experiments there are.
         has_closed_form: whether `update` finds K itself.
@@ -66,10 +66,10 @@ class Rest:
 
     __slots__ = (
         "alone",
+        "controller",
         "each_axis",
         "has_closed_form",
         "has_kalman_filter",
-        "noise",
         "order",
         "plant",
         "runs",
@@ -81,7 +81,7 @@ class Rest:
         self.each_axis, self.plant = each_axis, plant(spec.parameters, spec.theta_0)
         order = PLAIN if spec.actuators is None else LAGGED
         self.order = order if scenario.measured == "states" else FULL
-        self.noise = NO_NOISE if scenario.controller is None else noise_of(scenario, scenario.controller)
+        self.controller = scenario.controller
         stepped = (name for name in ("theta", "psi") if getattr(scenario, name) is not None)
         self.alone = tuple(stepped) if each_axis else ()
         self.runs = 1 + len(self.alone)
@@ -135,9 +135,10 @@ def fill_block(
         _give(numbers, placed)
     if L is not None:
         numbers[L_GIVEN], numbers[GIVEN_L:] = 1.0, L.ravel()
+    noise = NO_NOISE if rest.controller is None else noise_of(task.spec.scenario, rest.controller)
     room = (rest.order, task.spec.scenario.samples)
     block = scratch.block(room, _room) if passing else _room(*room)
-    kernels.update(_SIZES[rest.order], numbers, rest.noise, *block.values(), *scratch.update(*room))
+    kernels.update(_SIZES[rest.order], numbers, noise, *block.values(), *scratch.update(*room))
     return block
 
 

@@ -107,7 +107,7 @@ def experiments_in(task: Task, block: Block, sampling: Callable[[], tuple[Findin
     if pushed:
         calm_axes = [(None, own) for own in block["calm_axes"].tolist()]
         calm_courses = [(None, own) for own in block["calm_courses"].tolist()]
-    sampled, found = sampling() if scenario.controller is not None else (), []
+    sampled, found = sampling() if task.rest.controller is not None else (), []
     for n in range(runs):
         ends, (own, rig), (of_linear, of_rig) = x[n][: START + 2], courses[n], motors[n]
         linear = metrics_numbers(ends, (axes[n][0], own, of_linear), _NEVER)

@@ -162,7 +162,7 @@ def _evaluate(
         spec = asked.task.spec
         if small and not _is_small(spec):
             return None
-        report = report_of(asked.task, most_steps, passing=True)
+        report = report_of(asked.task, most_steps, passing=small)
         if most_steps is not None and report.given_up:
             return None
         if binary:
