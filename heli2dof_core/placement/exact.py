@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
-from math import frexp, ldexp
+from math import frexp, lcm, ldexp
+from operator import mul
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,7 +28,7 @@ def exact_matrix(matrix: Floats) -> DomainMatrix:
     from sympy import QQ
     from sympy.polys.matrices import DomainMatrix
 
-    entries = [[exact_fraction(x) for x in row] for row in matrix]
+    entries = [[QQ(*x.as_integer_ratio()) for x in row] for row in matrix.tolist()]
     return DomainMatrix(entries, matrix.shape, QQ)
 
 
@@ -90,7 +91,30 @@ def exact_eigenvalues(matrix: DomainMatrix, near: Complexes) -> list[Any]:
     Raises:
         ArithmeticError: roots lie too close for `MOST_PRECISION` bits.
     """
-    return roots(matrix.charpoly(), near)
+    return roots(_characteristic_polynomial(matrix), near)
+
+
+def _characteristic_polynomial(matrix: DomainMatrix) -> list[Any]:
+    """Of a square matrix, highest power first, by the method of Faddeev and Le Verrier in whole numbers.
+
+    On four rows it takes a third of the time of one that is good for hundreds.
+    """
+    from sympy import QQ
+
+    entries, n = matrix.to_list(), matrix.shape[0]
+    unit = lcm(*(int(x.denominator) for row in entries for x in row))
+    own = [[int(x.numerator) * (unit // int(x.denominator)) for x in row] for row in entries]
+    found, power = [QQ.one], 1
+    product = [[0] * n for _ in range(n)]
+    trace = 1  # of the coefficient before
+    for k in range(1, n + 1):
+        for i in range(n):
+            product[i][i] += trace
+        columns = [*zip(*product, strict=True)]
+        product = [[sum(map(mul, row, column)) for column in columns] for row in own]
+        trace, power = -sum(product[i][i] for i in range(n)) // k, power * unit
+        found.append(QQ(trace, power))
+    return found
 
 
 def roots(polynomial: Sequence[Any], near: Complexes = NOWHERE) -> list[Any]:
@@ -99,9 +123,39 @@ def roots(polynomial: Sequence[Any], near: Complexes = NOWHERE) -> list[Any]:
     from sympy.polys.sqfreetools import dup_sqf_list
 
     found: list[Any] = []
-    for factor, multiplicity in dup_sqf_list(list(polynomial), QQ)[1]:
+    factors = [(list(polynomial), 1)]
+    if not _has_simple_roots(polynomial):
+        factors = dup_sqf_list(list(polynomial), QQ)[1]
+    for factor, multiplicity in factors:
         found += [root for root in _simple_roots(factor, near) for _ in range(multiplicity)]
     return found
+
+
+def _has_simple_roots(polynomial: Sequence[Any]) -> bool:
+    """Whether all roots surely are: the polynomial and its derivative have no common root even modulo a prime."""
+    try:
+        own = [int(c.numerator) * pow(int(c.denominator), -1, _PRIME) % _PRIME for c in polynomial]
+    except ValueError:  # a denominator is a multiple of it
+        return False
+    if len(own) < 2 or own[0] == 0:
+        return False
+    n = len(own) - 1
+    other = [c * (n - k) % _PRIME for k, c in enumerate(own[:-1])]
+    while len(other) > 1:
+        inverse, rest = pow(other[0], -1, _PRIME), own
+        while len(rest) >= len(other):
+            factor = rest[0] * inverse % _PRIME
+            head = [(c - factor * d) % _PRIME for c, d in zip(rest, other, strict=False)]
+            rest = [*head, *rest[len(other) :]][1:]
+        while rest and rest[0] == 0:
+            rest = rest[1:]
+        if not rest:
+            return False
+        own, other = other, rest
+    return True
+
+
+_PRIME = 2**61 - 1
 
 
 def _simple_roots(coefficients: Sequence[Any], near: Complexes) -> list[Any]:
