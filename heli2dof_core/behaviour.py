@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import chain
-from math import degrees, radians
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from math import degrees, inf, radians
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from .figures import AxisMetrics, Margins
 from .findings import Finding
+from .judged import Judged
 from .kernels.layout import BAND
 from .loop import Loop
-from .metrics import StepMetrics
+from .metrics import Numbers
 from .remarks import FAR_OUT
 from .rotors import USUAL_LAG, Actuators
 from .scenario import Digital, Limits, Scenario
-from .signals import AXES, INPUTS, OUTPUTS
-from .simulation.response import Response
+from .signals import AXES, OUTPUTS
 from .tables import number
 
 UNLIKE, UNLIKE_AT_LIMITS = 1.25, 1.05
@@ -33,27 +31,43 @@ AMPLE = 2.0
 DEAD_SAMPLES = 1.5
 """Dead time of a digital loop in samples: one to compute, half a sample's hold
 (Åström and Wittenmark, Computer-Controlled Systems, 1997, section 8)."""
+USUAL_SAMPLE_TIME = Digital().sample_time
+_NAMES = tuple(signal.name for signal in OUTPUTS)
 _OTHER_CAUSES = frozenset(
     ("diverges", "integration_stopped", "starts_on_stop", "reference_beyond_stop", "travel_stop")
 )
 
-Stepped = tuple[Response, StepMetrics]
+
+class Course(NamedTuple):
+    """What one model has made of an experiment: its figures, and the remarks on it."""
+
+    metrics: Numbers
+    findings: Sequence[Finding]
 
 
-@dataclass(frozen=True)
-class Experiment:
-    """One experiment by both models, each as its response and its metrics."""
+class Experiment(NamedTuple):
+    """One experiment by both models.
 
-    linear: Stepped
-    rig: Stepped
+    Attributes:
+        reference: θ and ψ, absolute, rad.
+        steps: how far they are from its start, rad.
+        linear, rig: what the models have made of it.
+    """
+
+    reference: tuple[float, float]
+    steps: tuple[float, float]
+    linear: Course
+    rig: Course
 
 
 def behaviour_remarks(
-    loop: Loop,
+    loop: Judged,
     limits: Limits,
     scenario: Scenario,
-    margins: tuple[Margins, Margins] | None,
+    *,
+    delays: Sequence[float | None],
     experiments: Sequence[Experiment],
+    misses: Callable[[], bool],
 ) -> tuple[Finding, ...]:
     """Findings on a stable loop; an unstable one has its own, which explains whatever else is seen.
 
@@ -61,44 +75,42 @@ def behaviour_remarks(
         loop: the whole loop.
         limits: of the rig.
         scenario: the experiment; in `experiments` it may step one axis alone.
-        margins: at the pitch and the yaw motor.
+        delays: delay margins at the pitch and the yaw motor, s.
         experiments: each axis is judged in the last one that steps it, so the one that steps it alone.
+        misses: whether the linear loop itself ends beside its references.
     """
-    if not loop.stable or margins is None:
+    if not loop.stable:
         return ()
-    axes = {name: each for each in experiments for name in each.rig[1].axes}
-    return tuple(
-        chain(
-            _on_delay(margins, scenario),
-            _on_lag(loop),
-            _on_gain(loop, limits),
-            _on_slow_poles(loop),
-            _on_settling(loop, axes, noisy=any(scenario.noises)),
-            () if scenario.disturbance else _on_models(axes, scenario, loop.actuators),
-        )
-    )
+    axes: dict[str, Experiment] = {}
+    for each in experiments:
+        for name in _NAMES:
+            if name in each.rig.metrics:
+                axes[name] = each
+    axes = {name: each for name, each in axes.items() if not _explained(each)}
+    found = [*_on_delay(delays, scenario), *_on_lag(loop), *_on_gain(loop, limits), *_on_slow_poles(loop)]
+    if not all(each.rig.metrics[name]["settled"] for name, each in axes.items()):
+        found += _on_settling(loop, axes, scenario, misses)
+    if scenario.disturbance is None:
+        found += _on_models(axes, scenario, loop.actuators)
+    return tuple(found)
 
 
-def _on_delay(margins: tuple[Margins, Margins], scenario: Scenario) -> Iterator[Finding]:
-    sample = (scenario.digital or Digital()).sample_time
-    short = {
-        axis: m.delay_margin
-        for axis, m in zip(AXES, margins, strict=True)
-        if m.delay_margin is not None and m.delay_margin < DEAD_SAMPLES * sample
-    }
-    if short:
-        axis = min(short, key=lambda name: short[name])
+def _on_delay(delays: Sequence[float | None], scenario: Scenario) -> Iterator[Finding]:
+    sample = USUAL_SAMPLE_TIME if scenario.digital is None else scenario.digital.sample_time
+    least = min([delay for delay in delays if delay is not None], default=inf)
+    if least < DEAD_SAMPLES * sample:
+        axis = AXES[[*delays].index(least)]
         usual = "this" if scenario.digital else "a usual"
         yield Finding(
             "short_delay_margin",
             "warning",
-            f"The {axis} motor's delay margin is {_time(short[axis])}. A digital controller with {usual} sample "
+            f"The {axis} motor's delay margin is {_time(least)}. A digital controller with {usual} sample "
             f"time of {_time(sample)} adds up to {_time(DEAD_SAMPLES * sample)} of dead time. Place slower poles "
             "or lower the gains.",
         )
 
 
-def _on_lag(loop: Loop) -> Iterator[Finding]:
+def _on_lag(loop: Judged) -> Iterator[Finding]:
     own, limit = loop.actuators, loop.lag_margin
     if limit is None:
         yield Finding("lag_unlimited", "info", "The loop stays stable however slow both rotors are.")
@@ -113,29 +125,30 @@ def _on_lag(loop: Loop) -> Iterator[Finding]:
         )
 
 
-def _on_gain(loop: Loop, limits: Limits) -> Iterator[Finding]:
-    if max(map(abs, loop.design.closed_loop_poles.tolist())) > FAR_OUT:
+def _on_gain(loop: Judged, limits: Limits) -> Iterator[Finding]:
+    (a, b, *_), (c, d, *_) = loop.placed.K
+    pitch, yaw = radians(max(abs(a), abs(b))), radians(max(abs(c), abs(d)))
+    if pitch <= limits.V_p and yaw <= limits.V_y:
+        return
+    if max(map(abs, loop.placed.poles)) > FAR_OUT:
         return  # said of the poles already
-    rows = zip(AXES, (limits.V_p, limits.V_y), loop.design.K.tolist(), strict=True)
-    asked = [
-        (radians(abs(gain)), bound, motor, axis)
-        for motor, bound, row in rows
-        for axis, gain in zip(AXES, row[:2], strict=True)
-    ]
-    volts, bound, motor, axis = max(asked, key=lambda each: each[0] / each[1])
-    if volts > bound:
-        yield Finding(
-            "high_gain",
-            "warning",
-            f"One degree of {axis} error asks the {motor} motor for {volts:.3g} V; its limit is {bound:g} V. "
-            "Place slower poles.",
-        )
+    volts, bound, motor, row = pitch, limits.V_p, AXES[0], (a, b)
+    if yaw / limits.V_y > pitch / limits.V_p:
+        volts, bound, motor, row = yaw, limits.V_y, AXES[1], (c, d)
+    axis = AXES[0 if abs(row[0]) >= abs(row[1]) else 1]
+    yield Finding(
+        "high_gain",
+        "warning",
+        f"One degree of {axis} error asks the {motor} motor for {volts:.3g} V; its limit is {bound:g} V. "
+        "Place slower poles.",
+    )
 
 
-def _on_slow_poles(loop: Loop) -> Iterator[Finding]:
-    placed = max(pole.real for pole in loop.design.closed_loop_poles.tolist())
-    slowest = float(loop.connected_poles[0].real)
-    if loop.has_integrators and placed < SLOWER * slowest:
+def _on_slow_poles(loop: Judged) -> Iterator[Finding]:
+    if loop.by_axis is None:
+        return
+    placed, slowest = max(pole.real for pole in loop.placed.poles), loop.connected[0].real
+    if placed < SLOWER * slowest:
         yield Finding(
             "slow_pole",
             "warning",
@@ -145,27 +158,27 @@ def _on_slow_poles(loop: Loop) -> Iterator[Finding]:
         )
 
 
-def _on_settling(loop: Loop, axes: Mapping[str, Experiment], *, noisy: bool) -> Iterator[Finding]:
+def _on_settling(
+    loop: Judged, axes: Mapping[str, Experiment], scenario: Scenario, misses: Callable[[], bool]
+) -> Iterator[Finding]:
     parts, held = [], False
-    for i, signal in enumerate(OUTPUTS):
-        each = axes.get(signal.name)
-        if each is None or _explained(each):
+    for i, name in enumerate(_NAMES):
+        each = axes.get(name)
+        if each is None:
             continue
-        own, ideal = (metrics.axes[signal.name] for _, metrics in (each.rig, each.linear))
-        if not own.settled:
-            linear = (
-                "" if ideal.settling_time is None else f" (linear: settled in {_time(ideal.settling_time)})"
-            )
+        own, ideal = each.rig.metrics[name], each.linear.metrics[name].get("settling_time")
+        if not own["settled"]:
+            linear = "" if ideal is None else f" (linear: settled in {_time(ideal)})"
             held = held or bool(linear and loop.actuators is not None and loop.actuators.breakaway[i])
-            response, error = each.rig[0], abs(own.steady_state_error)
-            within = error <= BAND * abs(response.reference[i] - response.start[i])
+            error = abs(own["steady_state_error"])
+            within = error <= BAND * abs(each.steps[i])
             words = f"{degrees(error):.2g}° from its reference{', but does not stay there' if within else ''}"
             parts.append((AXES[i], words, linear))
     if parts:
-        end = _time(float(next(iter(axes.values())).rig[0].t[-1]))
+        end, integrates, noisy = _time(scenario.duration), loop.by_axis is not None, any(scenario.noises)
         names = " and ".join(f"{axis} ends {words}{linear}" for axis, words, linear in parts)
         advice = "Watch longer, or place faster poles."
-        if not loop.has_integrators and (any(linear for *_, linear in parts) or _misses(loop)):
+        if not integrates and (any(linear for *_, linear in parts) or misses()):
             advice = "Without integral action such an error stays: close the PI loops."
         elif noisy and any(linear for *_, linear in parts):
             advice = (
@@ -176,7 +189,7 @@ def _on_settling(loop: Loop, axes: Mapping[str, Experiment], *, noisy: bool) -> 
         yield Finding("not_settled", "warning", f"Not settled within {end}: {names}. {advice}")
 
 
-def _misses(loop: Loop) -> bool:
+def loop_misses(loop: Loop) -> bool:
     """Whether the linear loop itself ends beside its references, as with motors that the design does not know."""
     steady_state = -np.linalg.solve(loop.A, loop.B)[:2]
     return bool(np.max(np.abs(np.eye(2) - steady_state)) > BAND)
@@ -186,14 +199,14 @@ def _on_models(
     axes: Mapping[str, Experiment], scenario: Scenario, own: Actuators | None
 ) -> Iterator[Finding]:
     parts, limited = [], False
-    for i, signal in enumerate(OUTPUTS):
-        each = axes.get(signal.name)
-        if each is None or _explained(each):
+    for i, name in enumerate(_NAMES):
+        each = axes.get(name)
+        if each is None:
             continue
-        (_, rig), (_, linear) = each.rig, each.linear
-        at_limit = any(rig.motors[motor.name].saturated > 0 for motor in INPUTS)
+        rig, linear = each.rig.metrics, each.linear.metrics
+        at_limit = rig["V_p"]["saturated"] > 0 or rig["V_y"]["saturated"] > 0
         ratio = UNLIKE_AT_LIMITS if at_limit else UNLIKE
-        told = _difference(rig.axes[signal.name], linear.axes[signal.name], ratio)
+        told = _difference(rig[name], linear[name], ratio)
         if told:
             parts.append(f"the {AXES[i]} step {told}")
             limited = limited or at_limit
@@ -216,17 +229,17 @@ def _on_models(
         )
 
 
-def _difference(rig: AxisMetrics, linear: AxisMetrics, ratio: float) -> str:
+def _difference(rig: Mapping[str, Any], linear: Mapping[str, Any], ratio: float) -> str:
     """In which figures the models differ, the linear one's in parentheses; empty where in none.
 
     `ratio` of the settling times counts as a difference.
     """
     words = []
-    own, ideal = rig.settling_time, linear.settling_time
+    own, ideal = rig.get("settling_time"), linear.get("settling_time")
     if own is not None and ideal is not None and max(own, ideal) > ratio * min(own, ideal):
         words.append(f"settles in {_time(own)} (linear: {_time(ideal)})")
-    if abs(rig.overshoot - linear.overshoot) > UNLIKE_OVERSHOOT:
-        words.append(f"overshoots by {rig.overshoot:.1f} % (linear: {linear.overshoot:.1f} %)")
+    if abs(rig["overshoot"] - linear["overshoot"]) > UNLIKE_OVERSHOOT:
+        words.append(f"overshoots by {rig['overshoot']:.1f} % (linear: {linear['overshoot']:.1f} %)")
     return " and ".join(words)
 
 
@@ -235,8 +248,8 @@ def _listed(words: Sequence[str]) -> str:
 
 
 def _explained(each: Experiment) -> bool:
-    found = chain(each.rig[0].findings, each.linear[0].findings)
-    return any(finding.code in _OTHER_CAUSES for finding in found)
+    found = (*each.rig.findings, *each.linear.findings)
+    return bool(found) and any(finding.code in _OTHER_CAUSES for finding in found)
 
 
 def _time(seconds: float) -> str:

@@ -15,6 +15,7 @@ from .findings import Finding
 from .frozen import Frozen, frozen
 from .gains import full_rank_gain
 from .interop import state_space
+from .judged import Placed, Size, placed_findings
 from .kernels.layout import POLYNOMIALS, ROUNDING
 from .loop_polynomials import controller_numbers, whole_polynomials
 from .placement.method import Task, Weights
@@ -23,7 +24,6 @@ from .placement.verdict import Verdict, eigenvector_condition, judge
 from .placement.with_rotors import gain_with_rotors, require_slopes, with_rotors
 from .plant import Plant
 from .poles import PoleSet
-from .remarks import design_remarks
 from .rotors import Actuators
 from .scratch import scratch
 from .signals import INPUTS, OUTPUTS, ROTORS, STATES, C, Complexes, Floats, Signal
@@ -118,9 +118,30 @@ class Design(Frozen, Shown):
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """Remarks on the poles and the gain."""
-        found = self.wanted.tolist() if self.aims else self.closed_loop_poles.tolist()
-        verdict = {"stable": self.stable, "steady": self.steady_state_determinant != 0}
-        return design_remarks(self.plant, self.K, found, self.pole_error, **verdict)
+        return placed_findings(self.numbers)
+
+    @cached_property
+    def numbers(self) -> Placed:
+        """Its numbers, as remarks and replies take them."""
+        return Placed(
+            self.plant,
+            self.method,
+            self.K.tolist(),
+            None if self.integral is None else self.integral.tolist(),
+            self.wanted.tolist(),
+            self.rotor_poles,
+            self.aims,
+            self.closed_loop_poles.tolist(),
+            self.pole_error,
+            self.pole_error_bound,
+            self.stable,
+            self.steady_state_determinant != 0,
+        )
+
+    @property
+    def size(self) -> Size:
+        """Figures of its gain."""
+        return Size(self.norm, self.spectral_norm, self.eigenvector_condition)
 
     @property
     def norm(self) -> float:

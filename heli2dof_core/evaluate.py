@@ -2,30 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
-from .behaviour import Experiment, behaviour_remarks
-from .block import Block, fill_block, has_closed_form
+from .behaviour import Experiment, behaviour_remarks, loop_misses
+from .block import Block, Task, fill_block
 from .design import Design, design
-from .estimators import Estimator, Observer, estimator
+from .estimators import Estimator, estimator
 from .figures import Margins
 from .findings import Finding, merged
+from .frozen import frozen
 from .interaction import Interaction
-from .kernels.update_layout import DONE, RELATIVE_GAIN
+from .judged import Judged, Placed, Size, loop_findings, placed_findings
+from .kernels.update_layout import DONE, DOUBTFUL, RELATIVE_GAIN
+from .lazily import computed
 from .loop import Loop, close_loop
-from .margins import margin_table
-from .metrics import StepMetrics, step_metrics
+from .margins import margin_figures, margin_table, margins_in
+from .metrics import StepMetrics, metrics_in, step_metrics
 from .placement.registry import method
 from .plant import plant
-from .read_block import design_of, exists, loop_in
+from .read_block import CALM, design_of, exists, experiments_in, judged_in, loop_in, placed_in, size_in
 from .scenario import Model, Scenario
 from .sensitivity import Sensitivity, sensitivity_of
 from .signals import Floats
-from .simulation.digital import simulate_digital, with_sampling_remarks
+from .simulation.digital import sampling_findings, simulate_digital
 from .simulation.linear import linear_response, simulate_linear
 from .simulation.nonlinear import limited_response, simulate_nonlinear
 from .simulation.response import Measured, Response
@@ -56,72 +57,131 @@ class Report(Shown):
     """What `evaluate` has computed of a spec; objects, words and tables are made of its numbers where they are read.
 
     Attributes:
-        spec: what the user chose.
+        task: what the user chose, as the kernel has taken it.
         block: all numbers, as the kernel `update` has filled them (`kernels.update_layout.block_shapes`).
     """
 
-    spec: Spec
+    task: Task
     block: Block
     _placed: Design | None
     _estimator: Estimator | None
-    _alone: tuple[str, ...]
+
+    @property
+    def spec(self) -> Spec:
+        """What the user chose."""
+        return self.task.spec
 
     @property
     def given(self) -> tuple[Design | None, Floats | None]:
         """Design and L where these have come from outside the kernel."""
         return self._placed, self._estimator and self._estimator.L
 
-    @cached_property
+    @computed
+    def placed(self) -> Placed:
+        """The design's numbers."""
+        told = self._placed is None and not self.block["figures"][DOUBTFUL]
+        return placed_in(self.task, self.block, None if told else self.design)
+
+    @computed
+    def size(self) -> Size:
+        """Figures of K."""
+        return size_in(self.block)
+
+    @computed
+    def judged(self) -> Judged:
+        """The whole loop's numbers."""
+        return judged_in(self.task, self.block, self.placed, lambda: self.loop)
+
+    @computed
     def design(self) -> Design:
         """K and the placed poles."""
-        return design_of(self.spec, self.block, self._placed)
+        return design_of(self.task, self._views, self._placed)
 
-    @cached_property
+    @computed
     def interaction(self) -> Interaction:
         """RGA and pairing."""
         return Interaction(exists(self.block["figures"][RELATIVE_GAIN]), self.spec.outer.pairing)
 
-    @cached_property
+    @computed
     def loop(self) -> Loop:
         """The whole loop and its poles."""
-        return loop_in(self.spec, self.block, self.design, self._estimator)
+        return loop_in(self.spec, self._views, self.design, self._estimator)
 
-    @cached_property
+    @computed
+    def motors(self) -> tuple[dict[str, float], dict[str, float]] | None:
+        """Margins at the pitch and the yaw motor, those that exist by name; None if the loop is unstable."""
+        if not self.judged.stable:
+            return None
+        pitch, yaw = self.block["margins"].tolist()
+        return margin_figures(pitch), margin_figures(yaw)
+
+    @property
     def margins(self) -> tuple[Margins, Margins] | None:
         """At the pitch and the yaw motor; None if the loop is unstable."""
-        if not self.loop.stable:
-            return None
-        pitch, yaw = (map(exists, row) for row in self.block["margins"].tolist())
-        return Margins(*pitch), Margins(*yaw)
+        return self.motors and margins_in(self.motors)
 
-    @cached_property
+    @computed
     def sensitivity(self) -> Sensitivity | None:
         """At both motors at once; None if the loop is unstable."""
-        return sensitivity_of(self.block["sensitivity"]) if self.loop.stable else None
+        return sensitivity_of(self.block["sensitivity"]) if self.judged.stable else None
 
-    @cached_property
+    @computed
+    def experiments(self) -> list[Experiment]:
+        """The scenario, and each axis alone where it is asked for: what both models have made of it."""
+        return experiments_in(self.task, self.block, self._sampling)
+
+    @property
+    def given_up(self) -> bool:
+        """Whether a response was, after the most steps that it may take."""
+        return any(f.code == "integration_stopped" for f in self.findings)
+
+    @property
+    def alone(self) -> tuple[str, ...]:
+        """The axes that are stepped alone, in the order of their experiments behind the scenario."""
+        return self.task.rest.alone
+
+    @computed
     def step(self) -> dict[Model, Step]:
         """The scenario's response, by model."""
         return self._both(0)
 
-    @cached_property
+    @computed
     def axis_steps(self) -> dict[str, dict[Model, Step]]:
         """By output name and model, each axis stepped alone; empty unless asked for."""
-        return {name: self._both(n) for n, name in enumerate(self._alone, 1)}
+        return {name: self._both(n) for n, name in enumerate(self.alone, 1)}
 
-    @cached_property
+    @computed
+    def known(self) -> tuple[Finding, ...]:
+        """Remarks on the design and on the whole loop."""
+        return merged(self.placed_findings, loop_findings(self.judged))
+
+    @computed
+    def placed_findings(self) -> tuple[Finding, ...]:
+        """Remarks on the design alone."""
+        return placed_findings(self.placed)
+
+    @computed
     def findings(self) -> tuple[Finding, ...]:
         """All remarks, the gravest first."""
-        own = (self.design.findings, self.loop.findings, self.interaction.findings)
-        experiments = (self.step, *self.axis_steps.values())
-        steps = [step for both in experiments for step in both.values()]
-        return merged(*own, *(step.response.findings for step in steps), self._behaviour(experiments))
+        behaviour: tuple[Finding, ...] = ()
+        if self.motors is not None:
+            delays = [own.get("delay_margin") for own in self.motors]
+            behaviour = behaviour_remarks(
+                self.judged,
+                self.spec.limits,
+                self.spec.scenario,
+                delays=delays,
+                experiments=self.experiments,
+                misses=lambda: loop_misses(self.loop),
+            )
+        courses = (course.findings for each in self.experiments for course in (each.linear, each.rig))
+        return merged(self.known, self.interaction.findings, *courses, behaviour)
 
     def summary(self) -> str:
         """Stability, size of K and the rig's step."""
-        stability = "stable" if self.loop.stable else "unstable"
+        stability = "stable" if self.judged.stable else "unstable"
         rig = self.step["nonlinear"].metrics.summary()
-        return f"{stability}; ‖K‖ = {number(self.design.norm)}; {len(self.findings)} findings; {rig}"
+        return f"{stability}; ‖K‖ = {number(self.size.norm)}; {len(self.findings)} findings; {rig}"
 
     def tables(self) -> tuple[Table, ...]:
         """K and its poles, RGA, the whole loop, margins, the rig's step and what is to be said of it all."""
@@ -135,38 +195,27 @@ class Report(Shown):
             *((Table.of("findings", ("", "what"), findings),) if self.findings else ()),
         )
 
-    def _behaviour(self, experiments: Iterable[Mapping[Model, Step]]) -> tuple[Finding, ...]:
-        pairs = [
-            Experiment(*((each[model].response, each[model].metrics) for model in ("linear", "nonlinear")))
-            for each in experiments
-        ]
-        return behaviour_remarks(self.loop, self.spec.limits, self.spec.scenario, self.margins, pairs)
+    @computed
+    def _views(self) -> Block:
+        """The block's arrays, which may be made read-only, though the kernel will fill them again."""
+        return {name: array.view() for name, array in self.block.items()}
+
+    def _sampling(self) -> tuple[Finding, ...]:
+        scenario = self.spec.scenario
+        digital = scenario.controller
+        return () if digital is None else tuple(sampling_findings(self.loop, scenario, digital))
 
     def _both(self, n: int) -> dict[Model, Step]:
-        return {"linear": self._linear(n), "nonlinear": self._nonlinear(n)}
+        return {"linear": self._step(n, "linear", 0), "nonlinear": self._step(n, "nonlinear", 1)}
 
-    def _linear(self, n: int) -> Step:
-        block, found = self.block, self._measured(n, 0)
-        course = (block["linear"][n], block["voltages"][n, 0])
-        return _measured(
-            self.loop, linear_response(self.loop, block["experiments"][n], block["t"], course, found)
-        )
-
-    def _nonlinear(self, n: int) -> Step:
-        block, scenario = self.block, self.spec.scenario
-        course = (block["nonlinear"][n], block["voltages"][n, 1])
-        task = (self.loop, block["experiments"][n], block["t"], course, self._measured(n, 1))
-        response = limited_response(*task)
-        if scenario.controller is not None:
-            response = with_sampling_remarks(response, self.loop, scenario, scenario.controller)
-        if scenario.disturbance is None:
-            return _measured(self.loop, response)
-        calm = Measured(block["calm_axes"][n], block["motors"][n, 1], block["calm_courses"][n])
-        return _measured(self.loop, response, calm)
-
-    def _measured(self, n: int, model: int) -> Measured:
-        block = self.block
-        return Measured(block["axes"][n, model], block["motors"][n, model], block["courses"][n, model])
+    def _step(self, n: int, model: Model, m: int) -> Step:
+        block, course = self._views, self.experiments[n][2 + m]
+        found = Measured(block["axes"][n, m], block["motors"][n, m], block["courses"][n, m])
+        curves = (block[model][n], block["voltages"][n, m])
+        task = (self.loop, block["experiments"][n], block["t"], curves, found)
+        response = (limited_response if m else linear_response)(*task, findings=course.findings)
+        own = merged(self.known, course.findings) if course.findings else self.known
+        return Step(response, metrics_in(course.metrics), own)
 
 
 def place(spec: Spec) -> Design:
@@ -214,17 +263,9 @@ def _measured(loop: Loop, response: Response, calm: Measured | None = None) -> S
     """With its metrics; those of its steps from the experiment without a disturbance, where it has one."""
     metrics = step_metrics(response, calm)
     if calm is not None and metrics.axes:
-        response = replace(response, findings=(*response.findings, _CALM))
+        response = replace(response, findings=(*response.findings, CALM))
     known = loop.all_findings
     return Step(response, metrics, merged(known, response.findings) if response.findings else known)
-
-
-_CALM = Finding(
-    "disturbance_left_out",
-    "info",
-    "The steps' figures (rise, settling, overshoot, errors) are those without the disturbance; the motors' "
-    "include it.",
-)
 
 
 def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = None) -> Report:
@@ -238,16 +279,21 @@ def evaluate(spec: Spec, *, each_axis: bool = False, most_steps: int | None = No
     Raises:
         Heli2DofError: see `errors`.
     """
-    scenario, observer = spec.scenario, spec.observer or Observer()
-    kalman = scenario.measured == "observer" and observer.method == "kalman"
-    placed = place(spec) if kalman or not has_closed_form(spec) else None
-    estimated = estimator(placed, scenario.measured, observer) if placed and kalman else None
-    task = {"L": estimated and estimated.L, "each_axis": each_axis, "most_steps": most_steps}
-    block = fill_block(spec, placed=placed, **task)
+    return report_of(Task.of(spec, each_axis=each_axis), most_steps)
+
+
+def report_of(task: Task, most_steps: int | None = None, *, passing: bool = False) -> Report:
+    """As `evaluate`, of a task; `passing`: this thread's next passing report may overwrite this one's numbers."""
+    spec, rest = task.spec, task.rest
+    placed = None if rest.has_closed_form and not rest.has_kalman_filter else place(spec)
+    estimated = None
+    if placed is not None and rest.has_kalman_filter:
+        estimated = estimator(placed, spec.scenario.measured, spec.observer)
+    how = {"L": estimated and estimated.L, "most_steps": most_steps, "passing": passing}
+    block = fill_block(task, placed=placed, **how)
     if block["outcome"][0] != DONE and placed is None:
         placed = place(spec)  # which takes exact numbers, or says why there is none
-        block = fill_block(spec, placed=placed, **task)
+        block = fill_block(task, placed=placed, **how)
     if block["outcome"][0] != DONE:
         raise np.linalg.LinAlgError("the eigenvalues of the loop were not found")
-    axes = [name for name in ("theta", "psi") if each_axis and getattr(scenario, name) is not None]
-    return Report(spec, block, placed, estimated, tuple(axes))
+    return Report(task, block if passing else frozen(block), placed, estimated)

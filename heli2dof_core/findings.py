@@ -27,4 +27,8 @@ def merged(*groups: Iterable[Finding]) -> tuple[Finding, ...]:
     for group in groups:
         for finding in group:
             unique.setdefault(finding.code, finding)
-    return tuple(sorted(unique.values(), key=lambda finding: _RANK[finding.severity]))
+    return tuple(sorted(unique.values(), key=_rank)) if len(unique) > 1 else tuple(unique.values())
+
+
+def _rank(finding: Finding) -> int:
+    return _RANK[finding.severity]

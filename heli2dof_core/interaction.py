@@ -32,10 +32,15 @@ class Interaction(Shown):
     @property
     def rga(self) -> Floats | None:
         """2×2, rows are outputs θ, ψ, columns inputs V_p, V_y; None without steady state."""
+        return None if self.relative_gain is None else np.array(self.entries)
+
+    @property
+    def entries(self) -> tuple[tuple[float, float], ...]:
+        """Its rows; none without steady state."""
         if self.relative_gain is None:
-            return None
+            return ()
         diagonal, cross = self.relative_gain, 1 - self.relative_gain
-        return np.array([[diagonal, cross], [cross, diagonal]])
+        return (diagonal, cross), (cross, diagonal)
 
     @property
     def advised(self) -> Pairing:
@@ -47,8 +52,7 @@ class Interaction(Shown):
         """(output, input) names that RGA and Niederlinski index advise; none without steady state."""
         if self.relative_gain is None:
             return ()
-        inputs = INPUTS[::-1] if self.advised == "cross" else INPUTS
-        return tuple((y.name, u.name) for y, u in zip(OUTPUTS, inputs, strict=True))
+        return _PAIRS[self.advised]
 
     @property
     def niederlinski(self) -> float | None:
@@ -91,6 +95,12 @@ class Interaction(Shown):
 
     def _repr_latex_(self) -> str | None:
         return None if self.rga is None else latex_matrix(r"\Lambda", self.rga)
+
+
+_PAIRS: dict[Pairing, tuple[tuple[str, str], ...]] = {
+    "diagonal": tuple((y.name, u.name) for y, u in zip(OUTPUTS, INPUTS, strict=True)),
+    "cross": tuple((y.name, u.name) for y, u in zip(OUTPUTS, INPUTS[::-1], strict=True)),
+}
 
 
 def interaction(design: Design, pairing: Pairing = "diagonal") -> Interaction:

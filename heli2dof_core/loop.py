@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf
@@ -19,13 +19,13 @@ from .figures import LOOP
 from .findings import Finding, merged
 from .frozen import Frozen, frozen
 from .interop import state_space
+from .judged import Judged, loop_findings
 from .kernels.layout import FILTER_DAMPING, FILTER_FREQUENCY, OWN, PI, PLAIN, POLYNOMIALS, SIZES, STATIC
 from .loop_polynomials import controller_numbers, whole_polynomials
-from .remarks import flat_thrust, lag_instability, loop_instability, loop_remarks, observer_instability
 from .rotors import Actuators
 from .scenario import OuterLoop
 from .scratch import scratch
-from .signals import AXES, INPUTS, INTEGRALS, OUTPUTS, ROTORS, STATES, Complexes, Floats, Signal
+from .signals import INPUTS, INTEGRALS, OUTPUTS, ROTORS, STATES, Complexes, Floats, Signal
 from .tables import NOTHING, Shown, Table, number, poles
 
 if TYPE_CHECKING:
@@ -113,11 +113,6 @@ class Loop(Frozen, Shown):
         proportional = np.linalg.norm(self.design.K[:, :2], axis=0)
         with np.errstate(divide="ignore", invalid="ignore"):
             return proportional / np.linalg.norm(self.integral, axis=0)
-
-    @property
-    def integral_by_axis(self) -> Floats:
-        """What each axis' integral drives, 2×2, V/(rad·s), rows are the axes of the errors."""
-        return np.zeros((2, 2)) if self.integral is None else self.integral.T
 
     @cached_property
     def polynomials(self) -> Floats:
@@ -239,7 +234,27 @@ class Loop(Frozen, Shown):
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """Remarks on the whole loop."""
-        return tuple(_remarks(self))
+        return tuple(loop_findings(self.judged))
+
+    @cached_property
+    def judged(self) -> Judged:
+        """Its numbers, as remarks and replies take them."""
+        own = self.estimator
+        L = None if own is None or own.L is None else own.L.tolist()
+        return Judged(
+            self.design.numbers,
+            None if self.integral is None else self.integral.T.tolist(),
+            (self.outer.pitch.kp, self.outer.yaw.kp),
+            self.outer.decoupler,
+            self.connected_poles.tolist(),
+            self.poles.tolist(),
+            self.stable,
+            self.lag_margin,
+            self.actuators,
+            None if own is None else own.growing,
+            L,
+            None if own is None or L is None else own.poles.tolist(),
+        )
 
     @cached_property
     def all_findings(self) -> tuple[Finding, ...]:
@@ -296,44 +311,3 @@ def close_loop(design: Design, outer: OuterLoop = OuterLoop(), estimator: Estima
         return Loop(design, outer, P, integral, F, law, by_reference, A, B, tuple(range(order)), motors)
     parts = augmented_loop(design, design.actuators, estimator, (P, integral, by_reference))
     return Loop(design, outer, P, integral, F, parts[0], by_reference, *parts[1:], estimator)
-
-
-def _remarks(loop: Loop) -> Iterator[Finding]:
-    if loop.design.integral is not None:
-        yield Finding(
-            "own_integral_action",
-            "info",
-            "The method has its own integral action. The PI loops are not used.",
-        )
-    idle = () if loop.actuators is None else loop.actuators.idle
-    if idle:
-        yield flat_thrust(idle, stable=loop.stable)
-    elif not loop.stable and (loop.has_integrators or loop.design.stable):
-        yield _instability(loop)
-    if loop.has_integrators and loop.design.integral is None:
-        lacking = loop.outer.decoupler and not loop.design.steady_state_determinant
-        kp = (loop.outer.pitch.kp, loop.outer.yaw.kp)
-        yield from loop_remarks(kp, loop.integral_by_axis, no_decoupler=lacking)
-    damping = min((-p.real / abs(p) for p in loop.connected_poles.tolist() if p != 0), default=1.0)
-    if loop.stable and damping < 0.2:
-        yield Finding(
-            "poorly_damped",
-            "warning",
-            f"The whole loop rings: its least damping ratio is {damping:.2f}. Lower the gains or raise the "
-            "integral times.",
-        )
-
-
-def _instability(loop: Loop) -> Finding:
-    """What has done it: the observer, the rotors' lag, the PI loops, or the state feedback."""
-    own = loop.estimator
-    if own is not None and own.growing is not None:
-        return observer_instability(own.growing)
-    lag, limit = 0.0 if loop.actuators is None else float(loop.actuators.tau.max()), loop.lag_margin
-    if limit is not None and lag >= limit:
-        return lag_instability(lag, limit)
-    placed = loop.design.stable
-    closed = [name for name, own in zip(AXES, loop.integral_by_axis, strict=True) if own.any()]
-    if loop.design.integral is not None or not placed:
-        closed = []
-    return loop_instability(loop.connected_poles, closed, aims=loop.design.aims, placed=placed)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from math import isnan
+from typing import Any
 
 import numpy as np
 
@@ -28,8 +30,22 @@ def loop_margins(loop: Loop) -> tuple[Margins, Margins] | None:
         return None
     table = np.empty((2, MARGINS))
     engine().margins(loop.polynomials, *scratch.margins, table)
-    pitch, yaw = ([None if isnan(v) else v for v in row] for row in table.tolist())
-    return Margins(*pitch), Margins(*yaw)
+    pitch, yaw = table.tolist()
+    return margins_in((margin_figures(pitch), margin_figures(yaw)))
+
+
+def margin_figures(row: Sequence[float]) -> dict[str, float]:
+    """A motor's margins as the kernel has filled them, by name; those without limit, NaN, are left out."""
+    return {name: value for name, value in zip(FIGURES, row, strict=True) if not isnan(value)}
+
+
+def margins_in(both: tuple[Mapping[str, float], Mapping[str, float]]) -> tuple[Margins, Margins]:
+    """The figures of both motors as objects."""
+    pitch, yaw = both
+    return Margins(**{**_UNLIMITED, **pitch}), Margins(**{**_UNLIMITED, **yaw})
+
+
+_UNLIMITED: dict[str, Any] = dict.fromkeys(FIGURES)
 
 
 def margin_table(margins: tuple[Margins, Margins]) -> Table:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
-from .figures import AXIS, MOTOR, STEP, AxisMetrics, MotorMetrics
+from .figures import AXIS, MOTOR, NO_AXIS_METRICS, STEP, AxisMetrics, MotorMetrics, axis_figures
 from .kernels.layout import DEVIATION
 from .signals import INPUTS, OUTPUTS
 from .simulation.response import Measured, Response
@@ -84,14 +86,50 @@ def step_metrics(response: Response, calm: Measured | None = None) -> StepMetric
     """
     own = response.measured
     steps = calm or own
-    stepped = [i for i in range(2) if response.reference[i] != response.start[i]]
-    return StepMetrics(
-        {OUTPUTS[i].name: AxisMetrics.of(steps.axes[i].tolist()) for i in stepped},
-        float(steps.course[DEVIATION + 1 - stepped[0]]) if len(stepped) == 1 else None,
-        {
-            signal.name: MotorMetrics(peak, saturated, effort)
-            for signal, saturated, (peak, effort) in zip(
-                INPUTS, response.saturated, own.motors.tolist(), strict=True
-            )
-        },
-    )
+    ends = (*response.reference, *response.start)
+    rows = (steps.axes.tolist(), steps.course.tolist(), own.motors.tolist())
+    return metrics_in(metrics_numbers(ends, rows, response.saturated))
+
+
+Rows = Sequence[Sequence[float]]
+Courses = tuple[Rows, Sequence[float], Rows]
+"""Of both axes, of the course as a whole, and of both motors, laid out as `kernels.layout` says."""
+
+
+Numbers = dict[str, Any]
+"""The numbers of `StepMetrics`, what does not exist left out: by output, ``coupling_peak``, by input; as replies hold
+them and remarks read them."""
+
+
+def metrics_numbers(ends: Sequence[float], rows: Courses, saturated: Sequence[float]) -> Numbers:
+    """Figures of merit of a course.
+
+    Args:
+        ends: references θ, ψ and start θ, ψ, rad.
+        rows: as the kernels fill them.
+        saturated: shares of time at both motors' limits.
+    """
+    axes, course, ((peak_p, effort_p), (peak_y, effort_y)) = rows
+    theta, psi, theta_from, psi_from = ends
+    motors = {
+        "V_p": {"peak": peak_p, "saturated": saturated[0], "effort": effort_p},
+        "V_y": {"peak": peak_y, "saturated": saturated[1], "effort": effort_y},
+    }
+    if theta == theta_from:
+        if psi == psi_from:
+            return motors
+        return {"psi": axis_figures(axes[1]), "coupling_peak": course[DEVIATION], **motors}
+    if psi == psi_from:
+        return {"theta": axis_figures(axes[0]), "coupling_peak": course[DEVIATION + 1], **motors}
+    return {"theta": axis_figures(axes[0]), "psi": axis_figures(axes[1]), **motors}
+
+
+def metrics_in(numbers: Numbers) -> StepMetrics:
+    """The numbers as objects."""
+    axes = {
+        signal.name: AxisMetrics(**NO_AXIS_METRICS | numbers[signal.name])
+        for signal in OUTPUTS
+        if signal.name in numbers
+    }
+    motors = {signal.name: MotorMetrics(**numbers[signal.name]) for signal in INPUTS}
+    return StepMetrics(axes, numbers.get("coupling_peak"), motors)

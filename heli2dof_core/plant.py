@@ -60,10 +60,15 @@ class Plant(Frozen, Shown):
         return (a, b), (c, d)
 
     @cached_property
+    def independence(self) -> float:
+        """That of the motors: see `Parameters`."""
+        return self.parameters.independence
+
+    @cached_property
     def nearly_parallel(self) -> bool:
         """Whether closed forms lose digits, as they divide by γ and its powers."""
         p = self.parameters
-        return p.independence < NEARLY_PARALLEL or abs(p.gamma) < SMALLEST
+        return self.independence < NEARLY_PARALLEL or abs(p.gamma) < SMALLEST
 
     @cached_property
     def statics(self) -> Floats:
@@ -74,6 +79,11 @@ class Plant(Frozen, Shown):
     def poles(self) -> Complexes:
         """Poles of the rig without feedback, rad/s, shape (4,)."""
         return frozen(np.array(eigenvalues(self.A)))
+
+    @cached_property
+    def own_poles(self) -> tuple[complex, ...]:
+        """The same as plain numbers."""
+        return tuple(self.poles.tolist())
 
     def to_control(self) -> control.StateSpace:
         """The rig without feedback: V_p, V_y to θ, ψ, V to rad, in deviations from the trim.

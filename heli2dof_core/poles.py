@@ -18,6 +18,9 @@ ZERO = 1e-9
 """Real or imaginary parts below this count as 0, rad/s."""
 
 
+_PAIRS = (("pitch", 0, 1), ("yaw", 2, 3))
+
+
 @dataclass(frozen=True, repr=False)
 class PoleSet:
     """Four desired poles in rad/s: (p₁, p₂) is pitch's pair and (p₃, p₄) yaw's.
@@ -40,9 +43,9 @@ class PoleSet:
                 value=len(poles),
                 hint="Give four poles: pitch's pair, then yaw's.",
             )
-        for axis, (i, j) in (("pitch", (0, 1)), ("yaw", (2, 3))):
+        for axis, i, j in _PAIRS:
             p, q = poles[i], poles[j]
-            if abs(p.imag + q.imag) > ZERO or (abs(p.imag) > 0 and abs(p.real - q.real) > ZERO):
+            if abs(p.imag + q.imag) > ZERO or (p.imag and abs(p.real - q.real) > ZERO):
                 raise UnpairedPolesError(
                     f"poles {i + 1} and {j + 1} ({axis}'s pair) are {p:g} and {q:g}: "
                     "neither both real nor conjugates",
@@ -89,25 +92,23 @@ class PoleSet:
 
 
 def _checked(pole: complex, index: int) -> complex:
-    path = f"poles.{index}"
     if isinstance(pole, bool) or not isinstance(pole, (int, float, complex)) or not cmath.isfinite(pole):
         raise InvalidInputError(
             f"pole {index + 1} is {pole!r}, not a finite number",
-            field=path,
+            field=f"poles.{index}",
             value=str(pole),
             hint="Give rad/s as a number, or as a complex number.",
         )
     value = complex(pole)
-    if max(abs(value.real), abs(value.imag)) > LARGEST:
+    re, im = value.real, value.imag
+    if not (-LARGEST <= re <= LARGEST and -LARGEST <= im <= LARGEST):
         raise InvalidInputError(
             f"pole {index + 1} is {value:g} rad/s, beyond ±{LARGEST:g}",
-            field=path,
+            field=f"poles.{index}",
             value=str(pole),
             hint=f"Keep real and imaginary part within ±{LARGEST:g} rad/s.",
         )
-    return complex(
-        0.0 if abs(value.real) < ZERO else value.real, 0.0 if abs(value.imag) < ZERO else value.imag
-    )
+    return complex(0.0 if -ZERO < re < ZERO else re, 0.0 if -ZERO < im < ZERO else im)
 
 
 def _quadratic(p: complex, q: complex) -> tuple[float, float]:

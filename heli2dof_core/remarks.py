@@ -4,45 +4,52 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations
-from math import sqrt
-
-import numpy as np
+from math import pi, sqrt
 
 from .findings import Finding
 from .kernels.layout import ROUNDING
 from .kernels.update_layout import NEARLY_PARALLEL
 from .plant import Plant
-from .signals import AXES, Complexes, Floats
+from .signals import AXES, Floats
 from .tables import conjugates
 
 COINCIDENT = 1e-6
 """Poles closer than this share of their size count as one."""
+ACCURATE = 1e-6
+"""Share of the largest pole by which poles may miss those asked for without a word."""
 FAR_OUT = 1e3
 """Poles beyond this, rad/s, are remarked on: a lab rig's motors and sensors end far below."""
 
 
 def design_remarks(
-    plant: Plant, K: Floats, poles: Sequence[complex], error: float | None, *, stable: bool, steady: bool
+    plant: Plant,
+    K: Sequence[Sequence[float]] | Floats,
+    poles: Sequence[complex],
+    error: float | None,
+    *,
+    stable: bool,
+    steady: bool,
 ) -> tuple[Finding, ...]:
     """Findings on a design.
 
     Args:
         plant: the rig.
-        K: its state feedback.
+        K: rows of its state feedback.
         poles: those asked for, or the method's own where it chooses them (error None), rad/s.
         error: distance of the poles as computed from those asked for, rad/s.
         stable: see `Design.stable`.
         steady: whether there is a steady state.
     """
-    on_stability = tuple(_on_stability(poles, stable=stable, steady=steady, placed=error is not None))
-    if error is None:
-        return (_OWN_POLES, *on_stability, *_on_plant(plant))
-    return (
-        *on_stability,
-        *_on_choice(plant, poles, K),
-        *_on_plant(plant),
-        *_on_accuracy(poles, error),
-    )
+    found: list[Finding] = [] if error is not None else [_OWN_POLES]
+    if not (stable and steady):
+        found += _on_stability(poles, stable=stable, steady=steady, placed=error is not None)
+    if error is not None:
+        found += _on_choice(plant, poles, K)
+    if plant.independence < NEARLY_PARALLEL:
+        found.append(_nearly_uncontrollable(plant.independence))
+    if error is not None and error > ACCURATE * max(1.0, *map(abs, poles)):
+        found.append(_inaccurate(error))
+    return tuple(found)
 
 
 _OWN_POLES = Finding(
@@ -53,7 +60,7 @@ _OWN_POLES = Finding(
 
 
 def _on_stability(poles: Sequence[complex], *, stable: bool, steady: bool, placed: bool) -> Iterator[Finding]:
-    if any(p.real > 0 for p in poles) and not stable:
+    if not stable and any(p.real > 0 for p in poles):
         yield Finding(
             "right_half_plane",
             "error",
@@ -74,9 +81,12 @@ def _on_stability(poles: Sequence[complex], *, stable: bool, steady: bool, place
         )
 
 
-def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Finding]:
+def _on_choice(
+    plant: Plant, poles: Sequence[complex], K: Sequence[Sequence[float]] | Floats
+) -> Iterator[Finding]:
     largest = max(map(abs, poles))
-    repeated = [p for p, q in combinations(poles, 2) if abs(p - q) <= COINCIDENT * max(largest, 1.0)]
+    near = COINCIDENT * max(largest, 1.0)
+    repeated = [p for p, q in combinations(poles, 2) if abs(p - q) <= near]
     if repeated:
         yield Finding(
             "repeated_poles",
@@ -84,8 +94,13 @@ def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Fi
             f"Two poles coincide at {conjugates(repeated[0])} rad/s. This works, but is sensitive: a model error ε "
             "moves a double pole by about √ε.",
         )
-    own = plant.poles.tolist()
-    at_open = [p for p in poles if p != 0 and min(abs(q - p) for q in own) <= COINCIDENT * max(abs(p), 1.0)]
+    at_open: list[complex] = []
+    if min([abs(p - q) for p in poles for q in plant.own_poles]) <= near:  # hardly ever
+        at_open = [
+            p
+            for p in poles
+            if p != 0 and min(abs(p - q) for q in plant.own_poles) <= COINCIDENT * max(abs(p), 1.0)
+        ]
     if at_open:
         yield Finding(
             "open_loop_pole",
@@ -93,8 +108,8 @@ def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Fi
             f"The pole at {conjugates(at_open[0])} rad/s is a pole of the open loop: feedback leaves it where it is.",
         )
     if largest > FAR_OUT:
-        volts = float(np.max(np.abs(K[:, :2]))) * np.pi / 180
-        left_out = "Noise and dead time" if K.shape[1] > 4 else "Noise, dead time and motor lag"
+        volts = max(abs(gain) for row in K for gain in row[:2]) * pi / 180
+        left_out = "Noise and dead time" if len(K[0]) > 4 else "Noise, dead time and motor lag"
         yield Finding(
             "far_out",
             "warning",
@@ -103,25 +118,22 @@ def _on_choice(plant: Plant, poles: Sequence[complex], K: Floats) -> Iterator[Fi
         )
 
 
-def _on_plant(plant: Plant) -> Iterator[Finding]:
-    share = plant.parameters.independence
-    if share < NEARLY_PARALLEL:
-        yield Finding(
-            "nearly_uncontrollable",
-            "warning",
-            f"Both motors act nearly alike: K_pp K_yy and K_py K_yp differ by only {100 * share:.2g} % of their sum. "
-            "Expect high gains.",
-        )
+def _nearly_uncontrollable(share: float) -> Finding:
+    return Finding(
+        "nearly_uncontrollable",
+        "warning",
+        f"Both motors act nearly alike: K_pp K_yy and K_py K_yp differ by only {100 * share:.2g} % of their sum. "
+        "Expect high gains.",
+    )
 
 
-def _on_accuracy(poles: Sequence[complex], error: float) -> Iterator[Finding]:
-    if error > 1e-6 * max(1.0, *map(abs, poles)):
-        yield Finding(
-            "pole_error",
-            "warning",
-            f"The computed poles miss the requested ones by up to {error:.2g} rad/s: repeated or very fast poles are "
-            "sensitive to rounding.",
-        )
+def _inaccurate(error: float) -> Finding:
+    return Finding(
+        "pole_error",
+        "warning",
+        f"The computed poles miss the requested ones by up to {error:.2g} rad/s: repeated or very fast poles are "
+        "sensitive to rounding.",
+    )
 
 
 def flat_thrust(axes: Sequence[str], *, stable: bool) -> Finding:
@@ -159,7 +171,9 @@ def lag_instability(lag: float, limit: float) -> Finding:
     )
 
 
-def loop_remarks(kp: Sequence[float], integral: Floats, *, no_decoupler: bool) -> Iterator[Finding]:
+def loop_remarks(
+    kp: Sequence[float], integral: Sequence[Sequence[float]], *, no_decoupler: bool
+) -> Iterator[Finding]:
     """Which PI loops are open, and whether there is a static decoupler.
 
     Args:
@@ -167,7 +181,7 @@ def loop_remarks(kp: Sequence[float], integral: Floats, *, no_decoupler: bool) -
         integral: what each axis' integral drives, 2×2, V/(rad·s), rows are the axes of the errors.
         no_decoupler: whether one is asked for that does not exist, as there is no steady state.
     """
-    for name, gain, driven in zip(AXES, kp, integral.tolist(), strict=True):
+    for name, gain, driven in zip(AXES, kp, integral, strict=True):
         if gain == 0:
             words = (
                 f"The {name} loop is open: its gain is 0. Its integrator drives nothing and does not count."
@@ -185,7 +199,7 @@ def loop_remarks(kp: Sequence[float], integral: Floats, *, no_decoupler: bool) -
         )
 
 
-def loop_instability(poles: Complexes, closed: Sequence[str], *, aims: bool, placed: bool) -> Finding:
+def loop_instability(poles: Sequence[complex], closed: Sequence[str], *, aims: bool, placed: bool) -> Finding:
     """What the connected loops have done.
 
     Args:
@@ -194,7 +208,7 @@ def loop_instability(poles: Complexes, closed: Sequence[str], *, aims: bool, pla
         aims: whether the method aims at poles.
         placed: whether the placed poles are stable.
     """
-    slowest, reach = poles[0], sqrt(ROUNDING) * max(abs(poles))
+    slowest, reach = poles[0], sqrt(ROUNDING) * max(map(abs, poles))
     crosses = slowest.real > reach
     where = f"lies at {conjugates(slowest, 3)} rad/s"
     if not crosses:

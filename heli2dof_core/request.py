@@ -6,7 +6,7 @@ line's options, the page's module of quantities and the field that an error name
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from typing import Any, TypeVar
@@ -274,7 +274,11 @@ NAMES = set(_tree())
 def _poles(poles: Any, split: Any, base: Preset) -> PoleSet:
     if poles is None and split is None:
         return base.poles
-    values = base.poles.values if poles is None else [_complex(pole) for pole in poles]
+    return poles_of(base.poles.values if poles is None else [_complex(pole) for pole in poles], split)
+
+
+def poles_of(values: Sequence[complex], split: Any) -> PoleSet:
+    """The poles asked for, dealt into pairs as `split` says, if it says so."""
     return PoleSet(values) if split is None else PoleSet.dealt(values, split)
 
 

@@ -154,12 +154,12 @@ def cloud_in_parts(
             )
     nominal = replace(spec, scenario=replace(spec.scenario, samples=2))
     report = evaluate(nominal)
-    loop, kernels, size = report.loop, engine(), size_of(spec)
-    placed, L = report.given
-    block = fill_block(nominal, placed=placed, L=L, each_axis=False, most_steps=None)
+    loop, kernels, task = report.loop, engine(), report.task
+    size, (placed, L) = size_of(task.rest.order), report.given
+    block = fill_block(task, placed=placed, L=L, most_steps=None, passing=False)
     factors = _random_factors(loop, uncertainty)
     t = np.linspace(0.0, spec.scenario.duration, GRID)
-    numbers = given_numbers(spec, placed, L, each_axis=False, most_steps=kernels.most_steps)
+    numbers = given_numbers(task, placed, L, kernels.most_steps)
     poles = np.empty((len(factors), len(size)), dtype=np.complex128)
     angles, verdicts = np.empty((len(factors), 2, GRID)), np.empty((2, len(factors)))
 

@@ -185,6 +185,13 @@ class Spec(Shown):
             ),
         )
 
+    def with_poles(self, poles: PoleSet) -> Spec:
+        """The same with other poles: nothing else is judged again, and what was computed of it is kept."""
+        own = object.__new__(Spec)
+        vars(own).update(vars(self))
+        vars(own)["poles"] = poles
+        return own
+
     @cached_property
     def actuators(self) -> Actuators | None:
         """Rotors and friction as numbers, at the operating point; None where all is as in the paper."""

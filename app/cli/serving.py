@@ -23,6 +23,7 @@ from pydantic import ValidationError
 from heli2dof_core.version import package_version
 
 from ..edge.connections import Connections
+from ..edge.protocol import SocketProtocol
 from ..main import create_app
 from ..ops import logs
 from ..ops.settings import Settings, complaint
@@ -148,7 +149,7 @@ def server_config(app: Any, settings: Settings) -> uvicorn.Config:
         access_log=False,  # its lines hold addresses and queries; ours do not
         proxy_headers=False,  # see middleware.proxies
         server_header=False,
-        ws="websockets-sansio",
+        ws=SocketProtocol,
         ws_max_size=_LARGEST_MESSAGE,
         ws_per_message_deflate=False,  # five times slower, and the frames are small
         ws_ping_interval=settings.ping,  # a client that is gone is dropped after twice that

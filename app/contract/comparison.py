@@ -13,8 +13,8 @@ from heli2dof_core.figures import DESIGN
 from heli2dof_core.placement.registry import METHODS
 
 from .design import Gains, gains_reply
-from .experiment import Metrics, StepRequest, metrics_reply
-from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, rga_reply, sensitivity_reply
+from .experiment import Metrics, StepRequest
+from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, relative_gains_reply, sensitivity_reply
 from .model import Complex, Model, Reply, findings_reply, parts_of, poles_reply, reply_of
 from .problems import problem_of
 
@@ -95,19 +95,18 @@ def _row(row: Row) -> Reply:
     report = row.report
     if report is None:
         return reply
-    rga = rga_reply(report.design, report.interaction)
-    gains = gains_reply(report.design, report.loop.lag_margin)
+    rga = relative_gains_reply(report.placed_findings, report.interaction)
+    gains = gains_reply(report.judged, report.size, {}, report.placed_findings)
+    scenario, *alone = report.experiments
     return {
         **reply,
         **{key: value for key, value in (gains | rga).items() if key not in _LEFT_OUT},
-        "metrics": metrics_reply(report.step["nonlinear"].metrics),
-        "axis_metrics": {
-            axis: metrics_reply(steps["nonlinear"].metrics) for axis, steps in report.axis_steps.items()
-        },
-        "margins": margins_reply(report.margins),
+        "metrics": scenario.rig.metrics,
+        "axis_metrics": {axis: each.rig.metrics for axis, each in zip(report.alone, alone, strict=True)},
+        "margins": margins_reply(report.motors),
         **sensitivity_reply(report.sensitivity),
-        "loop_poles": poles_reply(report.loop.poles),
-        "stable": report.loop.stable,
+        "loop_poles": poles_reply(report.judged.poles),
+        "stable": report.judged.stable,
         "findings": findings_reply(report.findings),
     }
 

@@ -167,7 +167,7 @@ def walkthrough_reply(spec: Spec) -> Reply:
         walk_through(design),
         A=design.plant.A,
         B=design.plant.B,
-        trim=voltages_reply(design.trim),
+        trim=voltages_reply(design.trim.tolist()),
         K=design.K,
         integral=design.integral,
         closed_loop=design.A_closed,

@@ -5,7 +5,7 @@ Every field is optional: what is left out comes from the preset. Unknown fields 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import lru_cache
 from typing import Any
 
@@ -13,9 +13,7 @@ from pydantic import Field, create_model
 
 from heli2dof_core import (
     Design,
-    Estimator,
     Heli2DofError,
-    Loop,
     Parameters,
     Spec,
     loop_of,
@@ -28,7 +26,10 @@ from heli2dof_core.design import FULL_RANK
 from heli2dof_core.estimators import observe
 from heli2dof_core.figures import LOOP as FIGURES_OF_LOOP
 from heli2dof_core.findings import merged
+from heli2dof_core.judged import Judged, Rows, Size
 from heli2dof_core.placement.registry import METHODS
+from heli2dof_core.placement.with_rotors import with_rotors
+from heli2dof_core.plant import Plant
 from heli2dof_core.presets import DEFAULT
 from heli2dof_core.request import (
     FRICTION,
@@ -44,6 +45,7 @@ from heli2dof_core.request import (
     STRUCTURE,
     judged_spec,
 )
+from heli2dof_core.rotors import Actuators
 from heli2dof_core.scenario import OuterLoop
 from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
 from heli2dof_core.tuning import Suggestion as CoreSuggestion
@@ -188,11 +190,9 @@ class ObserverGains(Model):
     poles: list[Complex] = Field(description="eigenvalues of A − LC, rad/s, slowest first")
 
 
-def observer_reply(known: Estimator | None) -> Reply:
+def observer_reply(L: Rows | None, poles: Iterable[complex] | None) -> Reply:
     """An observer's gain and poles, under ``observer``; nothing of other estimators."""
-    if known is None or known.L is None:
-        return {}
-    return {"observer": reply_of(ObserverGains, known)}
+    return {} if L is None or poles is None else {"observer": {"L": L, "poles": poles_reply(poles)}}
 
 
 class Gains(told_by({**OF_GAINS, **FIGURES_OF_LOOP})):
@@ -248,58 +248,75 @@ def _indices(parameters: Parameters, theta_0: float) -> tuple[int, ...]:
     return controllability_indices(rig.A, rig.B)
 
 
-def _indices_of(design: Design) -> tuple[int, ...]:
-    """Those of the model; each rotor lengthens its motor's chain by one."""
-    own = _indices(design.plant.parameters, design.plant.theta_0)
-    return own if design.rotor_poles is None else tuple(i + 1 for i in own)
+def model_reply(rig: Plant, placed_rotors: Actuators | None) -> Reply:
+    """What no pole changes of the model that K is designed for; each rotor lengthens its motor's chain by one."""
+    A, B, indices = rig.A, rig.B, _indices(rig.parameters, rig.theta_0)
+    if placed_rotors is not None:
+        A, B = with_rotors(A, B * placed_rotors.slope, placed_rotors.tau)
+        indices = tuple(i + 1 for i in indices)
+    return {"A": A.tolist(), "B": B.tolist(), "controllability_indices": [*indices]}
 
 
 def gains_of(spec: Spec) -> Reply:
     """The reply to a design alone: its observer is told where it has one."""
     placed = place(spec)
     loop = loop_of(spec, placed)
-    observer, unsolved = own_observer(spec, placed, loop)
-    return gains_reply(placed, loop.lag_margin, observer, unsolved)
+    observer, unsolved = own_observer(spec, loop.judged, lambda: placed)
+    findings = merged(placed.findings, unsolved)
+    return gains_reply(loop.judged, placed.size, observer, findings)
 
 
-def own_observer(spec: Spec, design: Design, loop: Loop) -> tuple[Estimator | None, tuple[CoreFinding, ...]]:
+def own_observer(
+    spec: Spec, loop: Judged, design: Callable[[], Design]
+) -> tuple[Reply, tuple[CoreFinding, ...]]:
     """The observer that a request describes, and what is to be said where there is none like that.
 
     Where the loop acts on it, it is the loop's; elsewhere it is told for its own sake and refuses nothing else.
     """
     if spec.observer is None:
-        return None, ()
+        return {}, ()
     if spec.scenario.measured == "observer":
-        return loop.estimator, ()
+        return observer_reply(loop.L, loop.observer_poles), ()
     try:
-        return observe(design, spec.observer), ()
+        own = observe(design(), spec.observer)
     except Heli2DofError as error:
         words = f"There is no observer: {error}. {error.hint}".rstrip()
-        return None, (CoreFinding("observer_unavailable", "warning", words),)
+        return {}, (CoreFinding("observer_unavailable", "warning", words),)
+    return observer_reply(None if own.L is None else own.L.tolist(), own.poles), ()
 
 
 def gains_reply(
-    design: Design,
-    lag_margin: float | None = None,
-    observer: Estimator | None = None,
-    more: tuple[CoreFinding, ...] = (),
+    loop: Judged, size: Size, observer: Reply, findings: Iterable[CoreFinding], model: Reply | None = None
 ) -> Reply:
-    """K and what it does to the poles; with the whole loop's lag margin, an observer, and what more is to be said."""
-    A, B = design.model
-    rotors = design.rotor_poles
-    return reply_of(
-        Gains,
-        design,
-        A=A,
-        B=B,
-        poles=design.poles.values,
-        rotor_poles=None if rotors is None else poles_reply(map(complex, rotors)),
-        lag_margin=lag_margin,
-        **observer_reply(observer),
-        pole_error_bound=design.pole_error_bound if design.aims else None,
-        controllability_indices=_indices_of(design),
-        **({"findings": findings_reply(merged(design.findings, more))} if more else {}),
-    )
+    """K and what it does to the poles, with the whole loop's lag margin, an observer, and what is to be said.
+
+    `model` is `model_reply`'s, if it is known.
+    """
+    placed, rotors = loop.placed, loop.placed.rotor_poles
+    if model is None:
+        model = model_reply(placed.plant, None if rotors is None else loop.actuators)
+    reply: Reply = {
+        "norm": size.norm,
+        "spectral_norm": size.spectral_norm,
+        "method": placed.method,
+        "K": placed.K,
+        **model,
+        "poles": poles_reply(placed.wanted[:4]),
+        "closed_loop_poles": poles_reply(placed.poles),
+        **observer,
+        "findings": findings_reply(findings),
+    }
+    if placed.aims:
+        reply["pole_error"], reply["pole_error_bound"] = placed.error, placed.bound
+    if placed.integral is not None:
+        reply["integral"] = placed.integral
+    if rotors is not None:
+        reply["rotor_poles"] = poles_reply(placed.wanted[4:])
+    if size.eigenvector_condition is not None:
+        reply["eigenvector_condition"] = size.eigenvector_condition
+    if loop.lag_margin is not None:
+        reply["lag_margin"] = loop.lag_margin
+    return reply
 
 
 def loops_reply(outer: OuterLoop) -> Reply:

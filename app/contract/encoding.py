@@ -35,12 +35,7 @@ def described_files(summary: str, content: dict[str, Any]) -> dict[str, Any]:
 
 
 def binary_frame(reply: dict[str, Any]) -> bytes:
-    """uint32 header length, JSON header, then float32 arrays, all little endian.
-
-    In the header each array is ``{"$f32": [offset, length]}``, counted in elements from the end of
-    the header, which is padded with spaces so that the arrays are aligned. Equal arrays, as every
-    t is, travel once.
-    """
+    """A reply as `framed` says; equal arrays travel once."""
     chunks: dict[bytes, int] = {}
     size = 0
 
@@ -52,8 +47,21 @@ def binary_frame(reply: dict[str, Any]) -> bytes:
         if data not in chunks:
             chunks[data] = size
             size += value.size
-        return {ARRAY_KEY: [chunks[data], value.size]}
+        return array_at(chunks[data], value.size)
 
-    header = orjson.dumps(reply, default=placed)
-    header += b" " * (-len(header) % 4)
-    return b"".join((struct.pack("<I", len(header)), header, *chunks))
+    return framed(orjson.dumps(reply, default=placed), *chunks)
+
+
+def array_at(offset: int, length: int) -> dict[str, list[int]]:
+    """What stands in a frame's header for an array: where it is, counted in elements from the header's end."""
+    return {ARRAY_KEY: [offset, length]}
+
+
+def framed(header: bytes, *data: bytes | memoryview) -> bytes:
+    """uint32 header length, JSON header, then float32 arrays, all little endian.
+
+    In the header each array is ``{"$f32": [offset, length]}``. It is padded with spaces so that they are
+    aligned.
+    """
+    padding = b" " * (-len(header) % 4)
+    return b"".join((struct.pack("<I", len(header) + len(padding)), header, padding, *data))

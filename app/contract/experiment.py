@@ -8,6 +8,7 @@ from heli2dof_core import Loop
 from heli2dof_core.evaluate import Step as CoreStep
 from heli2dof_core.figures import AXIS, MOTOR, STEP
 from heli2dof_core.figures import LOOP as FIGURES_OF_LOOP
+from heli2dof_core.judged import Judged
 from heli2dof_core.metrics import StepMetrics
 from heli2dof_core.request import (
     DIGITAL,
@@ -162,30 +163,35 @@ class BothModels(Model):
     nonlinear: Step
 
 
-def loop_reply(loop: Loop) -> Reply:
+def loop_reply(loop: Judged) -> Reply:
     """What every response of a loop has in common."""
-    lag = loop.lag_margin
-    return {
-        **({} if lag is None else {"lag_margin": lag}),
+    reply: Reply = {
         "loop_poles": poles_reply(loop.poles),
         "stable": loop.stable,
-        "trim": voltages_reply(loop.design.trim),
-        **observer_reply(loop.estimator),
+        "trim": voltages_reply(loop.trim),
+        **observer_reply(loop.L, loop.observer_poles),
     }
+    if loop.lag_margin is not None:
+        reply["lag_margin"] = loop.lag_margin
+    return reply
 
 
-def step_reply(step: CoreStep, loop: Loop, common: Reply | None = None) -> Reply:
-    """Trajectories and metrics of one response; the long arrays are NumPy's. `common` is `loop_reply`'s, if known."""
+def step_reply(step: CoreStep, loop: Loop) -> Reply:
+    """Trajectories and metrics of one response; the long arrays are NumPy's."""
     response, rotors = step.response, step.response.rotors
-    return {
-        **(common or loop_reply(loop)),
+    curves = {
         "t": response.t,
         "theta": response.theta,
         "psi": response.psi,
         "V_p": response.V_p,
         "V_y": response.V_y,
         **({} if rotors is None else {"rotors": dict(zip(("v_p", "v_y"), rotors, strict=True))}),
-        "reference": dict(zip(("theta", "psi"), response.reference, strict=True)),
+    }
+    theta, psi = response.reference
+    return {
+        **loop_reply(loop.judged),
+        **curves,
+        "reference": {"theta": theta, "psi": psi},
         "metrics": metrics_reply(step.metrics),
         "findings": findings_reply(step.findings),
     }

@@ -59,25 +59,30 @@ def _kind(known: Quantified) -> Any:
 PresetName = Annotated[str, Field(json_schema_extra={"enum": [*PRESETS]})]
 
 
-def _complex(value: Any) -> complex:
+def complex_number(value: Any) -> complex:
     """A plain number, or ``{"re": …, "im": …}``; ranges are the core's business."""
-    parts = (value, 0.0)
+    re, im = value, 0.0
     if isinstance(value, dict):
-        if set(value) != {"re", "im"}:
+        if value.keys() != _PARTS:
             raise ValueError('a complex number is {"re": -3.0, "im": 4.0}')
-        parts = (value["re"], value["im"])
-    if any(isinstance(part, bool) or not isinstance(part, (int, float)) for part in parts):
+        re, im = value["re"], value["im"]
+    if not (_is_number(re) and _is_number(im)):
         raise ValueError('a pole is a number, or {"re": -3.0, "im": 4.0}')
     try:
-        return complex(*parts)
+        return complex(re, im)
     except OverflowError as error:
         raise ValueError("a pole's parts must be finite numbers") from error
 
 
+def _is_number(part: Any) -> bool:
+    return type(part) is float or (isinstance(part, (int, float)) and not isinstance(part, bool))
+
+
+_PARTS = {"re", "im"}
 _NUMBER = {"type": "number", "minimum": -LARGEST, "maximum": LARGEST}
 Pole = Annotated[
     complex,
-    BeforeValidator(_complex),
+    BeforeValidator(complex_number),
     WithJsonSchema(
         {
             "anyOf": [

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Annotated
 
 import numpy as np
@@ -14,8 +14,8 @@ from heli2dof_core import (
     Loop,
     rga_over_frequency,
 )
+from heli2dof_core import Finding as CoreFinding
 from heli2dof_core.figures import MARGINS, SENSITIVITY
-from heli2dof_core.figures import Margins as CoreMargins
 from heli2dof_core.interaction import dominance_over_frequency
 from heli2dof_core.lag_track import LagTrack
 from heli2dof_core.margins import loop_margins, open_loop_response
@@ -111,25 +111,31 @@ class Sensitivity(told_by(SENSITIVITY)):
 
 
 def rga_reply(design: Design, gains: Interaction, frequencies: Sequence[float] = ()) -> Reply:
-    """RGA, pairing and Niederlinski index; without steady state only the findings."""
-    no_steady_state = [f for f in design.findings if f.code == "no_steady_state"]
-    reply: Reply = {"findings": findings_reply([*no_steady_state, *gains.findings])}
-    rga, index, cross = gains.rga, gains.niederlinski, gains.niederlinski_cross
-    if rga is not None:
-        reply["rga"] = rga.tolist()
-        reply["pairing"] = [list(pair) for pair in gains.pairing]
-        reply["reason"] = gains.reason
-    if index is not None:
-        reply["niederlinski"] = index
-    if cross is not None:
-        reply["niederlinski_cross"] = cross
-    if frequencies and rga is not None:
+    """As `relative_gains_reply`, and |RGA(jω)| at frequencies."""
+    reply = relative_gains_reply(design.findings, gains)
+    if frequencies and gains.relative_gain is not None:
         at = np.array(frequencies)
         rows, columns = dominance_over_frequency(design, at)
         reply["frequencies"] = list(frequencies)
         reply["rga_magnitude"] = np.abs(rga_over_frequency(design, at)).tolist()
         if np.all(np.isfinite(rows)) and np.all(np.isfinite(columns)):
             reply["dominance"] = {"rows": rows.tolist(), "columns": columns.tolist()}
+    return reply
+
+
+def relative_gains_reply(of_design: Iterable[CoreFinding], gains: Interaction) -> Reply:
+    """RGA, pairing and Niederlinski index; without steady state only the findings, those of the design among them."""
+    no_steady_state = [f for f in of_design if f.code == "no_steady_state"]
+    reply: Reply = {"findings": findings_reply([*no_steady_state, *gains.findings])}
+    rga, index, cross = gains.entries, gains.niederlinski, gains.niederlinski_cross
+    if rga:
+        reply["rga"] = rga
+        reply["pairing"] = gains.pairing
+        reply["reason"] = gains.reason
+    if index is not None:
+        reply["niederlinski"] = index
+    if cross is not None:
+        reply["niederlinski_cross"] = cross
     return reply
 
 
@@ -141,14 +147,14 @@ def open_loops_reply(loop: Loop, frequencies: Sequence[float]) -> Reply:
         phase = np.unwrap(np.angle(response))
         phase -= 2 * np.pi * np.ceil(phase[0] / (2 * np.pi))
         reply[axis] = {"gain": np.abs(response).tolist(), "phase": phase.tolist()}
-    return reply | {"margins": margins_reply(loop_margins(loop))}
+    margins = loop_margins(loop)
+    own = None if margins is None else (present(vars(margins[0])), present(vars(margins[1])))
+    return reply | {"margins": margins_reply(own)}
 
 
-def margins_reply(margins: tuple[CoreMargins, CoreMargins] | None) -> Reply:
-    """Margins at each motor; empty where the loop is unstable."""
-    if margins is None:
-        return {}
-    return {axis: present(vars(own)) for axis, own in zip(AXES, margins, strict=True)}
+def margins_reply(margins: tuple[Reply, Reply] | None) -> Reply:
+    """Margins at each motor, those that exist; empty where the loop is unstable."""
+    return {} if margins is None else dict(zip(AXES, margins, strict=True))
 
 
 def sensitivity_reply(sensitivity: CoreSensitivity | None) -> Reply:

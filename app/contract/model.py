@@ -6,18 +6,19 @@ is left out.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import is_dataclass
 from typing import Any, Optional
 
 import numpy as np
+import orjson
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from heli2dof_core import Finding as CoreFinding
 from heli2dof_core.figures import DESIGN, Figure
 from heli2dof_core.findings import Severity
 from heli2dof_core.request import Place
-from heli2dof_core.signals import INPUTS, Floats
+from heli2dof_core.signals import INPUTS
 
 Reply = dict[str, Any]
 
@@ -125,9 +126,14 @@ class Finding(Model):
     message: str
 
 
+def fixed(value: Any) -> orjson.Fragment:
+    """A part of replies that is sent more than once, as JSON."""
+    return orjson.Fragment(orjson.dumps(value))
+
+
 def findings_reply(findings: Iterable[CoreFinding]) -> list[Reply]:
     """Findings as objects."""
-    return [dict(vars(finding)) for finding in findings]
+    return [vars(finding) for finding in findings]
 
 
 class Voltages(Model):
@@ -137,9 +143,9 @@ class Voltages(Model):
     V_y: float = Field(description="yaw motor, V")
 
 
-def voltages_reply(values: Floats) -> Reply:
+def voltages_reply(values: Sequence[float]) -> Reply:
     """Motor voltages, V, by motor."""
-    return {signal.name: float(value) for signal, value in zip(INPUTS, values, strict=True)}
+    return {signal.name: value for signal, value in zip(INPUTS, values, strict=True)}
 
 
 class Angles(Model):

@@ -11,14 +11,16 @@ import orjson
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
 
-from heli2dof_core import Heli2DofError, Spec, evaluate
+from heli2dof_core import Heli2DofError, Spec
 from heli2dof_core.design import FULL_RANK
+from heli2dof_core.evaluate import report_of
 
-from ..contract.encoding import BINARY_SUBPROTOCOL, binary_frame, json_text
-from ..contract.evaluation import LiveRequest, report_reply
+from ..contract.encoding import BINARY_SUBPROTOCOL, json_text
+from ..contract.evaluation import LiveReader, report_frame, report_reply
 from ..contract.problems import TEXT_START, problem_of
 from ..edge.connections import connection_of
 from ..edge.messages import Mailbox, received
+from ..edge.protocol import waiting_of
 from ..jobs.compute import Compute
 from ..ops.metrics import Metrics
 
@@ -30,8 +32,8 @@ MEDIUM_STEPS = 40_000
 INLINE_LENGTH = 16_384
 """Length of a message that is read in the event loop."""
 MOST_SAMPLES = 1001
-_Request = tuple[float, str | bytes]
-"""When it came, and its text."""
+_Request = tuple[float, str | bytes, bool]
+"""When it came, its text, and whether it may be a quick one."""
 
 
 def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
@@ -42,58 +44,94 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
     async def live(socket: WebSocket) -> None:
         binary = BINARY_SUBPROTOCOL in socket.scope["subprotocols"]
         await socket.accept(subprotocol=BINARY_SUBPROTOCOL if binary else None)
-        mailbox, connection = Mailbox[_Request](), connection_of(socket)
-        answers = asyncio.create_task(_answer(socket, mailbox, compute, metrics, binary=binary))
+        await _Live(socket, compute, metrics, binary=binary).serve()
+
+    return router
+
+
+class _Live:
+    """One socket: what is asked, and what is answered."""
+
+    def __init__(self, socket: WebSocket, compute: Compute, metrics: Metrics, *, binary: bool) -> None:
+        self._socket, self._compute, self._metrics, self._binary = socket, compute, metrics, binary
+        self._connection, self._waiting = connection_of(socket), waiting_of(socket.scope)
+        self._mailbox, self._reader = Mailbox[_Request](), LiveReader()
+        self._answering = False
+
+    async def serve(self) -> None:
+        """Answers until the visitor has gone.
+
+        A common update is answered here, where it came in; what takes longer in a task of its own, while this one
+        goes on receiving.
+        """
+        answers = asyncio.create_task(self._answer_all())
         try:
             while True:
-                request = await received(socket)
-                connection.busy = True
-                mailbox.put((perf_counter(), request))
+                text = await received(self._socket)
+                since, self._connection.busy = perf_counter(), True
+                if self._answering or not self._mailbox.empty or self._waiting():
+                    self._mailbox.put((since, text, True))
+                elif (answer := self._quick(text)) is None:
+                    self._mailbox.put((since, text, False))
+                else:
+                    await self._send(answer, since)
         except WebSocketDisconnect:
             pass
         finally:
             answers.cancel()
             await asyncio.gather(answers, return_exceptions=True)
 
-    return router
+    async def _answer_all(self) -> None:
+        while True:
+            since, text, untried = await self._mailbox.take()
+            self._answering = True
+            answer = self._quick(text) if untried else None
+            if answer is None:
+                answer = await self._slow(text)
+            await self._send(answer, since)
+            self._answering = False
+            await asyncio.sleep(0)  # others' turn, even where nothing above had to wait
 
+    def _quick(self, text: str | bytes) -> str | bytes | None:
+        """The answer in the event loop, where it takes a millisecond or two; None if it might take longer.
 
-async def _answer(
-    socket: WebSocket, mailbox: Mailbox[_Request], compute: Compute, metrics: Metrics, *, binary: bool
-) -> None:
-    connection = connection_of(socket)
-    while True:
-        since, text = await mailbox.take()
+        A thread would cost as much again: two changes of threads, and with many clients the wait for Python's
+        lock, which a computing thread keeps for 5 ms (twenty clients at 20 Hz: 15 ms instead of 54, median).
+        """
+        if not self._compute.compiled or len(text) > INLINE_LENGTH:
+            return None
         try:
-            answer = _evaluate_inline(text, binary) if compute.compiled else None
-            if answer is None:
-                answer = await compute.run(_evaluate, text, binary, MEDIUM_STEPS)
-            if answer is None:
-                answer = await compute.run_slow(_evaluate, text, binary)
+            return _evaluate(self._reader, text, self._binary, QUICK_STEPS, small=True)
         except Exception as error:
-            body = problem_of(error)
-            if body["status"] == 500:
-                _log.exception("live request failed")
-            answer = json_text({**body, **_seq_of(text)})
-        if isinstance(answer, str):
-            await socket.send_text(answer)
+            return _refusal(error, text)
+
+    async def _slow(self, text: str | bytes) -> str | bytes:
+        try:
+            answer = await self._compute.run(_evaluate, self._reader, text, self._binary, MEDIUM_STEPS)
+            if answer is None:
+                answer = await self._compute.run_slow(_evaluate, self._reader, text, self._binary)
+        except Exception as error:
+            return _refusal(error, text)
+        return answer
+
+    async def _send(self, answer: str | bytes, since: float) -> None:
+        metrics, refused = self._metrics, False
+        if isinstance(answer, bytes):
+            await self._socket.send_bytes(answer)
         else:
-            await socket.send_bytes(answer)
+            await self._socket.send_text(answer)
+            refused = answer.startswith(TEXT_START)
         metrics.update.observe(perf_counter() - since)
-        refused = isinstance(answer, str) and answer.startswith(TEXT_START)
         (metrics.refusals if refused else metrics.evaluations).inc()
-        if mailbox.empty:
-            await connection.set_idle()
-        await asyncio.sleep(0)  # others' turn, even where nothing above had to wait
+        if self._mailbox.empty:
+            await self._connection.set_idle()
 
 
-def _evaluate_inline(text: str | bytes, binary: bool) -> str | bytes | None:
-    """The answer in the event loop, where it takes a millisecond or two; None if it might take longer.
-
-    A thread would cost as much again: two changes of threads, and with many clients the wait for Python's
-    lock, which a computing thread keeps for 5 ms (twenty clients at 20 Hz: 15 ms instead of 54, median).
-    """
-    return _evaluate(text, binary, QUICK_STEPS, small=True) if len(text) <= INLINE_LENGTH else None
+def _refusal(error: Exception, text: str | bytes) -> str:
+    body = problem_of(error)
+    if body["status"] == 500:
+        _log.exception("live request failed", exc_info=error)
+    return json_text({**body, **_seq_of(text)})
 
 
 def _seq_of(text: str | bytes) -> dict[str, int]:
@@ -112,24 +150,23 @@ def _is_small(spec: Spec) -> bool:
     return plain and scenario.digital is None and scenario.samples <= MOST_SAMPLES
 
 
-def _evaluate(text: str | bytes, binary: bool, most_steps: int | None = None, *, small: bool = False) -> Any:
+def _evaluate(
+    reader: LiveReader, text: str | bytes, binary: bool, most_steps: int | None = None, *, small: bool = False
+) -> Any:
     """One request's answer: JSON as text, or a binary frame as bytes.
 
     None where a response would take more than `most_steps`, or where the work is not small though it shall be.
     """
-    seq: dict[str, Any] = {}
     try:
-        data = orjson.loads(text)
-        if isinstance(data, dict) and isinstance(data.get("seq"), int):
-            seq = {"seq": data["seq"]}
-        request = LiveRequest.model_validate(data)
-        spec = request.to_spec()
+        asked = reader.read(text)
+        spec = asked.task.spec
         if small and not _is_small(spec):
             return None
-        report = evaluate(spec, each_axis=request.each_axis, most_steps=most_steps)
-        if most_steps is not None and any(f.code == "integration_stopped" for f in report.findings):
+        report = report_of(asked.task, most_steps, passing=small)
+        if most_steps is not None and report.given_up:
             return None
-        reply = {**seq, **report_reply(report, spec)}
+        if binary:
+            return report_frame(report, spec, seq=asked.seq)
+        return json_text({"seq": asked.seq, **report_reply(report, spec)})
     except (orjson.JSONDecodeError, ValidationError, Heli2DofError) as error:
-        return json_text({**problem_of(error), **seq})
-    return binary_frame(reply) if binary else json_text(reply)
+        return json_text({**problem_of(error), **_seq_of(text)})

@@ -11,7 +11,17 @@ from collections.abc import Mapping
 
 from .figure import Figure, figures_of
 from .loop import DESIGN, LOOP, MARGINS, SENSITIVITY, Margins
-from .response import AXIS, AXIS_METRICS, MOTOR, RESPONSE, STEP, AxisMetrics, MotorMetrics
+from .response import (
+    AXIS,
+    AXIS_METRICS,
+    MOTOR,
+    NO_AXIS_METRICS,
+    RESPONSE,
+    STEP,
+    AxisMetrics,
+    MotorMetrics,
+    axis_figures,
+)
 
 KINDS: Mapping[str, Mapping[str, Figure]] = {
     "axis": AXIS,
@@ -32,6 +42,7 @@ __all__ = [
     "LOOP",
     "MARGINS",
     "MOTOR",
+    "NO_AXIS_METRICS",
     "RESPONSE",
     "SENSITIVITY",
     "STEP",
@@ -39,5 +50,6 @@ __all__ = [
     "Figure",
     "Margins",
     "MotorMetrics",
+    "axis_figures",
     "figures_of",
 ]

@@ -8,6 +8,7 @@ from typing import Any
 
 if __name__.startswith("heli2dof_core.interpreted"):
     _compile: Callable[..., Any] | None = None
+    _of_types: Callable[..., Any] | None = None
 
     def _as_it_is(array: Any) -> Any:
         return array
@@ -25,6 +26,14 @@ else:
     # kernel that allocates does not compile. Scratch memory comes from the caller (`WORKSPACE`).
     options: Any = {"cache": True, "error_model": "numpy", "nogil": True, "_nrt": False}
     _compile = njit(**options)
+
+    def _of_types(template):
+        def told(args, kws):
+            return template(
+                tuple(map(types.unliteral, args)), {k: types.unliteral(v) for k, v in kws.items()}
+            )
+
+        return told
 
     def _as_given(typing_context, array):
         def same(context, builder, signature, arguments):
@@ -52,16 +61,9 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
 
 def general(function: Callable[..., Any]) -> Callable[..., Any]:
     """As `kernel`, for what is called seldom: one for all constants, each of which would have its own otherwise."""
-    made = kernel(function)
-    if _compile:
-        template: Any = made.get_call_template  # pyright: ignore[reportFunctionMemberAccess]
-
-        def of_types(args: Any, kws: Any) -> Any:
-            return template(
-                tuple(map(types.unliteral, args)), {k: types.unliteral(v) for k, v in kws.items()}
-            )
-
-        made.get_call_template = of_types  # pyright: ignore[reportFunctionMemberAccess]
+    made: Any = kernel(function)
+    if _of_types:
+        made.get_call_template = _of_types(made.get_call_template)
     return made
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
+from math import frexp, lcm, ldexp
+from operator import mul
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,7 +28,7 @@ def exact_matrix(matrix: Floats) -> DomainMatrix:
     from sympy import QQ
     from sympy.polys.matrices import DomainMatrix
 
-    entries = [[exact_fraction(x) for x in row] for row in matrix]
+    entries = [[QQ(*x.as_integer_ratio()) for x in row] for row in matrix.tolist()]
     return DomainMatrix(entries, matrix.shape, QQ)
 
 
@@ -89,7 +91,30 @@ def exact_eigenvalues(matrix: DomainMatrix, near: Complexes) -> list[Any]:
     Raises:
         ArithmeticError: roots lie too close for `MOST_PRECISION` bits.
     """
-    return roots(matrix.charpoly(), near)
+    return roots(_characteristic_polynomial(matrix), near)
+
+
+def _characteristic_polynomial(matrix: DomainMatrix) -> list[Any]:
+    """Of a square matrix, highest power first, by the method of Faddeev and Le Verrier in whole numbers.
+
+    On four rows it takes a third of the time of one that is good for hundreds.
+    """
+    from sympy import QQ
+
+    entries, n = matrix.to_list(), matrix.shape[0]
+    unit = lcm(*(int(x.denominator) for row in entries for x in row))
+    own = [[int(x.numerator) * (unit // int(x.denominator)) for x in row] for row in entries]
+    found, power = [QQ.one], 1
+    product = [[0] * n for _ in range(n)]
+    trace = 1  # of the coefficient before
+    for k in range(1, n + 1):
+        for i in range(n):
+            product[i][i] += trace
+        columns = [*zip(*product, strict=True)]
+        product = [[sum(map(mul, row, column)) for column in columns] for row in own]
+        trace, power = -sum(product[i][i] for i in range(n)) // k, power * unit
+        found.append(QQ(trace, power))
+    return found
 
 
 def roots(polynomial: Sequence[Any], near: Complexes = NOWHERE) -> list[Any]:
@@ -98,31 +123,123 @@ def roots(polynomial: Sequence[Any], near: Complexes = NOWHERE) -> list[Any]:
     from sympy.polys.sqfreetools import dup_sqf_list
 
     found: list[Any] = []
-    for factor, multiplicity in dup_sqf_list(list(polynomial), QQ)[1]:
+    factors = [(list(polynomial), 1)]
+    if not _has_simple_roots(polynomial):
+        factors = dup_sqf_list(list(polynomial), QQ)[1]
+    for factor, multiplicity in factors:
         found += [root for root in _simple_roots(factor, near) for _ in range(multiplicity)]
     return found
 
 
+def _has_simple_roots(polynomial: Sequence[Any]) -> bool:
+    """Whether all roots surely are: the polynomial and its derivative have no common root even modulo a prime."""
+    try:
+        own = [int(c.numerator) * pow(int(c.denominator), -1, _PRIME) % _PRIME for c in polynomial]
+    except ValueError:  # a denominator is a multiple of it
+        return False
+    if len(own) < 2 or own[0] == 0:
+        return False
+    n = len(own) - 1
+    other = [c * (n - k) % _PRIME for k, c in enumerate(own[:-1])]
+    while len(other) > 1:
+        inverse, rest = pow(other[0], -1, _PRIME), own
+        while len(rest) >= len(other):
+            factor = rest[0] * inverse % _PRIME
+            head = [(c - factor * d) % _PRIME for c, d in zip(rest, other, strict=False)]
+            rest = [*head, *rest[len(other) :]][1:]
+        while rest and rest[0] == 0:
+            rest = rest[1:]
+        if not rest:
+            return False
+        own, other = other, rest
+    return True
+
+
+_PRIME = 2**61 - 1
+
+
 def _simple_roots(coefficients: Sequence[Any], near: Complexes) -> list[Any]:
-    from mpmath import mp, mpc, mpf
+    from mpmath import mp, mpf
     from mpmath.libmp import NoConvergence
 
     degree = len(coefficients) - 1
     precision = max(PRECISION, BITS_PER_ROOT * degree)
-    size = float(np.max(np.abs(near), initial=0.0)) or 1.0
-    apart = 1e-9 * size * np.exp(1j * (1.0 + np.arange(degree)))  # equal guesses would stay equal
-    start = near[:degree] + apart if len(near) == degree else None
+    if len(near) == degree and near.any():
+        size = float(np.max(np.abs(near)))
+        apart = 1e-9 * size * np.exp(1j * (1.0 + np.arange(degree)))  # equal guesses would stay equal
+        found = _refined(coefficients, (near + apart).tolist(), precision)
+        if found is not None:
+            return found
     while precision <= MOST_PRECISION:
         with mp.workprec(2 * precision):
             polynomial = [mpf(int(c.numerator)) / int(c.denominator) for c in coefficients]
         with mp.workprec(precision):
-            guesses = None if start is None else [mpc(complex(p)) for p in start]
             try:
-                return list(mp.polyroots(polynomial, maxsteps=100, extraprec=precision, roots_init=guesses))
+                return list(mp.polyroots(polynomial, maxsteps=100, extraprec=precision))
             except NoConvergence:
                 precision *= 2
-                start = None
     raise ArithmeticError("the poles lie too close together to be told apart")
+
+
+def _refined(coefficients: Sequence[Any], guesses: list[complex], precision: int) -> list[Any] | None:
+    """All roots to `precision` bits of the largest, from guesses; None where these do not lead there.
+
+    By the iteration of Ehrlich and Aberth (Aberth, Math. Comp. 27 (1973) 339), which triples the digits of simple
+    roots in each round, in whole numbers, each a multiple of a small power of two: tens of times as fast as numbers
+    that carry their exponents.
+    """
+    from mpmath import mpc, mpf
+
+    exponent, bits = frexp(max(map(abs, guesses)))[1], 2 * precision
+    scaled, points = [], []
+    for k, coefficient in enumerate(coefficients):
+        share, shift = coefficient / coefficients[0], bits - exponent * k
+        above, below = int(share.numerator), int(share.denominator)
+        scaled.append((above << shift) // below if shift >= 0 else above // (below << -shift))
+    for p in guesses:
+        re, im = (int(ldexp(part, 60 - exponent)) for part in (p.real, p.imag))
+        points.append((re << bits - 60, im << bits - 60))
+    for _ in range(_MOST_ROUNDS):
+        settled = True
+        for i, (x, y) in enumerate(points):
+            try:
+                re, im = _aberth_step(scaled, points, i, bits)
+            except ZeroDivisionError:  # two guesses have met, or one lies where the slope is 0
+                return None
+            points[i] = (x - re, y - im)
+            step, own = max(abs(re), abs(im)), max(abs(x), abs(y))
+            settled = settled and step >> precision == 0 and step <= own >> precision // 2
+        if settled:
+            tiny = 1 << precision  # what is left of a part that is 0
+            parts = [[0 if abs(v) < tiny else v for v in point] for point in points]
+            parts.sort(key=lambda point: (abs(point[1]), point[0]))
+            return [mpc(*(mpf((v, exponent - bits)) for v in point)) for point in parts]
+    return None
+
+
+_MOST_ROUNDS = 30
+
+
+def _aberth_step(scaled: list[int], points: list[tuple[int, int]], i: int, bits: int) -> tuple[int, int]:
+    """How far a guess is from its root: Newton's step, corrected for the other roots."""
+    x, y = points[i]
+    a, b, c, d = scaled[0], 0, 0, 0  # the polynomial and its derivative there
+    for coefficient in scaled[1:]:
+        c, d = (c * x - d * y >> bits) + a, (c * y + d * x >> bits) + b
+        a, b = (a * x - b * y >> bits) + coefficient, a * y + b * x >> bits
+    if a == 0 and b == 0:
+        return 0, 0
+    re = im = 0
+    for j, (u, v) in enumerate(points):
+        if j != i:
+            p, q = x - u, y - v
+            size = p * p + q * q
+            re += (p << 2 * bits) // size
+            im -= (q << 2 * bits) // size
+    # p / (p′ − p Σ)
+    e, f = c - (a * re - b * im >> bits), d - (a * im + b * re >> bits)
+    size = e * e + f * f
+    return ((a * e + b * f) << bits) // size, ((b * e - a * f) << bits) // size
 
 
 def exact_eigenvectors(matrix: DomainMatrix, values: Sequence[Any]) -> Complexes | None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import sqrt
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +16,6 @@ from ..kernels.update_layout import DOUBTFUL_SHARE
 from ..poles import match_poles
 from ..signals import Complexes, Floats
 from .exact import exact_closed_loop, exact_eigenvalues, exact_eigenvectors
-
-if TYPE_CHECKING:
-    from sympy.polys.matrices import DomainMatrix
 
 EPS = float(np.finfo(np.float64).eps)
 
@@ -61,13 +59,12 @@ def judge(A: Floats, B: Floats, K: Floats, wanted: Complexes, *, condition: bool
     found, rounding = _in_floats(A, B, K)
     size = float(np.max(np.abs(wanted), initial=0.0)) or float(np.max(np.abs(found), initial=0.0))
     if not rounding <= DOUBTFUL_SHARE * size:
-        matrix = exact_closed_loop(A, B, K)
-        try:
-            values = exact_eigenvalues(matrix, found)
-        except ArithmeticError:
-            pass
-        else:
-            return _exactly(matrix, values, wanted, rounding, condition=condition)
+        matrices = tuple((matrix.shape, np.asarray(matrix, np.float64).tobytes()) for matrix in (A, B, K))
+        exact = _exactly(
+            matrices, tuple(wanted.tolist()), tuple(found.tolist()), rounding, condition=condition
+        )
+        if exact is not None:
+            return exact
     found = found[match_poles(wanted, found)]
     return Verdict(found, float(np.max(np.abs(found - wanted))), rounding, rounding, exact=False)
 
@@ -94,15 +91,30 @@ def _size(matrix: NDArray[Any]) -> float:
     return sqrt(np.vdot(matrix, matrix).real)
 
 
+@lru_cache(
+    maxsize=256
+)  # a design is asked for more than once: as a drag ends, for files, by the others of a class
 def _exactly(
-    matrix: DomainMatrix, values: list[Any], wanted: Complexes, rounding: float, *, condition: bool
-) -> Verdict:
+    matrices: tuple[tuple[tuple[int, ...], bytes], ...],
+    wanted: tuple[complex, ...],
+    near: tuple[complex, ...],
+    rounding: float,
+    *,
+    condition: bool,
+) -> Verdict | None:
+    """Of A, B and K, each its shape and its floats; None where the poles lie too close together to be told apart."""
     from mpmath import mpc
 
+    A, B, K = (np.frombuffer(data).reshape(shape) for shape, data in matrices)
+    matrix = exact_closed_loop(A, B, K)
+    try:
+        values = exact_eigenvalues(matrix, np.array(near))
+    except ArithmeticError:
+        return None
     order = match_poles(wanted, [complex(v) for v in values])
     values = [values[i] for i in order]
     found = np.array([complex(v) for v in values])
-    error = max(float(abs(v - mpc(complex(w)))) for v, w in zip(values, wanted.tolist(), strict=True))
+    error = max(float(abs(v - mpc(complex(w)))) for v, w in zip(values, wanted, strict=True))
     bound = EPS * float(np.max(np.abs(found)))
     vectors = exact_eigenvectors(matrix, values) if condition else None
     return Verdict(found, error, bound, rounding, True, None if vectors is None else conditioned(vectors))

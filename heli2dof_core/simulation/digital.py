@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from math import ceil
 
 import numpy as np
@@ -16,7 +15,7 @@ from ..scenario import Digital, Limits, Scenario
 from ..scratch import FOLLOWED_TWICE
 from ..signals import Floats
 from .augmented import inner_start, sampled_estimator
-from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop, limited_response
+from .nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop, limited_response, rig_findings
 from .response import Measured, Response, room
 
 SLOW_SAMPLING = 0.25
@@ -69,13 +68,11 @@ def simulate_digital(loop: Loop, limits: Limits, scenario: Scenario, digital: Di
         *found,
     )
     course, voltages = np.ascontiguousarray(states.T), np.ascontiguousarray(held.T)
-    response = limited_response(loop, system.experiment, t, (course, voltages), Measured(*found))
-    return with_sampling_remarks(response, loop, scenario, digital)
-
-
-def with_sampling_remarks(response: Response, loop: Loop, scenario: Scenario, digital: Digital) -> Response:
-    """The response with what is to be said of the controller's sampling."""
-    return replace(response, findings=(*response.findings, *_remarks(loop, scenario, digital)))
+    remarks = rig_findings(t, system.experiment.tolist(), found[2].tolist())
+    remarks = (*remarks, *sampling_findings(loop, scenario, digital))
+    return limited_response(
+        loop, system.experiment, t, (course, voltages), Measured(*found), findings=remarks
+    )
 
 
 def noise_of(scenario: Scenario, digital: Digital) -> Floats:
@@ -117,7 +114,8 @@ def rate_filter(sample_time: float) -> tuple[Floats, Floats]:
     return step[:2, :2], step[:2, 2]
 
 
-def _remarks(loop: Loop, scenario: Scenario, digital: Digital) -> Iterator[Finding]:
+def sampling_findings(loop: Loop, scenario: Scenario, digital: Digital) -> Iterator[Finding]:
+    """What is to be said of the controller's sampling."""
     fastest = float(np.max(np.abs(loop.poles)))
     if digital.sample_time * fastest > SLOW_SAMPLING:
         yield Finding(

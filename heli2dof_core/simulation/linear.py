@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..engine import engine
+from ..findings import Finding
 from ..kernels.layout import exact_shapes
 from ..loop import Loop
 from ..scenario import Scenario
@@ -12,7 +13,7 @@ from ..scratch import FOLLOWED_TWICE
 from ..signals import Floats, fixed
 from .augmented import inner_start, own_states
 from .experiment import experiment
-from .response import Measured, Response, course_response, room
+from .response import Measured, Response, course_response, end_of_course, room
 
 AT_REST = fixed(np.zeros(2))
 """Its voltages are deviations from the trim."""
@@ -52,13 +53,28 @@ def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = Non
         voltages,
         *found,
     )
-    return linear_response(loop, x, t, (states, voltages), Measured(*found))
+    remarks = end_of_course("linear", t, found[2].tolist())
+    return linear_response(loop, x, t, (states, voltages), Measured(*found), findings=remarks)
 
 
 def linear_response(
-    loop: Loop, x: Floats, t: Floats, course: tuple[Floats, Floats], found: Measured
+    loop: Loop,
+    x: Floats,
+    t: Floats,
+    course: tuple[Floats, Floats],
+    found: Measured,
+    *,
+    findings: tuple[Finding, ...],
 ) -> Response:
-    """The course of an experiment with its remarks: states as the kernel has filled them, and voltages."""
+    """The course of an experiment: states as the kernel has filled them, voltages, and what is to be said of it."""
     states, voltages = course
-    own = own_states(loop, states)
-    return course_response("linear", x.tolist(), t, found, states=own, signals=loop.states, voltages=voltages)
+    return course_response(
+        "linear",
+        x.tolist(),
+        t,
+        found,
+        states=own_states(loop, states),
+        signals=loop.states,
+        voltages=voltages,
+        findings=findings,
+    )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import degrees
 
@@ -15,6 +15,8 @@ from ..kernels.layout import (
     BOUND,
     CONSTANTS,
     GAIN,
+    HELD,
+    IMPACTS,
     LIMIT,
     MODES,
     MORE_CONSTANTS,
@@ -35,7 +37,7 @@ from ..scratch import FOLLOWED_TWICE
 from ..signals import INPUTS, Floats
 from .augmented import inner_start, more_constants, own_states
 from .experiment import NOTHING, experiment
-from .response import Measured, Response, course_response, room
+from .response import Measured, Response, course_response, end_of_course, room
 
 ABSOLUTE_TOLERANCE = 0.1
 """Absolute tolerance of the integration as a share of the relative one (states are of order 1)."""
@@ -140,37 +142,54 @@ def simulate_nonlinear(
         voltages,
         *found,
     )
-    return limited_response(loop, system.experiment, t, (states, voltages), Measured(*found))
+    remarks = rig_findings(t, system.experiment.tolist(), found[2].tolist())
+    return limited_response(
+        loop, system.experiment, t, (states, voltages), Measured(*found), findings=remarks
+    )
 
 
 def limited_response(
-    loop: Loop, x: Floats, t: Floats, course: tuple[Floats, Floats], found: Measured
+    loop: Loop,
+    x: Floats,
+    t: Floats,
+    course: tuple[Floats, Floats],
+    found: Measured,
+    *,
+    findings: tuple[Finding, ...],
 ) -> Response:
-    """The course of an experiment with its remarks: states as the kernel has filled them, and voltages."""
+    """The course of an experiment: states as the kernel has filled them, voltages, and what is to be said of it."""
     states, voltages = course
-    numbers: list[float] = x.tolist()
-    pitch, yaw, _, _, impacts, *_ = found.course[SHARE:].tolist()
-    remarks = tuple(_remarks(numbers, (pitch, yaw), impacts))
+    pitch, yaw = found.course[SHARE:HELD].tolist()
     return course_response(
         "nonlinear",
-        numbers,
+        x.tolist(),
         t,
         found,
         states=own_states(loop, states),
         signals=loop.states,
         voltages=voltages,
+        findings=findings,
         saturated=(pitch, yaw),
-        remarks=remarks,
     )
 
 
-def _remarks(x: list[float], saturated: tuple[float, float], impacts: float) -> Iterator[Finding]:
-    for signal, share, limit in zip(INPUTS, saturated, x[BOUND:STOP], strict=True):
+def rig_findings(t: Floats, x: Sequence[float], course: Sequence[float]) -> tuple[Finding, ...]:
+    """What is to be said of the rig's course of an experiment, both laid out as `layout` says."""
+    end = end_of_course("nonlinear", t, course)
+    quiet = not (course[SHARE] or course[SHARE + 1] or course[IMPACTS])
+    if quiet and abs(x[START]) <= x[STOP] and abs(x[REFERENCE]) <= x[STOP]:
+        return end
+    return (*end, *_remarks(x, course))
+
+
+def _remarks(x: Sequence[float], course: Sequence[float]) -> Iterator[Finding]:
+    for i, signal in enumerate(INPUTS):
+        share = course[SHARE + i]
         if share:
             yield Finding(
                 f"saturation_{signal.name}",
                 "warning",
-                f"The {signal.meaning} is at its limit of ±{limit:g} V for {100 * share:.0f} % of the time.",
+                f"The {signal.meaning} is at its limit of ±{x[BOUND + i]:g} V for {100 * share:.0f} % of the time.",
             )
     travel = x[STOP]
     if abs(x[START]) > travel:
@@ -179,7 +198,7 @@ def _remarks(x: list[float], saturated: tuple[float, float], impacts: float) -> 
             "warning",
             "The start angle lies beyond the pitch travel. The rig starts on its stop.",
         )
-    if impacts:
+    if course[IMPACTS]:
         yield Finding("travel_stop", "warning", f"Pitch hits a stop of its travel at {_stop(travel)}.")
     if abs(x[REFERENCE]) > travel:
         yield Finding(

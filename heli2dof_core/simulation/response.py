@@ -13,6 +13,7 @@ from ..findings import Finding
 from ..frozen import Frozen
 from ..kernels.layout import (
     COURSE,
+    ENDED,
     HELD,
     MOTOR_METRICS,
     OUT_OF_STEPS,
@@ -142,24 +143,27 @@ def course_response(
     states: Floats,
     signals: tuple[Signal, ...],
     voltages: Floats,
+    findings: tuple[Finding, ...],
     saturated: tuple[float, float] = (0.0, 0.0),
-    remarks: tuple[Finding, ...] = (),
 ) -> Response:
-    """The course of an experiment, laid out as `layout` says, with what is to be said of its end first."""
+    """The course of an experiment, laid out as `layout` says, and what is to be said of it."""
     theta, psi, *start = x[: START + 2]
-    remarks = (*_end_of(model, t, found), *remarks)
     ends = (theta, psi), (start[0], start[1])
-    return Response(model, t, states[:2], voltages, *ends, saturated, remarks, states, found, signals)
+    return Response(model, t, states[:2], voltages, *ends, saturated, findings, states, found, signals)
 
 
-def _end_of(model: Literal["linear", "nonlinear"], t: Floats, found: Measured) -> Iterator[Finding]:
-    """How a course ended before its time: without bound, or given up."""
-    course = found.course.tolist()
-    held, outcome, reached = course[HELD], course[OUTCOME], course[REACHED]
+def end_of_course(
+    model: Literal["linear", "nonlinear"], t: Floats, course: Sequence[float]
+) -> tuple[Finding, ...]:
+    """How a course ended before its time: without bound, or given up; `course` as `layout` says."""
+    held, outcome = course[HELD], course[OUTCOME]
+    if held >= len(t) and outcome == ENDED:
+        return ()
     if held < len(t):
         message = f"The response grows without bound. It is shown until t = {t[int(held) - 1]:.3g} s."
-        yield Finding("diverges", "error", message)
-    elif outcome in _GIVEN_UP:
+        return (Finding("diverges", "error", message),)
+    if outcome in _GIVEN_UP:
         what = "The simulation" if model == "nonlinear" else "Measuring the linear response"
-        words = f"{what} stopped early, at t = {reached:.3g} s: {_GIVEN_UP[int(outcome)]}."
-        yield Finding("integration_stopped", "warning", words)
+        words = f"{what} stopped early, at t = {course[REACHED]:.3g} s: {_GIVEN_UP[int(outcome)]}."
+        return (Finding("integration_stopped", "warning", words),)
+    return ()

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from heli2dof_core import OuterLoop, PoleSet, Scenario, Spec, close_loop, design, evaluate, plant, preset
-from heli2dof_core.figures import AXIS
+from heli2dof_core.figures import AXIS, axis_figures
 from heli2dof_core.metrics import step_metrics
 from heli2dof_core.scenario import Digital, Disturbance
 from heli2dof_core.simulation.linear import simulate_linear
@@ -254,3 +254,8 @@ def test_a_disturbance_does_not_count_into_a_step(digital):
     assert pushed.metrics.motors["V_p"].effort > 1.5 * own.metrics.motors["V_p"].effort
     assert "disturbance_left_out" in {f.code for f in pushed.response.findings}
     assert "disturbance_left_out" not in {f.code for f in own.response.findings}
+
+
+def test_a_kernels_row_has_the_registrys_columns():
+    row = [float(k) for k in range(len(AXIS) - 1)]
+    assert axis_figures([*row, 1.0]) == {**dict(zip(AXIS, row, strict=False)), "settled": True}
