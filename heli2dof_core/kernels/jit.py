@@ -6,9 +6,10 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
+_compile: Callable[..., Any] | None = None
+_of_types: Callable[..., Any] | None = None
+
 if __name__.startswith("heli2dof_core.interpreted"):
-    _compile: Callable[..., Any] | None = None
-    _of_types: Callable[..., Any] | None = None
 
     def _as_it_is(array: Any) -> Any:
         return array
@@ -27,13 +28,15 @@ else:
     options: Any = {"cache": True, "error_model": "numpy", "nogil": True, "_nrt": False}
     _compile = njit(**options)
 
-    def _of_types(template):
+    def _without_constants(template):
         def told(args, kws):
             return template(
                 tuple(map(types.unliteral, args)), {k: types.unliteral(v) for k, v in kws.items()}
             )
 
         return told
+
+    _of_types = _without_constants
 
     def _as_given(typing_context, array):
         def same(context, builder, signature, arguments):
