@@ -194,11 +194,20 @@ export const SIGNATURES = {
       { name: 'within', type: 'f64', dimensions: 1 },
     ],
   },
+  eigenvalues: {
+    takes: [
+      { name: 'a', type: 'f64', dimensions: 2 },
+      { name: 'real', type: 'f64', dimensions: 1 },
+      { name: 'imaginary', type: 'f64', dimensions: 1 },
+      { name: 'v', type: 'f64', dimensions: 1 },
+    ],
+    returns: 'bool',
+  },
 };
 
 /** Checksums of what it was made from, and of kernels.wasm. */
-export const SOURCES = 'e3395ee03892abe6f10a454eb578e023e90b2b73023bce8af953a03d60ce2916';
-export const MODULE = 'b03a8e3cb08157ccdf6a565fd5e3a24beb0bd1097a7906163ef899111fd1db5c';
+export const SOURCES = '785d14f13df587706b657f9195630a26aa03d7262a2d9ee1ec69f66785aa1aa5';
+export const MODULE = 'ea51311be54cb9af6941efb2376f54e8f18c02d7a976444d1b7da95cef40725d';
 
 /** What made it. */
 export const TOOLS = {

@@ -18,7 +18,7 @@ from app.contract.encoding import json_text
 from app.contract.evaluation import EvaluateRequest, report_reply
 from app.contract.presets import preset_reply
 from heli2dof_core import Heli2DofError, Spec, evaluate
-from heli2dof_core.block import fill_block, numbers_of
+from heli2dof_core.block import Task, fill_block, given_numbers
 from heli2dof_core.kernels import layout
 from heli2dof_core.presets import PRESETS
 from heli2dof_core.scenario import AntiWindup, Measured
@@ -186,7 +186,7 @@ def test_the_numbers_are_those_of_the_request_and_what_is_refused_is_not_served(
             continue
         served += 1
         spec = spec_of(body)
-        wanted = list(map(float, numbers_of(spec, True, STEPS)))
+        wanted = given_numbers(Task.of(spec, each_axis=True), None, None, STEPS)
         numbers = [float(v) for v in found["numbers"]]
         assert np.array_equal(numbers, wanted, equal_nan=True), (name, part)
         assert found["size"] == (14 if spec.scenario.measured != "states" else 8 if spec.actuators else 6)
@@ -266,7 +266,7 @@ def test_the_pages_reply_is_the_servers(case: tuple[str, dict[str, Any]], ask: A
     assert found["served"]
     spec = spec_of({k: v for k, v in found["body"].items() if k != "each_axis"})
     reply = reply_to(spec)
-    block = fill_block(spec, placed=None, L=None, each_axis=True, most_steps=STEPS)
+    block = fill_block(Task.of(spec, each_axis=True), placed=None, L=None, most_steps=STEPS, passing=False)
     for more in ({"block": {own: told(v) for own, v in block.items()}}, {}):
         answer = ask({**asked, **more, "reply": reply})
         assert answer["difference"] is None

@@ -158,14 +158,29 @@ def test_step_honours_its_scenario(client):
     assert linear["trim"]["V_p"] == pytest.approx(12.535, abs=1e-3)
 
 
+def assert_alike(one, other):
+    """To rounding: the steps one by one add in another order than the kernel of the whole."""
+    assert type(one) is type(other)
+    if isinstance(one, dict):
+        assert one.keys() == other.keys()
+        for name, value in one.items():
+            assert_alike(value, other[name])
+    elif isinstance(one, list):
+        assert len(one) == len(other)
+        for own, others in zip(one, other, strict=True):
+            assert_alike(own, others)
+    else:
+        assert one == pytest.approx(other, rel=1e-6, abs=1e-9) if isinstance(one, float) else one == other
+
+
 def test_evaluate_is_its_parts_together(client):
     body = {**PAPER, "scenario": {"reference": {"theta": 0.1, "psi": 0.2}}}
     whole = post(client, "evaluate", {**body, "each_axis": True})
-    assert whole["gains"] == post(client, "gains", PAPER)
-    assert whole["rga"] == post(client, "rga", PAPER)
-    assert whole["step"]["nonlinear"] == post(client, "step", body)
+    assert_alike(whole["gains"], post(client, "gains", PAPER))
+    assert_alike(whole["rga"], post(client, "rga", PAPER))
+    assert_alike(whole["step"]["nonlinear"], post(client, "step", body))
     alone = post(client, "step", {**PAPER, "scenario": {"reference": {"psi": 0.2}, "model": "linear"}})
-    assert whole["axis_steps"]["psi"]["linear"] == alone
+    assert_alike(whole["axis_steps"]["psi"]["linear"], alone)
     assert whole["axis_steps"]["theta"]["linear"]["reference"] == {"theta": 0.1, "psi": 0.0}
 
 

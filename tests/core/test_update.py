@@ -135,4 +135,4 @@ def test_kalman_filters_and_nearly_parallel_motors_come_from_outside_the_kernel(
 def test_the_numbers_are_as_many_as_the_layout_says():
     spec = Spec.from_preset()
     spec = replace(spec, scenario=replace(spec.scenario, digital=Digital()))
-    assert len(numbers_of(spec, True, 1)) == NUMBERS
+    assert len(numbers_of(spec, True)) == NUMBERS
