@@ -17,7 +17,7 @@ PYTEST = CHROMIUM=$(CHROMIUM) $(BIN)/pytest $(BESIDE)
 CHROMIUM ?= $(firstword $(shell command -v chromium-headless-shell chromium chromium-browser google-chrome))
 
 .PHONY: help serve test quick check style format static-types floors types kernels unit page-test e2e steady mutation contract screenshot \
-  bench docs image clean browser
+  wasm bench docs image clean browser
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
@@ -79,6 +79,10 @@ contract: $(VENV)/.tools ## make what follows from the core and the contract: th
 	$(BIN)/python -m tests.page_quantities
 	$(BIN)/python -m tests.page_kernel
 	$(BIN)/python -m tests.page_types
+
+wasm: $(VENV)/.tools ## make static/kernel/kernels.wasm and its table anew, from the kernels
+	@command -v wasm-ld >/dev/null || $(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt '.[wasm]'
+	$(BIN)/python -m wasm
 
 screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.screenshot docs/screenshot.png

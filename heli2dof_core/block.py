@@ -12,7 +12,7 @@ from .couplings import STRUCTURES
 from .design import FULL_RANK, Design
 from .engine import engine
 from .estimators import Observer
-from .kernels.layout import ALL_STATES, FILTERED_RATES, FULL, LAGGED, OBSERVED, PLAIN, SIZES
+from .kernels.layout import ALL_STATES, FILTERED_RATES, OBSERVED, SIZES
 from .kernels.update_layout import (
     AIMS,
     GIVEN_INTEGRAL,
@@ -58,14 +58,9 @@ def fill_block(
         most_steps: as in `evaluate`.
     """
     kernels, scenario = engine(), spec.scenario
-    numbers = np.array(numbers_of(spec, each_axis, most_steps or kernels.most_steps))
-    if placed is not None:
-        _give(numbers, placed)
-    if L is not None:
-        numbers[L_GIVEN], numbers[GIVEN_L:] = 1.0, L.ravel()
-    order = PLAIN if spec.actuators is None else LAGGED
-    order = order if scenario.measured == "states" else FULL
-    size = SIZES[(PLAIN, LAGGED, FULL).index(order)]
+    numbers = given_numbers(spec, placed, L, each_axis=each_axis, most_steps=most_steps or kernels.most_steps)
+    size = size_of(spec)
+    order = len(size)
     memory = np.empty((), _layout(order, scenario.samples))
     block = {name: memory[name] for name in memory.dtype.names or ()}
     noise = NO_NOISE if scenario.controller is None else noise_of(scenario, scenario.controller)
@@ -76,6 +71,26 @@ def fill_block(
 def has_closed_form(spec: Spec) -> bool:
     """Whether `update` finds K itself."""
     return spec.method == FULL_RANK and not plant(spec.parameters, spec.theta_0).nearly_parallel
+
+
+def size_of(spec: Spec) -> Any:
+    """As many zeros as the kernels' states of a spec's loop (`kernels.layout.SIZES`)."""
+    papers, with_rotors, full = SIZES
+    if spec.scenario.measured != "states":
+        return full
+    return papers if spec.actuators is None else with_rotors
+
+
+def given_numbers(
+    spec: Spec, placed: Design | None, L: Floats | None, *, each_axis: bool, most_steps: int
+) -> Floats:
+    """`numbers_of` with K and L where these come from outside the kernel, (NUMBERS,)."""
+    numbers = np.array(numbers_of(spec, each_axis, most_steps))
+    if placed is not None:
+        _give(numbers, placed)
+    if L is not None:
+        numbers[L_GIVEN], numbers[GIVEN_L:] = 1.0, L.ravel()
+    return numbers
 
 
 def _give(numbers: Floats, placed: Design) -> None:

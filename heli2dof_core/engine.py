@@ -7,6 +7,7 @@ from pathlib import Path
 from pkgutil import iter_modules
 from threading import Lock
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
@@ -74,11 +75,9 @@ def _load(package: str) -> Engine:
     for module in iter_modules(home.__path__, f"{home.__name__}."):
         import_module(module.name)
     functions = import_module(f"{home.__name__}.jit").ENTRIES
-    if package == "interpreted":  # NumPy's scalars warn where a response grows without bound
-        functions = {
-            name: np.errstate(over="ignore", invalid="ignore", divide="ignore")(f)
-            for name, f in functions.items()
-        }
+    if package == "interpreted":  # NumPy's scalars warn where a response grows without bound, or 0 divides
+        ignored: Any = dict.fromkeys(("over", "invalid", "divide"), "ignore")
+        functions = {name: np.errstate(**ignored)(f) for name, f in functions.items()}
     return Engine(compiled=package == "kernels", **functions)
 
 

@@ -24,6 +24,7 @@ from .plant import plant
 from .read_block import design_of, exists, loop_in
 from .scenario import Model, Scenario
 from .sensitivity import Sensitivity, sensitivity_of
+from .signals import Floats
 from .simulation.digital import simulate_digital, with_sampling_remarks
 from .simulation.linear import linear_response, simulate_linear
 from .simulation.nonlinear import limited_response, simulate_nonlinear
@@ -64,6 +65,11 @@ class Report(Shown):
     _placed: Design | None
     _estimator: Estimator | None
     _alone: tuple[str, ...]
+
+    @property
+    def given(self) -> tuple[Design | None, Floats | None]:
+        """Design and L where these have come from outside the kernel."""
+        return self._placed, self._estimator and self._estimator.L
 
     @cached_property
     def design(self) -> Design:

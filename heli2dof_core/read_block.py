@@ -67,7 +67,7 @@ def loop_in(spec: Spec, block: Block, design: Design, known: Estimator | None) -
     places += range(8, 8 + (estimated.order if estimated else 0))
     law, A, B, n = block["law"], block["whole"], block["driven"], len(places)
     if n != len(A):
-        law, A, B = law[:, places], A[np.ix_(places, places)], B[places]
+        law, A, B = np.ascontiguousarray(law[:, places]), A[np.ix_(places, places)], B[places]
     motors = np.zeros((n, 2))
     thrust = block["B"] if design.actuators is None else block["B"] * design.actuators.slope
     for j in range(2):

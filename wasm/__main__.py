@@ -1,10 +1,9 @@
-"""`python -m wasm` builds static/kernel/kernels.wasm and table.js; with `--check` it only says whether they are so."""
+"""`python -m wasm` builds static/kernel/kernels.wasm and table.js."""
 
 from __future__ import annotations
 
 import argparse
 import os
-import sys
 import tempfile
 from pathlib import Path
 
@@ -15,8 +14,8 @@ UNOPTIMISED = {"NUMBA_OPT": "0", "NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURE
 """Numba reads these when it is imported: its text shall say nothing of this machine."""
 
 
-def made() -> dict[Path, bytes]:
-    """Both files. To be called before Numba is imported; its cache is left as it is."""
+def made() -> dict[str, bytes]:
+    """Both files by name. To be called before Numba is imported; its cache is left as it is."""
     with tempfile.TemporaryDirectory() as cache:
         os.environ.update(UNOPTIMISED, NUMBA_CACHE_DIR=cache)
         from wasm.entries import entries
@@ -30,24 +29,17 @@ def made() -> dict[Path, bytes]:
             kernels.append(lower(entry))
         module = build(kernels)
         table = script(kernels, module, stamp.checksum(), stamp.tools())
-    return {PLACE / "kernels.wasm": module, PLACE / "table.js": table.encode()}
+    return {"kernels.wasm": module, "table.js": table.encode()}
 
 
-def main() -> int:
-    """0 where all is well, 1 where `--check` finds other files."""
+def main() -> None:
+    """Builds into static/kernel, or elsewhere."""
     options = argparse.ArgumentParser(prog="python -m wasm", description=__doc__)
-    options.add_argument("--check", action="store_true", help="write nothing, compare")
-    checking = options.parse_args().check
-    status = 0
-    for path, content in made().items():
-        if not checking:
-            PLACE.mkdir(exist_ok=True)
-            path.write_bytes(content)
-        elif not path.is_file() or path.read_bytes() != content:
-            print(f"{path.relative_to(stamp.ROOT)} is not what is built here: call `make wasm`.")
-            status = 1
-    return status
+    options.add_argument("--into", type=Path, default=PLACE, metavar="FOLDER", help="default: static/kernel")
+    folder = options.parse_args().into
+    for name, content in made().items():
+        (folder / name).write_bytes(content)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

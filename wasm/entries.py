@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 ENTRIES = (
     "update",
+    "run_rigs",
     "eigenvalues",
 )
 """Names in `heli2dof_core.kernels.jit.ENTRIES`, which are those of the module's functions."""
@@ -33,6 +34,9 @@ def entries() -> Iterator[Entry]:
     for module in iter_modules(kernels.__path__, f"{kernels.__name__}."):
         import_module(module.name)
     for name in ENTRIES:
-        for arguments in (example() for example in EXAMPLES[name]):
-            if not any(isinstance(argument, tuple) for argument in arguments):
-                yield Entry(name, arguments)
+        examples = (example() for example in EXAMPLES[name])
+        yield next(
+            Entry(name, arguments)
+            for arguments in examples
+            if not any(isinstance(argument, tuple) for argument in arguments)
+        )

@@ -45,7 +45,9 @@ def lower(entry: Entry) -> Lowered:
 
     settings: Any = typed  # made from the environment, unseen by type checkers
     if int(settings.OPT) != 0:
-        raise RuntimeError("Set NUMBA_OPT=0: what Numba optimises is for this machine. `python -m wasm` does it.")
+        raise RuntimeError(
+            "Set NUMBA_OPT=0: what Numba optimises is for this machine. `python -m wasm` does it."
+        )
     dispatcher: Any = ENTRIES[entry.name]
     types = tuple(numba.typeof(argument) for argument in entry.arguments)
     with warnings.catch_warnings():

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
 import tempfile
 from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -83,6 +85,7 @@ def link(compiled: bytes, exports: Sequence[str]) -> bytes:
     """The module of an object file, by wasm-ld.
 
     Raises:
+        FileNotFoundError: there is no wasm-ld.
         subprocess.CalledProcessError: something is called that is in neither `compiled` nor MATH.
     """
     with tempfile.TemporaryDirectory() as folder:
@@ -91,6 +94,22 @@ def link(compiled: bytes, exports: Sequence[str]) -> bytes:
         math.write_text("\n".join(MATH), "utf-8")
         options = ("--no-entry", "--strip-all", "--stack-first", "-z", f"stack-size={STACK}", "-O2")
         wanted = [f"--export={name}" for name in (*exports, "__heap_base")]
-        command = (sys.executable, "-m", "ziglang", "wasm-ld", *options, *wanted)
+        command = (*linker(), *options, *wanted)
         subprocess.run((*command, f"--allow-undefined-file={math}", source, "-o", made), check=True)
         return made.read_bytes()
+
+
+def linker() -> tuple[str, ...]:
+    """How wasm-ld is called: the system's, or the one of the package `ziglang`. LLD 14 and 22 make the same bytes.
+
+    Raises:
+        FileNotFoundError: there is neither.
+    """
+    found = shutil.which("wasm-ld")
+    if found:
+        return (found,)
+    if find_spec("ziglang"):
+        return sys.executable, "-m", "ziglang", "wasm-ld"
+    raise FileNotFoundError(
+        "wasm-ld is missing. Debian: apt-get install lld. Elsewhere: pip install '.[wasm]'."
+    )

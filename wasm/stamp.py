@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-TOOLS = ("llvmlite", "numba", "ziglang")
-"""Whose versions decide what comes out; constraints.txt pins them."""
+TOOLS = ("llvmlite", "numba")
+"""Whose versions decide what comes out, as does Python's; constraints.txt pins them. Which wasm-ld links does not."""
 
 
 def sources() -> list[Path]:
@@ -25,5 +26,5 @@ def checksum() -> str:
 
 
 def tools() -> dict[str, str]:
-    """The versions here."""
-    return {name: version(name) for name in TOOLS}
+    """The versions here. With others the module has other bytes, and gives the same digits."""
+    return {name: version(name) for name in TOOLS} | {"python": ".".join(map(str, sys.version_info[:2]))}

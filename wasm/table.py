@@ -9,8 +9,8 @@ from typing import Any
 from wasm.lowering import Lowered
 
 HEAD = """/**
- * What the functions of kernels.wasm take and return, in order. Made with it by `python -m wasm`; not to be changed by
- * hand.
+ * What the functions of kernels.wasm take, in order, and return. Made with it by `python -m wasm`; not to be
+ * changed by hand.
  *
  * @typedef {'f64' | 'i64' | 'c128' | 'bool'} Scalar  c128: two f64, in arrays alone
  * @typedef {object} Parameter

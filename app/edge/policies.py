@@ -27,11 +27,12 @@ def hash_source(text: bytes) -> str:
 def page(ancestors: Iterable[str]) -> str:
     """Of the page: everything from its own origin, nothing inline but the laboratory report's own style.
 
+    Its scripts may compile WebAssembly, which is the kernels in static/kernel/; they may not make code of text.
     The page opens the report from a blob, which inherits this policy; the style's hash allows that one content.
     """
     return _joined(
         ancestors,
-        script_src="'self'",
+        script_src="'self' 'wasm-unsafe-eval'",
         style_src=f"'self' {hash_source(STYLE.encode())}",
         img_src="'self'",
         connect_src="'self'",

@@ -17,7 +17,8 @@ from starlette.exceptions import HTTPException
 from starlette.responses import Response
 from starlette.types import Scope
 
-_TEXT = ("text/", "application/json", "image/svg+xml")
+_PACKED = ("text/", "application/json", "application/wasm", "image/svg+xml")
+"""Media types that gain by compression."""
 _WORTH_IT = 512
 """Bytes below which compression gains nothing."""
 
@@ -37,7 +38,7 @@ class Content:
     @cached_property
     def compressed(self) -> bytes | None:
         """By gzip; None where that gains nothing."""
-        if len(self.plain) < _WORTH_IT or not self.media_type.startswith(_TEXT):
+        if len(self.plain) < _WORTH_IT or not self.media_type.startswith(_PACKED):
             return None
         return gzip.compress(self.plain, compresslevel=6, mtime=0)
 
@@ -95,7 +96,9 @@ class CachedFiles(StaticFiles):
 
 
 def media_type_of(name: str) -> str:
-    """By the name's end, whatever this machine's own table says of scripts."""
+    """By the name's end, whatever this machine's own table says of what browsers run."""
     if name.endswith((".js", ".mjs")):
         return "text/javascript"
+    if name.endswith(".wasm"):  # browsers compile it while it arrives under this type alone
+        return "application/wasm"
     return mimetypes.guess_type(name)[0] or "application/octet-stream"

@@ -200,12 +200,18 @@ def pair_of(h, end, real, imaginary):
 def double_step(h, start, end, steps, z):
     """One implicit double step on the block from `start` to `end`, of three rows or more; z turns as in `francis`."""
     n = len(h)
+    corner = h[end, end]
     if steps % 10 == 0:  # an exceptional one breaks cycles
         s = abs(h[end, end - 1]) + abs(h[end - 1, end - 2])
-        total, product = 1.5 * s, s * s
+        shift = 0.75 * s + corner
+        total, product = 2.0 * shift, shift * shift + 0.4375 * s * s
     else:
-        total = h[end - 1, end - 1] + h[end, end]
-        product = h[end - 1, end - 1] * h[end, end] - h[end - 1, end] * h[end, end - 1]
+        half, mean = 0.5 * (h[end - 1, end - 1] - corner), 0.5 * (h[end - 1, end - 1] + corner)
+        under = half * half + h[end - 1, end] * h[end, end - 1]
+        total, product = 2.0 * mean, mean * mean - under
+        if under > 0.0:  # of two real ones the nearer to the corner, twice
+            shift = mean - sqrt(under) if half > 0.0 else mean + sqrt(under)
+            total, product = 2.0 * shift, shift * shift
     a = h[start, start] * (h[start, start] - total) + h[start, start + 1] * h[start + 1, start] + product
     b = h[start + 1, start] * (h[start, start] + h[start + 1, start + 1] - total)
     c = h[start + 1, start] * h[start + 2, start + 1]

@@ -38,6 +38,8 @@ from .layout import (
 RISE_TIME, SETTLING_TIME, OVERSHOOT, UNDERSHOOT, PEAK, PEAK_TIME, STEADY_STATE_ERROR, IAE, ITAE = range(9)
 SETTLED = 9
 """Columns of an axis' row: the attributes of `AxisMetrics` in the registry of figures, in their order."""
+ALIKE = 1e-15
+"""Share of an extremum by which another must exceed it: less is rounding."""
 LOW, HIGH = 0.1, 0.9
 FOUND = 1e-12
 """Last step of Newton's method, or width of its bracket, as a share of a piece: a step leaves but its square."""
@@ -183,10 +185,13 @@ def may_cross_level(a, low, high):
 
 @kernel
 def update_extrema(a, share, t):
-    """The highest and the lowest share of the step, with one more that is reached at t."""
-    if share > a[TOP]:
+    """The highest and the lowest share of the step, with one more that is reached at t.
+
+    A stop or a held axis may be met again, up to rounding: the first time is the peak's.
+    """
+    if share > a[TOP] + ALIKE * abs(a[TOP]):
         a[TOP], a[TOP_AT] = share, t
-    elif share < a[BOTTOM]:
+    elif share < a[BOTTOM] - ALIKE * abs(a[BOTTOM]):
         a[BOTTOM], a[BOTTOM_AT] = share, t
 
 

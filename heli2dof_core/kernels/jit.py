@@ -9,12 +9,14 @@ from typing import Any
 if __name__.startswith("heli2dof_core.interpreted"):
     _compile: Callable[..., Any] | None = None
 
-    def read_only(array: Any) -> Any:
-        """The same, where nothing has a type."""
+    def _as_it_is(array: Any) -> Any:
         return array
 
-    def keep_apart() -> None:
-        """Nothing, where nothing is compiled."""
+    def _nothing() -> None:
+        return None
+
+    read_only: Any = _as_it_is
+    keep_apart: Any = _nothing
 else:
     from numba import njit, types
     from numba.extending import intrinsic
@@ -24,24 +26,23 @@ else:
     options: Any = {"cache": True, "error_model": "numpy", "nogil": True, "_nrt": False}
     _compile = njit(**options)
 
-    @intrinsic
-    def read_only(typing_context, array):
-        """The same array as one that nobody may change: the type that kernels take of results."""
-
+    def _as_given(typing_context, array):
         def same(context, builder, signature, arguments):
             return arguments[0]
 
         return array.copy(readonly=True)(array), same
 
-    @intrinsic
-    def keep_apart(typing_context):
-        """Keeps a large kernel out of those that call it: copies of it within would take minutes to compile."""
-
+    def _without_copies(typing_context):
         def mark(context, builder, signature, arguments):
             builder.function.attributes.add("noinline")
             return context.get_dummy_value()
 
         return types.none(), mark
+
+    read_only: Any = intrinsic(_as_given)
+    """The same array as one that nobody may change: the type that kernels take of results."""
+    keep_apart: Any = intrinsic(_without_copies)
+    """Keeps a large kernel out of those that call it: copies of it within would take minutes to compile."""
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -23,9 +23,10 @@ PLAIN, LAGGED, FULL = 6, 8, 14
 """States of the loop: θ, ψ, θ̇, ψ̇, z_p, z_y; with both rotors' speeds v_p, v_y; with six states of an estimator."""
 INNER = FULL - PLAIN
 """States behind the sixth."""
-SIZES: Any = ((np.int64(0),) * PLAIN, (np.int64(0),) * LAGGED, fixed(np.zeros(FULL)))
+SIZES: Any = ((np.int64(0),) * PLAIN, fixed(np.zeros(LAGGED)), fixed(np.zeros(FULL)))
 """What kernels take for `size`, whose length it is. That of a tuple is a constant for Numba, so that loops over the
-states unroll; of the largest an array's is not, which is as well: unrolled it took a minute to compile."""
+states of the paper's rig unroll; that of an array is not, so that one function serves all others (a tenth slower, and
+unrolled they took minutes to compile)."""
 PAPER = SIZES[0]
 """The size of the paper's rig."""
 

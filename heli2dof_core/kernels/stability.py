@@ -7,8 +7,6 @@ Eigenvalues would not do: rounding moves a k-fold one by the k-th root of 1e-16.
 
 from __future__ import annotations
 
-import numpy as np
-
 from . import examples
 from .jit import copy_into, entry_point, keep_apart, kernel
 from .layout import (
@@ -19,7 +17,7 @@ from .layout import (
     VALUE,
     WHOLE_CLOSED,
 )
-from .polynomials import determinant, polynomial_matrices
+from .polynomials import determinant
 
 # Rows of the scratch array, (17, 16), that are used here
 TOTAL, SIZES, UPPER, LOWER = 0, 1, 2, 3
@@ -80,20 +78,3 @@ def routh(upper, lower, degree):
         long -= 1
         upper, lower, long, short = lower, upper, short, long
     return lower[0] > 0.0
-
-
-@entry_point(
-    lambda: (
-        np.array([examples.plant()[0]]),
-        np.array([examples.plant()[1]]),
-        examples.given(2, 6),
-        examples.zeros(*POLYNOMIALS),
-        examples.zeros(*POLYNOMIAL_WORKSPACE),
-        examples.zeros(1),
-    )
-)
-def are_stable(A, inputs, law, f, p, verdicts):
-    """The same of many rigs under one law: A (n, 4, 4), inputs (n, 4, 2); 1 or 0 into `verdicts`, (n,)."""
-    for i in range(len(A)):
-        polynomial_matrices(A[i], inputs[i], law, f)
-        verdicts[i] = 1.0 if is_stable(f, p) else 0.0

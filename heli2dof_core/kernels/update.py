@@ -118,7 +118,7 @@ def update(
         outcome[0] = float(NO_EIGENVALUES)
         return
     # the outer loop
-    kind = OWN if numbers[OWN_INTEGRAL] != 0.0 else PI if numbers[PI_LOOPS] != 0.0 else STATIC
+    kind = kind_of_loop(numbers)
     for i in range(2):
         gains[i, 0] = numbers[PI_GAINS + 2 * i]
         gains[i, 1] = gains[i, 0] / numbers[PI_GAINS + 2 * i + 1]
@@ -151,16 +151,13 @@ def update(
     figures[CONNECTED] = states
     with_zeros(connected, states, apart, poles)
     # judgements
-    simple = order == 0 and not placed and actuators[TAU] == 0.0 and actuators[TAU + 1] == 0.0
+    controller_numbers(numbers, A, B, actuators, K, proportional, integral, kind, L, order, controller)
     loop = f_whole
-    if simple:
-        for i in range(2):
-            for j in range(6):
-                polynomial_law[i, j] = law[i, j]
+    if is_simple(placed, order, actuators):
+        law_by_states(law, polynomial_law)
         polynomial_matrices(read_only(A), read_only(inputs), read_only(polynomial_law), f)
         loop = f
     else:
-        controller_numbers(numbers, A, B, actuators, K, proportional, integral, kind, L, order, controller)
         fill_polynomials(A, inputs, actuators, controller, rows, minors, f_whole)
     stable = is_stable(read_only(loop), p)
     if numbers[AIMS] != 0.0:
@@ -231,6 +228,26 @@ def update(
                 copy_into(courses[n, 1], calm_courses[n])
         runs += 1
     outcome[1] = runs
+
+
+@kernel
+def kind_of_loop(numbers):
+    """What is around the state feedback: see `layout`."""
+    return OWN if numbers[OWN_INTEGRAL] != 0.0 else PI if numbers[PI_LOOPS] != 0.0 else STATIC
+
+
+@kernel
+def is_simple(placed, order, actuators):
+    """Whether `polynomials` has room for the loop: nothing is estimated, and no rotor takes time or is placed."""
+    return order == 0 and not placed and actuators[TAU] == 0.0 and actuators[TAU + 1] == 0.0
+
+
+@kernel
+def law_by_states(law, by_six):
+    """The first six columns of ∂u/∂ states: x and z."""
+    for i in range(2):
+        for j in range(6):
+            by_six[i, j] = law[i, j]
 
 
 @kernel

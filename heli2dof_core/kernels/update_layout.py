@@ -193,6 +193,35 @@ def scratch_shapes(size: int, samples: int) -> dict[str, tuple[Shape, str]]:
     }
 
 
+FACTORS = 14
+"""Of a rig among many: by which its parameters and both rotors' time constants differ from the nominal ones."""
+
+
+def rigs_shapes(size: int, rigs: int, times: int) -> dict[str, tuple[Shape, str]]:
+    """What `run_rigs` takes behind block and scratch, in the order of its arguments; its times are the caller's."""
+    n, real, both, whole = size, "float64", "complex128", "int64"
+    constants, modes = (CONSTANTS, MODES) if n == PLAIN else (MORE_CONSTANTS, MORE_MODES)
+    return {
+        "times": ((times,), real),
+        "rig_A": ((4, 4), real),
+        "rig_B": ((4, 2), real),
+        "rig_trim": ((2,), real),
+        "rig_actuators": ((12,), real),
+        "rig_whole": ((n, n), real),
+        "rig_driven": ((n, 2), real),
+        "own": ((constants,), real),
+        "modes": ((modes,), whole),
+        "y": ((n,), real),
+        "one": ((NUMBERS,), real),
+        "x": ((EXPERIMENT,), real),
+        "course_of_rig": ((times, n), real),
+        "rig_poles": ((rigs, n), both),
+        "angles": ((rigs, 2, times), real),
+        "stable": ((rigs,), real),
+        "within": ((rigs,), real),
+    }
+
+
 def made(shapes: dict[str, tuple[Shape, str]]) -> list[Any]:
     """Arrays of these shapes and kinds, one after the other in one piece of memory, all zero."""
     kinds = {"float64": np.float64, "complex128": np.complex128, "int64": np.int64}

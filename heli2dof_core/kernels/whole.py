@@ -35,7 +35,6 @@ from .layout import (
     OWN_L,
     OWN_L_ANGLES,
     OWN_TAU,
-    POLYNOMIAL_WORKSPACE,
     ROUNDING,
     TERMS,
     VALUE,
@@ -50,7 +49,6 @@ from .layout import (
     ZETA,
 )
 from .polynomials import WHOLE_HALF, add_product
-from .stability import is_stable
 
 # Rows of polynomials, two each, by q_p, q_y, q̂_p, q̂_y: D; adj(B) D; the law as the motors' rows have it; the
 # observer's F̂ q̂ − E q, the same times adj(B̂), and the law as its own rows have it
@@ -338,23 +336,3 @@ def whole_polynomials(A, inputs, tau, controller, rows, minors, f):
         for k in range(f.shape[2]):
             if abs(f[r, VALUE, k]) <= ROUNDING * f[r, TERMS, k]:
                 f[r, VALUE, k] = 0.0
-
-
-@entry_point(
-    lambda: (
-        examples.given(1, 4, 4),
-        examples.given(1, 4, 2),
-        examples.trim(),
-        examples.given(*CONTROLLER),
-        examples.zeros(*WHOLE_ROWS),
-        examples.zeros(*WHOLE_MINORS),
-        examples.zeros(*WHOLE_POLYNOMIALS),
-        examples.zeros(*POLYNOMIAL_WORKSPACE),
-        examples.zeros(1),
-    )
-)
-def whole_are_stable(A, inputs, tau, controller, rows, minors, f, p, verdicts):
-    """`stability.are_stable` for such loops: A (n, 4, 4), inputs (n, 4, 2); 1 or 0 into `verdicts`, (n,)."""
-    for i in range(len(A)):
-        whole_polynomials(A[i], inputs[i], tau, controller, rows, minors, f)
-        verdicts[i] = 1.0 if is_stable(f, p) else 0.0

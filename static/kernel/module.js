@@ -1,5 +1,5 @@
 /**
- * The hot loops of heli2dof_core/kernels in WebAssembly (kernels.wasm, made by `make wasm`), as functions of arrays. Pure.
+ * The hot loops of heli2dof_core/kernels in WebAssembly (kernels.wasm, made by `make wasm`), called with arrays. Pure.
  *
  *     const kernels = await instantiated(await compiled(await fetch(MODULE)));
  *     const a = kernels.array('f64', 4, 4);
@@ -70,7 +70,7 @@ export class Block {
     this.items = shape.reduce((product, n) => product * n, 1);
   }
 
-  /** Its numbers, complex ones as pairs; to be asked for anew after arrays were made, since the memory may have moved. */
+  /** Its numbers, complex ones as pairs. To be asked for anew once other arrays were made: memory may have moved. */
   get floats() {
     const { buffer } = this.memory;
     if (this.#floats?.buffer !== buffer)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import gzip
+import mimetypes
 import os
 import socket
 from pathlib import Path
@@ -48,6 +49,7 @@ def folder(tmp_path: Path) -> Path:
     (inside / "panels").mkdir(parents=True)
     (inside / "panels" / "plot.js").write_text(SCRIPT)
     (inside / "dot.png").write_bytes(bytes(range(256)) * 8)
+    (inside / "kernels.wasm").write_bytes(b"\0asm" + bytes(2000))
     (inside / "short.css").write_text("p { margin: 0 }")
     (tmp_path / "secret.txt").write_text("not for the web")
     (inside / "escape.txt").symlink_to(tmp_path / "secret.txt")
@@ -73,6 +75,16 @@ def test_text_is_compressed_for_who_takes_it(client: TestClient):
     assert len(raw) < len(SCRIPT) / 5
     assert plain.headers["vary"] == packed.headers["vary"] == "Accept-Encoding"
     assert plain.headers["etag"] != packed.headers["etag"]
+
+
+def test_webassembly_has_the_type_that_browsers_stream_whatever_the_machine_says(
+    client: TestClient, folder: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(mimetypes, "guess_type", lambda _: ("application/x-other", None))
+    reply = client.get("/static/kernels.wasm")
+    assert reply.headers["content-type"] == "application/wasm"
+    assert reply.headers["content-encoding"] == "gzip"
+    assert reply.content == (folder / "kernels.wasm").read_bytes()
 
 
 @pytest.mark.parametrize("name", ["dot.png", "short.css"])

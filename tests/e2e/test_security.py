@@ -87,6 +87,42 @@ def test_what_is_inline_or_foreign_does_not_run(listening: Visit, app: App, path
     listening.errors.clear()  # each of these is told in the console, too
 
 
+KERNELS = """async () => {
+    const { compiled, instantiated, MODULE } = await import('/static/kernel/index.js');
+    const streamed = WebAssembly.compileStreaming(await fetch(MODULE)).then(() => true);
+    const kernels = await instantiated(await compiled(await fetch(MODULE)));
+    const a = kernels.array('f64', 2, 2);
+    const [real, imaginary, v] = [0, 1, 2].map(() => kernels.array('f64', 2));
+    a.floats.set([0, 1, -9, 0]);
+    kernels.bound('eigenvalues', { a, real, imaginary, v })();
+    return { streamed: await streamed, imaginary: [...imaginary.floats] };
+}"""
+MADE_OF_TEXT = """() => new Promise((told) => {
+    const tried = () => {
+        try { told(new Function('return 1')()); } catch (error) { told(error.name); }
+    };
+    setTimeout(tried); // what the test itself evaluates may do all
+})"""
+COMPILED = """() => {
+    const empty = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0]);
+    return WebAssembly.compile(empty).then(() => 'compiled', (error) => error.name);
+}"""
+
+
+def test_the_page_runs_its_kernels_and_no_code_made_of_text(listening: Visit, app: App):
+    listening.page.goto(app.url)
+    assert listening.page.evaluate(KERNELS) == {"streamed": True, "imaginary": [3, -3]}
+    assert violations(listening.page) == []
+    assert listening.page.evaluate(MADE_OF_TEXT) == "EvalError"
+    listening.errors.clear()
+
+
+def test_what_has_no_kernels_compiles_none(listening: Visit, app: App):
+    listening.page.goto(f"{app.url}docs")
+    assert listening.page.evaluate(COMPILED) == "CompileError"
+    listening.errors.clear()
+
+
 def test_other_sites_may_not_frame_the_page(chromium: Browser, app: App):
     """The other one is another port: that is another origin, and as local as ours."""
 

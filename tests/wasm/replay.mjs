@@ -1,4 +1,4 @@
-// Calls the WebAssembly kernels as `tests.wasm.replay` wrote them down: `node replay.mjs FOLDER`.
+// Calls the WebAssembly kernels as `tests.wasm.replay` wrote them down: `node replay.mjs FOLDER [MODULE]`.
 // calls.json: [{ kernel, takes: { name: 'number' | [type, shape, byte at which it stands in before.bin] }, repeat }];
 // written are after.bin, all arrays in the same places, and returned.json: [{ returned, error, milliseconds }] and
 // how much of the stack was used at most.
@@ -11,7 +11,7 @@ const folder = process.argv[2];
 const calls = JSON.parse(readFileSync(join(folder, 'calls.json'), 'utf8'));
 const data = readFileSync(join(folder, 'before.bin'));
 
-const kernels = await instantiated(await compiled(readFileSync(MODULE)));
+const kernels = await instantiated(await compiled(readFileSync(process.argv[3] ?? MODULE)));
 const bytes = (at, length) => new Uint8Array(kernels.memory.buffer, at, length);
 const bytesOf = (block) => bytes(block.at, block.items * (block.type === 'c128' ? 16 : 8));
 

@@ -1,7 +1,7 @@
 """The WebAssembly kernels for Python: calls them in Node, as the page does, with arguments of the compiled ones.
 
-`recorded()` writes down what any code asks of the compiled kernels and what they answer; `replayed()` asks the same of
-the page's.
+`recorded()` writes down what any code asks of the compiled kernels, and what they answer; `replayed()` asks the
+same of the page's.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from heli2dof_core import engine as engines
 from tests.children import ROOT
 from wasm.entries import ENTRIES
 
+MODULE = ROOT / "static" / "kernel" / "kernels.wasm"
 TYPES = {"float64": "f64", "complex128": "c128", "int64": "i64"}
 
 
@@ -83,14 +84,14 @@ def recorded(kernels: Sequence[str] = ENTRIES) -> Iterator[list[Call]]:
         engines._ready.pop()
 
 
-def replayed(calls: Sequence[Call], *, repeat: int = 1) -> tuple[list[Replayed], int]:
+def replayed(calls: Sequence[Call], *, repeat: int = 1, module: Path = MODULE) -> tuple[list[Replayed], int]:
     """The same calls of the page's kernels, each in the shortest of `repeat` times, and the stack's most bytes."""
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
         places = _written(folder, calls, repeat)
         node = str(Path(sys.executable).with_name("node"))
         script = ROOT / "tests" / "wasm" / "replay.mjs"
-        subprocess.run([node, script, folder], check=True, cwd=ROOT)
+        subprocess.run([node, script, folder, module], check=True, cwd=ROOT)
         data = (folder / "after.bin").read_bytes()
         told = json.loads((folder / "returned.json").read_text("utf-8"))
     found = []
