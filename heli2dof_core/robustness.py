@@ -14,7 +14,7 @@ from .block import fill_block, given_numbers, size_of
 from .checks import require_within
 from .engine import engine
 from .errors import InvalidInputError
-from .evaluate import evaluate
+from .evaluate import Report, evaluate
 from .frozen import Frozen, frozen, read_only
 from .kernels.update_layout import made, rigs_shapes
 from .loop import Loop
@@ -152,12 +152,28 @@ def cloud_in_parts(
                 field=f"scenario.{name}",
                 hint="Leave it out.",
             )
-    nominal = replace(spec, scenario=replace(spec.scenario, samples=2))
-    report = evaluate(nominal)
+    report = evaluate(_nominal(spec))
+    yield from rigs_in_parts(spec, report, _random_factors(report.loop, uncertainty), check)
+
+
+def _nominal(spec: Spec) -> Spec:
+    return replace(spec, scenario=replace(spec.scenario, samples=2))
+
+
+def rigs_in_parts(
+    spec: Spec, report: Report, factors: Floats, check: Callable[[], None] = lambda: None
+) -> Iterator[Cloud]:
+    """The same of given rigs.
+
+    Args:
+        spec: the nominal rig with its design and experiment.
+        report: of that, with any number of samples.
+        factors: by which each rig's parameters and both time constants differ from the nominal ones, (n, 14).
+        check: as above.
+    """
     loop, kernels, size = report.loop, engine(), size_of(spec)
     placed, L = report.given
-    block = fill_block(nominal, placed=placed, L=L, each_axis=False, most_steps=None)
-    factors = _random_factors(loop, uncertainty)
+    block = fill_block(_nominal(spec), placed=placed, L=L, each_axis=False, most_steps=None)
     t = np.linspace(0.0, spec.scenario.duration, GRID)
     numbers = given_numbers(spec, placed, L, each_axis=False, most_steps=kernels.most_steps)
     poles = np.empty((len(factors), len(size)), dtype=np.complex128)

@@ -46,6 +46,7 @@ const sharing = new SceneSharing(store, scene);
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t), onPeek: (t) => scene.peek(t) });
 const projector = new Projector();
 const plane = new SPlane(byId('splane'), store); // what the hand moves
+const clouds = new CloudFeed(store);
 const experiment = new ExperimentPanel(byId('scenario'), store);
 /** @type {{render: (state: State) => void}[]} */
 const figures = [
@@ -62,13 +63,12 @@ const figures = [
   new PinsPanel(byId('pins'), store),
   new FieldProblems(document.body),
   scene,
-  new CloudFeed(store),
   new Notice(byId('notice'), store),
   new Remarks(document),
   new FindingsPanel(byId('strip'), store), // it measures what it has written
   { render: publish }, // last, when all is shown
 ];
-const views = { plane: viewOf(plane), figures: figures.map(viewOf) };
+const views = { clouds: viewOf(clouds), plane: viewOf(plane), figures: figures.map(viewOf) };
 const turns = new Turns();
 const locked = new LockedControls(document.body);
 
@@ -138,6 +138,7 @@ function render() {
   const { state } = store;
   // each says again which of its controls can be used
   if (locked.release(state)) for (const view of [views.plane, ...views.figures]) view.forget();
+  views.clouds(state); // first: others compute meanwhile
   views.plane(state);
   const drawn = drawPlots(state);
   turns.take(state, views.figures, { busy: drawn === true, again: schedule });
@@ -210,9 +211,12 @@ function welcome() {
 
 /** The page's own numbers; where a browser cannot have them, the server goes on alone. */
 async function computeHere() {
-  const { loadModule, Own } = await fetched(() => import('./kernel/index.js'));
-  own = new Own(store, await loadModule(), ask).watch(window);
+  const { compiled, instantiated, loadRigs, MODULE, Own, Updates } = await fetched(() => import('./kernel/index.js'));
+  const module = await compiled(await fetch(MODULE));
+  own = new Own(store, new Updates(await instantiated(module)), ask).watch(window);
   document.documentElement.dataset.kernel = 'ready';
+  clouds.take(await fetched(() => loadRigs(module)));
+  document.documentElement.dataset.rigs = 'ready';
 }
 
 /** Panels that the first view does not need, fetched when it is there. */

@@ -129,6 +129,8 @@ export const LAGGED = 8;
 export const FULL = 14;
 /** Where the rotors' speeds stand among the states. */
 export const ROTORS = 6;
+/** What rigs differ in: their parameters, and both rotors' time constants. */
+export const FACTORS = 14;
 /** Parts of poles below this are 0, rad/s. */
 export const ZERO = 1e-9;
 /** Rotors below this follow at once, s. */

@@ -1,9 +1,14 @@
 /**
- * The cloud of uncertain rigs: the same controller on rigs whose parameters differ a little. A few rigs while something
- * moves, many once the hand rests; none while the page computes itself what moves, since then the server is not asked.
+ * The cloud of uncertain rigs: the same controller on rigs whose parameters differ a little. The page computes it itself
+ * where its kernel serves, all rigs for every move of the hand. Else the server is asked: a few rigs while something
+ * moves, many once the hand rests; none while the page computes itself what moves, since then nobody is asked.
  * @typedef {import('../types.js').State} State
  * @typedef {import('../types.js').Design} Design
+ * @typedef {import('../types.js').Cloud} Cloud
+ * @typedef {import('../types.js').Motion} Motion
+ * @typedef {import('../contract.js').RobustnessReply} Reply
  * @typedef {ReturnType<typeof cloudRequest>} CloudRequest
+ * @typedef {import('../kernel/index.js').Rigs} Rigs
  */
 import { bodyOf, cloudCaveat, cloudScenario, lagOf } from '../model/index.js';
 import { cloudAddress, LatestSocket } from '../net/index.js';
@@ -21,16 +26,38 @@ const REST_MS = 500;
  * @param {string[]} names of what is uncertain, g apart
  * @param {number} samples
  */
-export function cloudRequest(design, spread, motion, names, samples) {
-  const scenario = cloudScenario(design.scenario);
-  const played = motion === 'both' ? scenario.reference : { [motion]: scenario.reference[motion] };
-  return /** @satisfies {import('../types.js').Asked<import('../contract.js').RobustnessRequest>} */ ({
+export const cloudRequest = (design, spread, motion, names, samples) =>
+  /** @satisfies {import('../types.js').Asked<import('../contract.js').RobustnessRequest>} */ ({
     ...bodyOf(design),
-    scenario: { ...scenario, reference: played },
-    uncertainty: Object.fromEntries(names.filter((n) => n !== 'g').map((n) => [n, spread])),
+    scenario: played(design, motion),
+    uncertainty: spreads(names, spread),
     samples,
   });
+
+/**
+ * The experiment of the motion in sight.
+ * @param {Design} design @param {Motion} motion
+ * @returns {import('../types.js').Scenario} perhaps without the other axis' step
+ */
+function played(design, motion) {
+  const scenario = cloudScenario(design.scenario);
+  const reference = motion === 'both' ? scenario.reference : { [motion]: scenario.reference[motion] };
+  return { ...scenario, reference: /** @type {typeof scenario.reference} */ (reference) };
 }
+
+/** @param {string[]} names @param {number} spread @returns {Record<string, number>} */
+const spreads = (names, spread) => Object.fromEntries(names.filter((n) => n !== 'g').map((n) => [n, spread]));
+
+/** The server's cloud as the page keeps it. @param {Reply} reply @returns {Cloud} */
+const cloudOf = ({ done, loop_poles, t, envelopes, share_stable, share_within_limits }) => ({
+  done,
+  judged: done,
+  poles: Float64Array.from(loop_poles.flat().flatMap(({ re, im }) => [re, im])),
+  t,
+  envelopes,
+  share_stable,
+  share_within_limits,
+});
 
 /**
  * What the cloud's rigs differ in: the parameters, and the lag of each rotor that has one.
@@ -45,21 +72,26 @@ export const uncertain = (design, preset) => [
 
 /**
  * The cloud in words.
- * @param {import('../types.js').Cloud|null} cloud
+ * @param {Omit<Cloud, 'poles'|'t'|'envelopes'>|null} cloud
  * @param {import('../types.js').Scenario} [scenario]
  */
 export function cloudWords(cloud, scenario) {
   if (!cloud) return '';
+  const { done, judged } = cloud;
   const percent = (/** @type {number} */ share) => `${Math.floor(100 * share)} %`; // 99.9 % is not all
   const caveat = cloudCaveat(scenario);
   return (
-    `${cloud.done} rigs${caveat && ` (${caveat})`}: ${percent(cloud.share_stable)} stable, ` +
-    `${percent(cloud.share_within_limits)} within limits`
+    `${done} rigs${caveat && ` (${caveat})`}: ${percent(cloud.share_stable)} stable, ` +
+    `${percent(cloud.share_within_limits)}${judged < done ? ` of ${judged}` : ''} within limits`
   );
 }
 
 export class CloudFeed {
-  #key = '';
+  /** @type {Rigs|null} */ #rigs = null;
+  /** What the page computes: a design, how uncertain, which motion. @type {[Design, number, Motion]|null} */ #own =
+    null;
+  /** Designs that the kernel has not found. @type {WeakSet<Design>} */ #unfound = new WeakSet();
+  /** What the server was asked. */ #key = '';
   /** @type {LatestSocket<CloudRequest, string>|null} */ #socket = null;
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
 
@@ -69,18 +101,47 @@ export class CloudFeed {
     this.open = open;
   }
 
+  /** From now on the page computes what it can. @param {Rigs} rigs */
+  take(rigs) {
+    this.#rigs = rigs;
+    this.render(this.store.state);
+  }
+
   /** @param {State} state */
-  render({ design, answered, heard, spread, motion, dragging, connection, cloud }) {
+  render(state) {
+    const { design, spread } = state;
     if (!design || !spread) {
-      if (this.#socket || this.#key || cloud) this.#stop();
-      return;
+      if (this.#own || this.#socket || this.#key || state.cloud) this.#stop();
+    } else if (!this.#compute(design, spread, state.motion)) {
+      this.#forgetOwn();
+      this.#askServer(design, state);
     }
+  }
+
+  /** @param {Design} design @param {number} spread @param {Motion} motion @returns {boolean} whether the page can */
+  #compute(design, spread, motion) {
+    const { preset } = this.store;
+    if (!this.#rigs || !preset || this.#unfound.has(design)) return false;
+    const what = /** @type {const} */ ([design, spread, motion]);
+    if (this.#own?.every((own, i) => own === what[i])) return true;
+    const asked = { ...design, scenario: played(design, motion) };
+    if (!this.#rigs.serves(asked, preset)) return false;
+    this.#forgetServer();
+    this.#own = [...what];
+    this.#rigs.ask(asked, preset, spreads(uncertain(design, preset), spread), MANY, (cloud) => {
+      if (cloud) return this.store.set({ cloud });
+      this.#unfound.add(design);
+      this.render(this.store.state);
+    });
+    return true;
+  }
+
+  /** @param {Design} design @param {State} state */
+  #askServer(design, { answered, heard, spread, motion, dragging, connection, cloud }) {
     const own = heard !== answered;
     if (own && cloud && (dragging || connection === 'lost')) this.store.set({ cloud: null }); // it is of another design
     if (own || connection === 'lost') {
-      clearTimeout(this.#timer);
-      this.#timer = undefined;
-      this.#key = ''; // asked again when the hand rests, or the server is back
+      this.#unask(); // asked again when the hand rests, or the server is back
       return;
     }
     const names = uncertain(design, this.store.preset);
@@ -98,12 +159,26 @@ export class CloudFeed {
   }
 
   #stop() {
+    this.#forgetOwn();
+    this.#forgetServer();
+    this.store.set({ cloud: null });
+  }
+
+  #forgetOwn() {
+    if (this.#own) this.#rigs?.forget();
+    this.#own = null;
+  }
+
+  #forgetServer() {
+    this.#unask();
+    this.#socket?.close();
+    this.#socket = null;
+  }
+
+  #unask() {
     clearTimeout(this.#timer);
     this.#timer = undefined;
     this.#key = '';
-    this.#socket?.close();
-    this.#socket = null;
-    this.store.set({ cloud: null });
   }
 
   /** One request is computed at a time; meanwhile only the newest one waits. @param {CloudRequest} request */
@@ -116,12 +191,13 @@ export class CloudFeed {
     this.#socket.asks.put(request);
   }
 
-  /** A cloud, or a problem, which has a status. @param {import('../types.js').Cloud & {status?: number}} message */
+  /** A cloud, or a problem, which has a status. @param {Reply & {status?: number}} message */
   #receive(message) {
     const refused = message.status !== undefined;
     // A few rigs of a larger cloud say less than the last whole one; they only tell that it is coming. What comes
     // while nothing is asked is of a design that is no more.
-    if (this.#key && (refused || message.done >= Math.min(FEW, message.samples))) this.store.set({ cloud: refused ? null : message });
+    if (this.#key && (refused || message.done >= Math.min(FEW, message.samples)))
+      this.store.set({ cloud: refused ? null : cloudOf(message) });
     if (refused || message.done === message.samples) this.#socket?.done();
   }
 }
