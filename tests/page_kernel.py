@@ -6,7 +6,7 @@ As Prettier has it, so that it is checked like any other module; a test holds it
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import get_args
+from typing import Any, get_args
 
 from heli2dof_core.couplings import STRUCTURES
 from heli2dof_core.figures import AXIS, MARGINS
@@ -16,6 +16,7 @@ from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.poles import ZERO
 from heli2dof_core.quantities import Field
 from heli2dof_core.request import Place, quantities
+from heli2dof_core.robustness import GRID, PERCENTILES, RTOL, SMALLEST
 from heli2dof_core.rotors import AT_ONCE
 from heli2dof_core.scenario import AntiWindup, Measured
 from tests.children import ROOT
@@ -103,6 +104,16 @@ def module() -> str:
         _list("Columns of a motor's margins.", "MARGINS", MARGINS),
         _places("Columns of what both motors bear.", "SENSITIVITY", layout, SENSITIVITY),
         _numbers(),
+        _object(
+            "Of clouds: times of their responses, tolerance, least share of a parameter, percentiles of bands.",
+            "RIGS",
+            {
+                "TIMES": GRID,
+                "RTOL": RTOL,
+                "LEAST": SMALLEST,
+                "PERCENTILES": [int(percent) for percent in PERCENTILES],
+            },
+        ),
         _set(
             "Paths in a request whose values may be null.",
             "MAY_LACK",
@@ -135,7 +146,11 @@ def _numbers() -> str:
 
 
 def _places(about: str, name: str, where: object, names: Iterable[str]) -> str:
-    entries = [f"{own}: {getattr(where, own)}" for own in names]
+    return _object(about, name, {own: getattr(where, own) for own in names})
+
+
+def _object(about: str, name: str, values: Mapping[str, Any]) -> str:
+    entries = [f"{own}: {literal(value)}" for own, value in values.items()]
     one = f"export const {name} = {{ {', '.join(entries)} }};"
     if len(one) > WIDTH:
         one = "\n".join((f"export const {name} = {{", *(f"  {entry}," for entry in entries), "};"))

@@ -136,6 +136,9 @@ export const ZERO = 1e-9;
 /** Rotors below this follow at once, s. */
 export const AT_ONCE = 1e-6;
 
+/** Of clouds: times of their responses, tolerance, least share of a parameter, percentiles of bands. */
+export const RIGS = { TIMES: 101, RTOL: 1e-5, LEAST: 0.02, PERCENTILES: [5, 50, 95] };
+
 /** Paths in a request whose values may be null. */
 export const MAY_LACK = new Set([
   'limits.theta',

@@ -10,7 +10,7 @@
  * @property {number} rigs
  * @typedef {import('../types.js').Cloud} Cloud
  */
-import { AT, FACTORS, FIGURES, OUTCOMES } from './layout.js';
+import { AT, FACTORS, FIGURES, OUTCOMES, RIGS } from './layout.js';
 import { Block } from './module.js';
 import { bandsOf } from './percentiles.js';
 import { fillFactors } from './random.js';
@@ -19,11 +19,6 @@ import { arrays, Updates } from './updates.js';
 
 /** Rigs whose responses are shown first. */
 export const FEW = 200;
-/** Times at which responses are kept, their tolerance, least share of a parameter: heli2dof_core/robustness.py. */
-const GRID = 101;
-const RTOL = 1e-5;
-const LEAST = 0.02;
-const PERCENTS = [5, 50, 95];
 /** Of a part, ms: so long a newer design may have to wait. */
 const PART_MS = 8;
 /** Of responses, ms, after which fewer than that are shown. */
@@ -55,7 +50,7 @@ export class ManyRigs {
     if (outcome[0] !== OUTCOMES.DONE) return;
     const order = figures[FIGURES.CONNECTED];
     const { factors, poles, whole } = this.#roomFor(size, rigs);
-    fillFactors(factors.floats, spreads, LEAST);
+    fillFactors(factors.floats, spreads, RIGS.LEAST);
     whole.times.floats.set(timesOf(numbers[AT.DURATION]));
     yield* this.#run(poles, size, 0, rigs);
     const first = yield* this.#run(whole, size, 0, Math.min(FEW, rigs), this.now() + SOON_MS);
@@ -77,7 +72,7 @@ export class ManyRigs {
       const end = Math.min(to, at + Math.max(1, Math.floor(PART_MS / cost)));
       const part = Object.fromEntries(BY_RIG.map((name) => [name, rows(own[name], at, end)]));
       const begin = this.now();
-      this.kernels.bound('run_rigs', { ...room, ...part, rtol: RTOL })();
+      this.kernels.bound('run_rigs', { ...room, ...part, rtol: RIGS.RTOL })();
       this.#costs.set(own, Math.max((this.now() - begin) / (end - at), 1e-4));
       at = end;
       if (this.now() > late) return at;
@@ -99,7 +94,7 @@ export class ManyRigs {
     const factors = this.kernels.array('f64', rigs, FACTORS);
     const of = (/** @type {number} */ times) =>
       /** @type {Arrays} */ ({ ...Object.fromEntries(arrays(this.kernels, many(size, rigs, times))), factors });
-    return { factors, poles: of(1), whole: of(GRID) }; // over one time nothing is integrated
+    return { factors, poles: of(1), whole: of(RIGS.TIMES) }; // over one time nothing is integrated
   }
 }
 
@@ -113,7 +108,8 @@ function rows({ memory, at, type, shape: [all, ...others], items }, from, to) {
 }
 
 /** @param {number} duration */
-const timesOf = (duration) => Float64Array.from({ length: GRID }, (_, k) => (duration * k) / (GRID - 1));
+const timesOf = (duration) =>
+  Float64Array.from({ length: RIGS.TIMES }, (_, k) => (duration * k) / (RIGS.TIMES - 1));
 
 /** @param {Float64Array} verdicts @param {number} rigs */
 const share = (verdicts, rigs) => verdicts.subarray(0, rigs).reduce((sum, v) => sum + v, 0) / rigs;
@@ -129,7 +125,7 @@ function cloudOf({ rig_poles, stable }, { times, angles, within }, size, order, 
   const all = rig_poles.floats;
   const kept = new Float64Array(2 * order * done);
   for (let i = 0; i < done; i++) kept.set(all.subarray(2 * size * i, 2 * (size * i + order)), 2 * order * i);
-  const bands = bandsOf(angles.floats, judged, times.items, PERCENTS);
+  const bands = bandsOf(angles.floats, judged, times.items, RIGS.PERCENTILES);
   return {
     done,
     judged,

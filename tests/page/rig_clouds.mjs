@@ -4,14 +4,13 @@
 import { readFileSync } from 'node:fs';
 import { createInterface } from 'node:readline';
 import { ManyRigs } from '../../static/kernel/many.js';
-import { FACTORS } from '../../static/kernel/layout.js';
+import { FACTORS, RIGS } from '../../static/kernel/layout.js';
 import { compiled, instantiated, MODULE } from '../../static/kernel/module.js';
 import { fillFactors } from '../../static/kernel/random.js';
 import { loadRigs } from '../../static/kernel/rigs.js';
 import { cloudRequest, uncertain } from '../../static/splane/cloud_feed.js';
 import { designOf } from '../../static/model/index.js';
 
-const LEAST = 0.02;
 const many = new ManyRigs(await instantiated(await compiled(readFileSync(MODULE))));
 
 /** What a worker does, here and now. */
@@ -36,7 +35,7 @@ async function answer({ preset, part, spread, count, motion = 'both' }) {
   if (!rigs.serves(asked, preset)) return { body, uncertainty, factors: null, cloud: null };
   const cloud = await new Promise((told) => rigs.ask(asked, preset, uncertainty, count, told));
   const factors = new Float64Array(FACTORS * count);
-  fillFactors(factors, worker.task.spreads, LEAST);
+  fillFactors(factors, worker.task.spreads, RIGS.LEAST);
   return { body, uncertainty, factors, cloud };
 }
 
