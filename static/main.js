@@ -83,7 +83,6 @@ const live = new Live({
   onReply: (reply) => {
     if (!answered) {
       welcome();
-      computeHere().catch(console.warn);
       furtherDown().catch(report);
     }
     answered = true;
@@ -212,7 +211,7 @@ function welcome() {
 /** The page's own numbers; where a browser cannot have them, the server goes on alone. */
 async function computeHere() {
   const { compiled, instantiated, loadRigs, MODULE, Own, Updates } = await fetched(() => import('./kernel/index.js'));
-  const module = await compiled(await fetch(MODULE));
+  const module = await compiled(await fetched(() => fetch(MODULE)));
   own = new Own(store, new Updates(await instantiated(module)), ask).watch(window);
   document.documentElement.dataset.kernel = 'ready';
   clouds.take(await fetched(() => loadRigs(module)));
@@ -228,6 +227,7 @@ async function furtherDown() {
     ),
   );
   schedule();
+  computeHere().catch(console.warn);
   const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await fetched(() =>
     Promise.all([import('./compare/index.js'), import('./recordings/index.js'), import('./paper/index.js')]),
   );

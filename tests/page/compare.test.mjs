@@ -166,3 +166,17 @@ test('a rig that rounding drives apart is not compared: an unstable loop’s, an
     assert.notEqual(differenceOf(own, server), null);
   }
 });
+
+test('the condition of eigenvectors that merge has no digits', () => {
+  const of = (v) => changed(['gains', 'eigenvector_condition'], () => v);
+  const none = of(1);
+  delete none.gains.eigenvector_condition;
+  for (const [own, server, told] of [
+    [of(2.1e9), of(1.6e9), false],
+    [none, of(1.6e9), false],
+    [none, of(45), true],
+    [of(2.1e9), of(45), true],
+    [of(46), of(45), true],
+  ])
+    assert.equal(differenceOf(own, server) !== null, told);
+});
