@@ -108,8 +108,7 @@ function rows({ memory, at, type, shape: [all, ...others], items }, from, to) {
 }
 
 /** @param {number} duration */
-const timesOf = (duration) =>
-  Float64Array.from({ length: RIGS.TIMES }, (_, k) => (duration * k) / (RIGS.TIMES - 1));
+const timesOf = (duration) => Float64Array.from({ length: RIGS.TIMES }, (_, k) => (duration * k) / (RIGS.TIMES - 1));
 
 /** @param {Float64Array} verdicts @param {number} rigs */
 const share = (verdicts, rigs) => verdicts.subarray(0, rigs).reduce((sum, v) => sum + v, 0) / rigs;

@@ -1,7 +1,7 @@
 /**
- * Random numbers by their place, not by their turn: a counter, mixed by the finalizer of MurmurHash3 (A. Appleby). Which
- * rigs are drawn never depends on what was drawn before, so that the same rigs stand under every design: while a hand
- * moves, each dot of a cloud moves with it, and none jumps. Pure.
+ * Random numbers by their place, not by their turn: a counter, mixed by the finalizer of MurmurHash3 (A. Appleby). What
+ * is drawn never depends on what was drawn before, so that the same rigs stand under every design: while
+ * a hand moves, each dot of a cloud moves with it, and none jumps. Pure.
  */
 
 /** Odd, and far from any pattern: 2³² over the golden ratio, so that neighbours in counting begin far apart. */

@@ -1,6 +1,6 @@
 /**
- * The worker of rigs.js: it gets the compiled module, then tasks, and sends back clouds. It asks nobody for anything, so
- * that it goes on without the server.
+ * The worker of rigs.js: it gets the compiled module, then tasks, and sends back clouds. It asks nobody for anything,
+ * and so goes on without the server.
  * @typedef {import('./rigs.js').Told} Told
  * @typedef {import('./many.js').Task} Task
  * @typedef {import('./many.js').Cloud} Cloud

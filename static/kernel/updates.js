@@ -1,5 +1,5 @@
 /**
- * The kernel `update` of kernels.wasm, its arrays made once for each number of states. Pure but for where it comes from.
+ * The kernel `update` of kernels.wasm, its arrays made once for each number of states. Pure.
  * @typedef {import('./module.js').Block} Values
  * @typedef {import('./module.js').Kernels} Kernels
  */

@@ -4,7 +4,7 @@
  */
 import assert from 'node:assert/strict';
 import { mock, test } from 'node:test';
-import { CloudFeed, cloudRequest, cloudWords, uncertain } from '../../static/splane/cloud_feed.js';
+import { CloudFeed, cloudRequest, cloudWords, uncertain } from '../../static/clouds/feed.js';
 import { designOf, Store } from '../../static/model/store.js';
 import { MACHINE } from './presets.mjs';
 

@@ -1,5 +1,5 @@
-// The page's clouds under Python's eyes. Per line of stdin a JSON object: a preset, a part of a design, how uncertain its
-// rigs are, how many of them, and the motion. The answer is what the server would be asked, by what factors these rigs
+// The page's clouds under Python's eyes. Per line of stdin a JSON object: a preset, a part of a design, how uncertain
+// its rigs are, how many of them, and the motion. The answer is what the server would be asked, by what factors these rigs
 // differ, and the page's cloud of them: null where its kernel does not serve, or does not find the design.
 import { readFileSync } from 'node:fs';
 import { createInterface } from 'node:readline';
@@ -8,7 +8,7 @@ import { FACTORS, RIGS } from '../../static/kernel/layout.js';
 import { compiled, instantiated, MODULE } from '../../static/kernel/module.js';
 import { fillFactors } from '../../static/kernel/random.js';
 import { loadRigs } from '../../static/kernel/rigs.js';
-import { cloudRequest, uncertain } from '../../static/splane/cloud_feed.js';
+import { cloudRequest, uncertain } from '../../static/clouds/feed.js';
 import { designOf } from '../../static/model/index.js';
 
 const many = new ManyRigs(await instantiated(await compiled(readFileSync(MODULE))));

@@ -10,7 +10,7 @@ import { fill, sizeOf } from '../../static/kernel/numbers.js';
 import { bandsOf, percentile } from '../../static/kernel/percentiles.js';
 import { fillFactors, uniform } from '../../static/kernel/random.js';
 import { loadRigs } from '../../static/kernel/rigs.js';
-import { fillDots } from '../../static/splane/cloud.js';
+import { fillDots } from '../../static/clouds/dots.js';
 import { designOf } from '../../static/model/index.js';
 import { PRESETS } from './presets.mjs';
 

@@ -9,7 +9,7 @@ const DOT = 2;
 
 /**
  * @param {HTMLCanvasElement} canvas
- * @param {import('./math.js').View} view
+ * @param {import('../splane/math.js').View} view
  * @param {number} unit CSS pixels to one of the view's
  * @param {import('../types.js').Cloud|null} cloud
  */
@@ -62,7 +62,7 @@ const RGB = 0xffffff;
 /**
  * Unstable poles over the others.
  * @param {Uint32Array} pixels a picture's, row by row, empty
- * @param {import('./math.js').View} view in these pixels
+ * @param {import('../splane/math.js').View} view in these pixels
  * @param {number} size of a dot
  * @param {Pick<import('../types.js').Cloud, 'poles'|'done'>} cloud
  * @param {readonly number[]} colors of stable and of unstable poles

@@ -1,5 +1,5 @@
 /**
- * The cloud of uncertain rigs: the same controller on rigs whose parameters differ a little. The page computes it itself
+ * The feed of the cloud, the same controller on rigs whose parameters differ a little. The page computes it itself
  * where its kernel serves, all rigs for every move of the hand. Else the server is asked: a few rigs while something
  * moves, many once the hand rests; none while the page computes itself what moves, since then nobody is asked.
  * @typedef {import('../types.js').State} State
@@ -13,7 +13,6 @@
 import { bodyOf, cloudCaveat, cloudScenario, lagOf } from '../model/index.js';
 import { cloudAddress, LatestSocket } from '../net/index.js';
 
-export const SPREADS = [0, 0.05, 0.1, 0.2];
 const FEW = 200;
 const MANY = 2000;
 const REST_MS = 500;
