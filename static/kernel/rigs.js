@@ -23,9 +23,16 @@ export async function loadRigs(
   open = () => new Worker(new URL('./rigs_worker.js', import.meta.url), { type: 'module' }),
 ) {
   const worker = open();
-  await new Promise((ready, fail) => {
-    worker.onmessage = ({ data: { problem } }) => (problem ? fail(new Error(problem)) : ready(null));
-    worker.onerror = (event) => fail(new Error(event.message || 'the worker could not be loaded'));
+  await new Promise((ready, refused) => {
+    const fail = (/** @type {string} */ why) => {
+      worker.terminate();
+      refused(new Error(why));
+    };
+    worker.onmessage = ({ data: { problem } }) => (problem ? fail(problem) : ready(null));
+    worker.onerror = (event) => {
+      event.preventDefault(); // told by who asked
+      fail(event.message || 'the worker could not be loaded');
+    };
     worker.postMessage(/** @type {Asked} */ ({ module }));
   });
   return new Rigs(worker);
@@ -40,7 +47,10 @@ export class Rigs {
   constructor(worker) {
     this.worker = worker;
     worker.onmessage = ({ data }) => this.#hear(data);
-    worker.onerror = ({ message }) => this.#fail(message);
+    worker.onerror = (event) => {
+      event.preventDefault();
+      this.#fail(event.message);
+    };
   }
 
   /** @param {Design} design @param {Preset} preset */

@@ -1,6 +1,6 @@
 // The page's clouds under Python's eyes. Per line of stdin a JSON object: a preset, a part of a design, how uncertain
-// its rigs are, how many of them, and the motion. The answer is what the server would be asked, by what factors these rigs
-// differ, and the page's cloud of them: null where its kernel does not serve, or does not find the design.
+// its rigs are, how many of them, and the motion. The answer is what the server would be asked, by what factors these
+// rigs differ, and the page's cloud of them: null where its kernel does not serve, or does not find the design.
 import { readFileSync } from 'node:fs';
 import { createInterface } from 'node:readline';
 import { ManyRigs } from '../../static/kernel/many.js';

@@ -172,7 +172,7 @@ test('the worker gets the module, then numbers that it need not copy', async () 
 test('a worker that fails is asked no more', async () => {
   for (const fail of [
     (worker) => hear(worker, { id: 1, cloud: null, problem: 'RuntimeError: unreachable' }),
-    (worker) => worker.onerror({ message: 'gone' }),
+    (worker) => worker.onerror({ message: 'gone', preventDefault() {} }),
   ]) {
     const { worker, rigs } = await ready();
     const heard = [];
@@ -185,8 +185,9 @@ test('a worker that fails is asked no more', async () => {
 test('a worker that cannot be had is told of', async () => {
   const one = fake();
   const loading = loadRigs('module', () => one);
-  one.onerror({});
+  one.onerror({ preventDefault() {} });
   await assert.rejects(loading, /could not be loaded/);
+  assert.ok(one.ended);
   const other = fake();
   const refused = loadRigs('module', () => other);
   hear(other, { problem: 'CompileError: refused' });
