@@ -21,6 +21,7 @@ from tests.browser import EMPTY, FLAGS, SEEN
 WATCH = """() => {
   const { prototype } = CanvasRenderingContext2D;
   window.drawn = [];
+  addEventListener('pointermove', ({ timeStamp }) => (window.moved = timeStamp), { capture: true });
   for (const name of ['putImageData', 'fillRect']) {
     const draw = prototype[name];
     prototype[name] = function (...all) {
@@ -33,17 +34,9 @@ WATCH = """() => {
     };
   }
 }"""
-MOVE = """async ([x, y, pictures]) => {
-  const svg = document.querySelector('[data-testid=splane]');
-  window.drawn.length = 0;
-  const begin = performance.now();
-  svg.dispatchEvent(
-    new PointerEvent('pointermove', { clientX: x, clientY: y, bubbles: true, pointerId: 1, pointerType: 'mouse' }));
-  while (window.drawn.length < pictures && performance.now() - begin < 2000) {
-    await new Promise(requestAnimationFrame);
-  }
-  return [...window.drawn.map((at) => at - begin)].slice(0, pictures);
-}"""
+DRAWN = "(pictures) => window.drawn.length >= pictures && window.drawn.map((at) => at - window.moved)"
+
+SETTLED = "() => JSON.parse(document.documentElement.dataset.state ?? '{}').settled"
 
 
 async def single_moves(page: Page, moves: int, pictures: int) -> list[list[float]]:
@@ -53,8 +46,13 @@ async def single_moves(page: Page, moves: int, pictures: int) -> list[list[float
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     await page.mouse.move(x, y)
     await page.mouse.down()
-    found = [await page.evaluate(MOVE, [x - 10 - abs(k % 60 - 30), y, pictures]) for k in range(moves)]
+    found = []
+    for k in range(moves):
+        await page.evaluate("() => { window.drawn.length = 0; }")
+        await page.mouse.move(x - 10 - abs((k + 30) % 60 - 30), y)
+        found.append(await (await page.wait_for_function(DRAWN, arg=pictures)).json_value())
     await page.mouse.up()
+    await page.wait_for_function(SETTLED)
     return found
 
 
@@ -79,7 +77,7 @@ async def measure(url: str, moves: int) -> dict[str, Any]:
             await page.goto(f"{url}#v1&spread={spread}")
             if missing:
                 await page.wait_for_function(
-                    "() => document.querySelector('[data-testid=cloud-words]').textContent.startsWith('2000')"
+                    "() => document.querySelector('[data-testid=cloud-words]')?.textContent.startsWith('2000')"
                 )
             else:
                 await page.wait_for_function("() => document.documentElement.dataset.rigs === 'ready'")
