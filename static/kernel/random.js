@@ -8,7 +8,7 @@
 const STEP = 0x9e3779b9;
 
 /** Each bit of what comes depends on all of what goes in, and no two inputs have one output. @param {number} x */
-function mixed(x) {
+export function mixed(x) {
   let h = x ^ (x >>> 16);
   h = Math.imul(h, 0x85ebca6b);
   h ^= h >>> 13;
