@@ -9,7 +9,7 @@ const FLOORS = [
   ['ui', 'link', 'kernel'],
   ['charts'],
   ['plots', 'splane', 'scene', 'recordings', 'tour', 'panels'],
-  ['paper', 'compare', 'machine'],
+  ['paper', 'compare', 'machine', 'clouds'],
 ];
 const TOP = ['static/main.js', 'static/api_docs.js'];
 

@@ -96,7 +96,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     )
     app.state.compute, app.state.metrics, app.state.connections = compute, metrics, connections
     app.state.socket_counts, app.state.sessions = counts, sessions
-    files = CachedFiles(directory=settings.static)
+    own_policy = {"Content-Security-Policy": policies.WORKER}
+    files = CachedFiles(directory=settings.static, headers={"kernel/rigs_worker.js": own_policy})
     # First: these are asked for most, and each route that is tried costs time.
     app.mount("/static", files, name="static")
     app.include_router(health.build_router(compute, connections, metrics if settings.metrics else None))

@@ -10,11 +10,11 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from .block import fill_block, given_numbers, size_of
+from .block import Task, fill_block, given_numbers, size_of
 from .checks import require_within
 from .engine import engine
 from .errors import InvalidInputError
-from .evaluate import evaluate
+from .evaluate import Report, evaluate
 from .frozen import Frozen, frozen, read_only
 from .kernels.update_layout import made, rigs_shapes
 from .loop import Loop
@@ -152,12 +152,28 @@ def cloud_in_parts(
                 field=f"scenario.{name}",
                 hint="Leave it out.",
             )
-    nominal = replace(spec, scenario=replace(spec.scenario, samples=2))
-    report = evaluate(nominal)
-    loop, kernels, task = report.loop, engine(), report.task
+    report = evaluate(_nominal(spec))
+    yield from rigs_in_parts(spec, report, _random_factors(report.loop, uncertainty), check)
+
+
+def _nominal(spec: Spec) -> Spec:
+    return replace(spec, scenario=replace(spec.scenario, samples=2))
+
+
+def rigs_in_parts(
+    spec: Spec, report: Report, factors: Floats, check: Callable[[], None] = lambda: None
+) -> Iterator[Cloud]:
+    """The same of given rigs.
+
+    Args:
+        spec: the nominal rig with its design and experiment.
+        report: of that, with any number of samples.
+        factors: by which each rig's parameters and both time constants differ from the nominal ones, (n, 14).
+        check: as above.
+    """
+    loop, kernels, task = report.loop, engine(), Task.of(_nominal(spec), each_axis=False)
     size, (placed, L) = size_of(task.rest.order), report.given
     block = fill_block(task, placed=placed, L=L, most_steps=None, passing=False)
-    factors = _random_factors(loop, uncertainty)
     t = np.linspace(0.0, spec.scenario.duration, GRID)
     numbers = given_numbers(task, placed, L, kernels.most_steps)
     poles = np.empty((len(factors), len(size)), dtype=np.complex128)

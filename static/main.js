@@ -9,7 +9,7 @@ import { backoff, getMethods, getPresets, Live } from './net/index.js';
 import { byId, isolated, Projector, recall, remember, Stats, Turns, watched } from './ui/index.js';
 import { Address, LockedControls, PinKeeper } from './link/index.js';
 import { Plots } from './plots/index.js';
-import { CloudFeed, SPlane } from './splane/index.js';
+import { SPlane } from './splane/index.js';
 import { SceneSharing, SceneView } from './scene/index.js';
 import {
   ExperimentPanel,
@@ -62,13 +62,14 @@ const figures = [
   new PinsPanel(byId('pins'), store),
   new FieldProblems(document.body),
   scene,
-  new CloudFeed(store),
   new Notice(byId('notice'), store),
   new Remarks(document),
   new FindingsPanel(byId('strip'), store), // it measures what it has written
   { render: publish }, // last, when all is shown
 ];
 const views = { plane: viewOf(plane), figures: figures.map(viewOf) };
+/** @type {import('./clouds/index.js').Clouds|null} drawn in every frame, once it is loaded */ let clouds = null;
+let drawClouds = (/** @type {State} */ _state) => {};
 const turns = new Turns();
 const locked = new LockedControls(document.body);
 
@@ -137,6 +138,7 @@ function render() {
   const { state } = store;
   // each says again which of its controls can be used
   if (locked.release(state)) for (const view of [views.plane, ...views.figures]) view.forget();
+  drawClouds(state);
   views.plane(state);
   const drawn = drawPlots(state);
   turns.take(state, views.figures, { busy: drawn === true, again: schedule });
@@ -209,14 +211,21 @@ function welcome() {
 
 /** The page's own numbers; where a browser cannot have them, the server goes on alone. */
 async function computeHere() {
-  const { loadModule, MODULE, Own } = await fetched(() => import('./kernel/index.js'));
-  own = new Own(store, await loadModule(await fetched(() => fetch(MODULE))), ask).watch(window);
+  const { compiled, instantiated, loadRigs, MODULE, Own, Updates } = await fetched(() => import('./kernel/index.js'));
+  const module = await compiled(await fetched(() => fetch(MODULE)));
+  own = new Own(store, new Updates(await instantiated(module)), ask).watch(window);
   document.documentElement.dataset.kernel = 'ready';
+  clouds?.take(await fetched(() => loadRigs(module)));
+  document.documentElement.dataset.rigs = 'ready';
 }
 
 /** Panels that the first view does not need, fetched when it is there. */
 async function furtherDown() {
-  const { LagPaths, MeasuredPart, RotorPoles } = await fetched(() => import('./machine/index.js'));
+  const [{ LagPaths, MeasuredPart, RotorPoles }, { Clouds }] = await fetched(() =>
+    Promise.all([import('./machine/index.js'), import('./clouds/index.js')]),
+  );
+  clouds = new Clouds(plane, store);
+  drawClouds = viewOf(clouds);
   views.figures.unshift(
     ...[new RotorPoles(byId('poles'), store), new MeasuredPart(experiment.body, store), new LagPaths(plane, store)].map(
       viewOf,

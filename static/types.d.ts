@@ -14,7 +14,6 @@ export type {
   OverlayReply,
   ParameterInfo as Range,
   Preview,
-  RobustnessReply as Cloud,
   Sensitivity,
 } from './contract.js';
 
@@ -161,11 +160,29 @@ export interface Recorded {
   foundFor: Design | null;
 }
 
+/** Uncertain rigs under one controller. */
+export interface Cloud {
+  /** rigs whose poles are known */
+  done: number;
+  /** the first of them, whose responses are known, too */
+  judged: number;
+  /** real and imaginary parts by turns, as many poles for each rig */
+  poles: Float64Array;
+  /** s; empty where no response stayed finite */
+  t: ArrayLike<number>;
+  /** rad, the 5th, 50th and 95th percentile of the responses */
+  envelopes: Record<'theta' | 'psi', readonly ArrayLike<number>[]>;
+  /** of those done, 0 to 1 */
+  share_stable: number;
+  /** of those judged */
+  share_within_limits: number;
+}
+
 export interface State {
   requirements: Requirements;
   /** relative uncertainty of the rigs in the cloud; 0: no cloud */
   spread: number;
-  cloud: contract.RobustnessReply | null;
+  cloud: Cloud | null;
   presets: Preset[];
   methods: contract.Method[];
   design: Design | null;

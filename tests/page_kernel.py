@@ -6,7 +6,7 @@ As Prettier has it, so that it is checked like any other module; a test holds it
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import get_args
+from typing import Any, get_args
 
 from heli2dof_core.couplings import STRUCTURES
 from heli2dof_core.figures import AXIS, MARGINS
@@ -16,6 +16,7 @@ from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.poles import ZERO
 from heli2dof_core.quantities import Field
 from heli2dof_core.request import Place, quantities
+from heli2dof_core.robustness import GRID, PERCENTILES, RTOL, SMALLEST
 from heli2dof_core.rotors import AT_ONCE
 from heli2dof_core.scenario import AntiWindup, Measured
 from tests.children import ROOT
@@ -103,6 +104,16 @@ def module() -> str:
         _list("Columns of a motor's margins.", "MARGINS", MARGINS),
         _places("Columns of what both motors bear.", "SENSITIVITY", layout, SENSITIVITY),
         _numbers(),
+        _object(
+            "Of clouds: times of their responses, tolerance, least share of a parameter, percentiles of bands.",
+            "RIGS",
+            {
+                "TIMES": GRID,
+                "RTOL": RTOL,
+                "LEAST": SMALLEST,
+                "PERCENTILES": [int(percent) for percent in PERCENTILES],
+            },
+        ),
         _set(
             "Paths in a request whose values may be null.",
             "MAY_LACK",
@@ -121,6 +132,10 @@ def _numbers() -> str:
         "LAGGED": ("", layout.LAGGED),
         "FULL": ("", layout.FULL),
         "ROTORS": ("Where the rotors' speeds stand among the states.", layout.PLAIN),
+        "FACTORS": (
+            "What rigs differ in: their parameters, and both rotors' time constants.",
+            update.FACTORS,
+        ),
         "ZERO": ("Parts of poles below this are 0, rad/s.", ZERO),
         "AT_ONCE": ("Rotors below this follow at once, s.", AT_ONCE),
     }
@@ -131,7 +146,11 @@ def _numbers() -> str:
 
 
 def _places(about: str, name: str, where: object, names: Iterable[str]) -> str:
-    entries = [f"{own}: {getattr(where, own)}" for own in names]
+    return _object(about, name, {own: getattr(where, own) for own in names})
+
+
+def _object(about: str, name: str, values: Mapping[str, Any]) -> str:
+    entries = [f"{own}: {literal(value)}" for own, value in values.items()]
     one = f"export const {name} = {{ {', '.join(entries)} }};"
     if len(one) > WIDTH:
         one = "\n".join((f"export const {name} = {{", *(f"  {entry}," for entry in entries), "};"))
@@ -160,8 +179,8 @@ def _set(
 
 
 SHAPES_HEAD = """/**
- * The arrays of the kernel `update` for a loop of n states: what their elements are, and their shapes. Made of
- * heli2dof_core/kernels/update_layout.py by `python -m tests.page_kernel`; not to be changed by hand.
+ * The arrays of the kernels `update` and `run_rigs` for a loop of n states: their elements' kind, and their shapes.
+ * Made of heli2dof_core/kernels/update_layout.py by `python -m tests.page_kernel`; not to be changed by hand.
  *
  * @typedef {['f64' | 'i64' | 'c128', ...number[]]} Kind  c128: two f64
  */
@@ -171,36 +190,60 @@ KINDS = {"float64": "f64", "int64": "i64", "complex128": "c128"}
 
 def shapes() -> str:
     """The module of the arrays' shapes."""
-    block = _shapes("What it fills.", "block", update.block_shapes)
-    return (
-        f"{SHAPES_HEAD}\n{block}\n{_shapes('What it writes into besides.', 'scratch', update.scratch_shapes)}"
+    parts = (
+        _shapes("What it fills.", "block", update.block_shapes, ("samples",)),
+        _shapes("What it writes into besides.", "scratch", update.scratch_shapes, ("samples",)),
+        _shapes("What `run_rigs` takes behind these.", "many", update.rigs_shapes, ("rigs", "times")),
     )
+    return "\n".join((SHAPES_HEAD, *parts))
 
 
 def _shapes(
-    about: str, name: str, shapes_of: Callable[[int, int], dict[str, tuple[update.Shape, str]]]
+    about: str,
+    name: str,
+    shapes_of: Callable[..., dict[str, tuple[update.Shape, str]]],
+    counts: tuple[str, ...],
 ) -> str:
+    """A function of the number of states and of these counts."""
     sizes = (layout.PLAIN, layout.LAGGED, layout.FULL)
-    few, many = ([shapes_of(n, samples) for n in sizes] for samples in (100, 300))
+    few = [shapes_of(n, *(100 for _ in counts)) for n in sizes]
+    more = {
+        count: [shapes_of(n, *(300 if other == count else 100 for other in counts)) for n in sizes]
+        for count in counts
+    }
     lines = []
     for own, (shape, kind) in few[0].items():
         dims = [
-            _dimension([at[own][0][i] for at in few], [at[own][0][i] for at in many])
+            _dimension(
+                [at[own][0][i] for at in few],
+                {count: [at[own][0][i] for at in many] for count, many in more.items()},
+            )
             for i in range(len(shape))
         ]
         lines.append(f"  {key(own)}: [{', '.join((quoted(KINDS[kind]), *dims))}],")
-    head = "@param {number} n @param {number} samples @returns {Record<string, Kind>}"
+    taken = ("n", *counts)
+    told = (*(f"@param {{number}} {one}" for one in taken), "@returns {Record<string, Kind>}")
+    one = f"/** {about} {' '.join(told)} */"
+    head = one if len(one) <= WIDTH else "\n".join(("/**", f" * {about}", f" * {' '.join(told)}", " */"))
     return "\n".join(
-        (f"/** {about} {head} */", f"export const {name} = (n, samples) => ({{", *lines, "});", "")
+        (
+            head,
+            f"export const {name} = ({', '.join(taken)}) => ({{",
+            *lines,
+            "});",
+            "",
+        )
     )
 
 
-def _dimension(few: list[int], many: list[int]) -> str:
-    """One dimension in JavaScript, by 6, 8, 14 states, of 100 and of 300 samples."""
-    if few != many:
-        if few[0] != few[1] or many[0] - few[0] != 200:
-            raise ValueError(f"The page has no words for {few}, {many}")
-        return "samples" if few[0] == 100 else f"samples + {few[0] - 100}"
+def _dimension(few: list[int], more: dict[str, list[int]]) -> str:
+    """One dimension in JavaScript, by 6, 8, 14 states: where each count is 100, and where one of them is 300."""
+    grown = [(count, many) for count, many in more.items() if many != few]
+    if grown:
+        (count, many), *others = grown
+        if others or few[0] != few[1] or many[0] - few[0] != 200:
+            raise ValueError(f"The page has no words for {few}, {more}")
+        return count if few[0] == 100 else f"{count} + {few[0] - 100}"
     plain, lagged, full = few
     if plain == full:
         return str(plain)

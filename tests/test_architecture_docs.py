@@ -23,7 +23,7 @@ HOMES = (
     ROOT / "docs",
     *(ROOT / "app" / name for name in ("", "scene")),
     *(ROOT / "heli2dof_core" / name for name in ("", "placement", "recordings", "export")),
-    *(ROOT / "static" / name for name in ("", "model", "scene", "ui")),
+    *(ROOT / "static" / name for name in ("", "kernel", "model", "scene", "ui")),
 )
 """Folders from which the text names files."""
 

@@ -40,6 +40,10 @@ def page(ancestors: Iterable[str]) -> str:
     )
 
 
+WORKER = _joined(("'none'",), script_src="'self' 'wasm-unsafe-eval'")
+"""Of the page's worker: it loads its own modules, is sent the kernels, and can ask nobody for anything."""
+
+
 def api_docs(ancestors: Iterable[str]) -> str:
     """Of /docs: Swagger UI shows its icons as data."""
     return _joined(

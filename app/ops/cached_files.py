@@ -59,10 +59,15 @@ class CachedFiles(StaticFiles):
 
     Starlette's own answers cost three changes of thread each. Here only the file's date is looked at, and its
     content is read anew where that has changed.
+
+    Args:
+        directory: where they are.
+        headers: of single files, by their path there.
     """
 
-    def __init__(self, *, directory: Path) -> None:
+    def __init__(self, *, directory: Path, headers: Mapping[str, Mapping[str, str]] | None = None) -> None:
         super().__init__(directory=directory)
+        self._headers = headers or {}
         self._kept: dict[str, tuple[tuple[int, int], Content]] = {}
 
     async def get_response(self, path: str, scope: Scope) -> Response:
@@ -73,7 +78,7 @@ class CachedFiles(StaticFiles):
         """
         if scope["method"] not in ("GET", "HEAD"):
             raise HTTPException(405, headers={"Allow": "GET, HEAD"})
-        return self.content(path).response(Headers(scope=scope))
+        return self.content(path).response(Headers(scope=scope), self._headers.get(Path(path).as_posix()))
 
     def content(self, path: str) -> Content:
         """A file of the folder.

@@ -1,4 +1,5 @@
 /** What other rooms may import of kernel/. */
 export { Block, compiled, instantiated, KernelError, Kernels, MODULE } from './module.js';
 export { Own } from './own.js';
-export { loadModule } from './updates.js';
+export { loadRigs, Rigs } from './rigs.js';
+export { Updates } from './updates.js';

@@ -129,10 +129,15 @@ export const LAGGED = 8;
 export const FULL = 14;
 /** Where the rotors' speeds stand among the states. */
 export const ROTORS = 6;
+/** What rigs differ in: their parameters, and both rotors' time constants. */
+export const FACTORS = 14;
 /** Parts of poles below this are 0, rad/s. */
 export const ZERO = 1e-9;
 /** Rotors below this follow at once, s. */
 export const AT_ONCE = 1e-6;
+
+/** Of clouds: times of their responses, tolerance, least share of a parameter, percentiles of bands. */
+export const RIGS = { TIMES: 101, RTOL: 1e-5, LEAST: 0.02, PERCENTILES: [5, 50, 95] };
 
 /** Paths in a request whose values may be null. */
 export const MAY_LACK = new Set([

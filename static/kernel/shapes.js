@@ -1,6 +1,6 @@
 /**
- * The arrays of the kernel `update` for a loop of n states: what their elements are, and their shapes. Made of
- * heli2dof_core/kernels/update_layout.py by `python -m tests.page_kernel`; not to be changed by hand.
+ * The arrays of the kernels `update` and `run_rigs` for a loop of n states: their elements' kind, and their shapes.
+ * Made of heli2dof_core/kernels/update_layout.py by `python -m tests.page_kernel`; not to be changed by hand.
  *
  * @typedef {['f64' | 'i64' | 'c128', ...number[]]} Kind  c128: two f64
  */
@@ -85,4 +85,28 @@ export const scratch = (n, samples) => ({
   size_of_exponential: ['f64', 10],
   start: ['f64', n],
   work: ['f64', 18],
+});
+
+/**
+ * What `run_rigs` takes behind these.
+ * @param {number} n @param {number} rigs @param {number} times @returns {Record<string, Kind>}
+ */
+export const many = (n, rigs, times) => ({
+  times: ['f64', times],
+  rig_A: ['f64', 4, 4],
+  rig_B: ['f64', 4, 2],
+  rig_trim: ['f64', 2],
+  rig_actuators: ['f64', 12],
+  rig_whole: ['f64', n, n],
+  rig_driven: ['f64', n, 2],
+  own: ['f64', n === 6 ? 36 : 172],
+  modes: ['i64', n === 6 ? 8 : 12],
+  y: ['f64', n],
+  one: ['f64', 116],
+  x: ['f64', 17],
+  course_of_rig: ['f64', times, n],
+  rig_poles: ['c128', rigs, n],
+  angles: ['f64', rigs, 2, times],
+  stable: ['f64', rigs],
+  within: ['f64', rigs],
 });

@@ -1,21 +1,19 @@
 /**
  * The kernel `update` of kernels.wasm, its arrays made once for each number of states. Pure.
  * @typedef {import('./module.js').Block} Values
+ * @typedef {import('./module.js').Kernels} Kernels
  */
-import { compiled, instantiated } from './module.js';
 import { AT } from './layout.js';
 import { block, scratch } from './shapes.js';
 import { SIGNATURES } from './table.js';
 
-/** Rejects where a browser has no WebAssembly, or may not have it. @param {Response|BufferSource} source of MODULE */
-export const loadModule = async (source) => new Updates(await instantiated(await compiled(source)));
-
 export class Updates {
   #numbers;
   #quiet;
-  /** @type {Map<string, {run: () => unknown, filled: [string, Values][]}>} */ #ready = new Map();
+  /** @type {Map<string, {run: () => unknown, filled: [string, Values][], values: Record<string, Values>}>} */
+  #ready = new Map();
 
-  /** @param {import('./module.js').Kernels} kernels */
+  /** @param {Kernels} kernels */
   constructor(kernels) {
     this.kernels = kernels;
     this.#numbers = kernels.array('f64', AT.NUMBERS);
@@ -33,26 +31,38 @@ export class Updates {
    * @returns {import('./reply.js').Block} the block, until the next update
    */
   update(size, samples) {
-    const key = `${size} ${samples}`;
-    const { run, filled } = this.#ready.get(key) ?? this.#made(key, size, samples);
+    const { run, filled } = this.#of(size, samples);
     run();
     return Object.fromEntries(filled.map(([name, values]) => [name, values.floats]));
   }
 
-  /** @param {string} key @param {number} size @param {number} samples */
-  #made(key, size, samples) {
-    const name = 'update';
-    const arrays = (/** @type {typeof block} */ shapes) =>
-      Object.entries(shapes(size, samples)).map(
-        ([own, [kind, ...shape]]) => /** @type {[string, Values]} */ ([own, this.kernels.array(kind, ...shape)]),
-      );
-    const filled = arrays(block);
-    const values = [...filled, ...arrays(scratch)].map(([, own]) => own); // in the order of the kernel's arguments
-    const own = { numbers: this.#numbers, noise: this.#quiet, size: this.kernels.array('f64', size) };
-    const [, , , ...names] = SIGNATURES[name].takes.map((taken) => taken.name);
-    const run = this.kernels.bound(name, { ...own, ...Object.fromEntries(names.map((to, i) => [to, values[i]])) });
-    const made = { run, filled };
+  /** All its arrays by the names of its arguments. @param {number} size @param {number} samples */
+  values(size, samples) {
+    return this.#of(size, samples).values;
+  }
+
+  /** @param {number} size @param {number} samples */
+  #of(size, samples) {
+    const key = `${size} ${samples}`;
+    const made = this.#ready.get(key) ?? this.#made(size, samples);
     this.#ready.set(key, made);
     return made;
   }
+
+  /** @param {number} size @param {number} samples */
+  #made(size, samples) {
+    const name = 'update';
+    const filled = arrays(this.kernels, block(size, samples));
+    const all = [...filled, ...arrays(this.kernels, scratch(size, samples))]; // in the order of the kernel's arguments
+    const own = { numbers: this.#numbers, noise: this.#quiet, size: this.kernels.array('f64', size) };
+    const [, , , ...names] = SIGNATURES[name].takes.map((taken) => taken.name);
+    const values = { ...own, ...Object.fromEntries(names.map((to, i) => [to, all[i][1]])) };
+    return { run: this.kernels.bound(name, values), filled, values };
+  }
 }
+
+/** @param {Kernels} kernels @param {ReturnType<typeof block>} shapes */
+export const arrays = (kernels, shapes) =>
+  Object.entries(shapes).map(
+    ([own, [kind, ...shape]]) => /** @type {[string, Values]} */ ([own, kernels.array(kind, ...shape)]),
+  );

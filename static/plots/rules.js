@@ -247,9 +247,10 @@ function drawLabel({ ctx, bbox }, y, label, side, ink, paper) {
 export function drawBand(u, signal, cloud, color) {
   if (!cloud || isVoltage(signal)) return;
   const { t, envelopes } = cloud;
+  if (!t.length) return;
   const [low, , high] = envelopes[/** @type {'theta'|'psi'} */ (signal)];
   const { ctx, bbox } = u;
-  const at = (/** @type {number[]} */ band, /** @type {number} */ i) =>
+  const at = (/** @type {ArrayLike<number>} */ band, /** @type {number} */ i) =>
     /** @type {const} */ ([u.valToPos(t[i], 'x', true), u.valToPos(band[i] * DEGREE, 'y', true)]);
   ctx.save();
   ctx.beginPath();

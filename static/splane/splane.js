@@ -1,15 +1,13 @@
 /**
  * The s-plane: four poles to drag, by mouse, finger or key, over the open loop's poles and those of the whole loop. It
  * draws the store's design at once, without waiting for the server. Its parts: splane_gestures (input), _marks, _grid,
- * _pins, _cloud and _requirements (drawing), _readout (words), _math (pure).
+ * _pins and _requirements (drawing), _readout (words), _math (pure).
  * @typedef {import('../types.js').State} State
  */
-import { cloudWords, SPREADS } from './cloud_feed.js';
 import { say } from '../text/index.js';
 import { handlesOf, placesPoles } from '../model/index.js';
 import { button, drawingUnit, h, setText, svg } from '../ui/index.js';
 import { loopPaths } from './loop_paths.js';
-import { drawCloud } from './cloud.js';
 import { Gestures } from './gestures.js';
 import { drawGrid } from './grid.js';
 import { Marks, sample } from './marks.js';
@@ -17,6 +15,13 @@ import { fit, outgrown, zoom } from './math.js';
 import { drawPins } from './pins.js';
 import { Readout } from './readout.js';
 import { drawForbidden, hatchings, RequirementsBar } from './requirements.js';
+
+/** Relative uncertainties of the rigs in a cloud. */
+const SPREADS = [0, 0.05, 0.1, 0.2];
+
+/** @param {number} spread */
+const spreadOption = (spread) =>
+  h('option', { value: spread }, spread ? say`rigs ± ${Number((100 * spread).toPrecision(6))} %` : 'exact rig');
 
 export class SPlane {
   view = { cx: -5, cy: 0, scale: 20, width: 0, height: 0 };
@@ -29,6 +34,7 @@ export class SPlane {
    * @type {((fresh: boolean) => void)|null}
    */
   over = null;
+  /** What is drawn under its poles by others. @type {(() => void)|null} */ under = null;
   /** @type {import('./math.js').View|null} */ #drawn = null;
   /** @type {import('../types.js').Requirements|null} */ #asked = null;
   /** @type {import('../types.js').Reply|null} whose paths they are */ #solved = null;
@@ -74,10 +80,8 @@ export class SPlane {
           'their responses as bands',
         onchange: () => store.set({ spread: Number(this.spread.value) }),
       },
-      SPREADS.map((v) => h('option', { value: v }, v ? say`rigs ± ${100 * v} %` : 'exact rig')),
+      SPREADS.map(spreadOption),
     );
-    this.cloud = h('canvas', { class: 'cloud', hidden: true, 'aria-hidden': 'true' });
-    this.cloudText = h('div', { class: 'cloud-words', 'data-testid': 'cloud-words', role: 'status' });
     const tool = (
       /** @type {string} */ text,
       /** @type {string} */ name,
@@ -106,11 +110,7 @@ export class SPlane {
       )),
     );
     this.bar = new RequirementsBar(store);
-    root.append(
-      h('div', { class: 'splane-stage' }, this.backdrop, this.cloud, this.svg, this.readout.node, this.cloudText),
-      tools,
-      this.bar.node,
-    );
+    root.append(h('div', { class: 'splane-stage' }, this.backdrop, this.svg, this.readout.node), tools, this.bar.node);
     this.gestures = new Gestures(this);
     new ResizeObserver(([entry]) => this.#resize(entry.contentRect.width, entry.contentRect.height)).observe(this.svg);
   }
@@ -190,9 +190,18 @@ export class SPlane {
     );
   }
 
+  /** One that a link asks for is offered, too. @param {number} spread */
+  #offer(spread) {
+    if (Number(this.spread.value) === spread) return;
+    this.spread.value = String(spread);
+    if (this.spread.selectedIndex >= 0) return;
+    this.spread.append(spreadOption(spread));
+    this.spread.value = String(spread);
+  }
+
   /** @param {State} state */
   #draw(state) {
-    const { design, requirements, spread, cloud, pins } = state;
+    const { design, requirements, spread, pins } = state;
     if (!design) return;
     const fresh = this.view !== this.#drawn;
     this.#drawn = this.view;
@@ -205,8 +214,8 @@ export class SPlane {
     setText(this.loopName, unused || more ? 'whole loop' : 'with PI');
     this.marks.draw(state, this.view, fresh);
     drawPins(this.svg, this.view, pins);
-    drawCloud(this.cloud, this.view, this.unit, spread ? cloud : null);
-    setText(this.cloudText, spread ? cloudWords(cloud, design.scenario) : '');
+    this.#offer(spread);
+    this.under?.();
     this.readout.draw(state, this.#active, this.view, this.unit, this.#target());
     this.#link(fresh);
     this.over?.(fresh);

@@ -83,6 +83,15 @@ def test_pages_load_from_their_own_origin_and_run_nothing_inline(client, path: s
     assert not re.search(r'(src|href)="(https?:)?//', reply.text)
 
 
+def test_the_worker_runs_the_pages_modules_and_connects_to_nothing(client):
+    policy = directives(client.get("/static/kernel/rigs_worker.js").headers["content-security-policy"])
+    assert policy["script-src"] == {"'self'", "'wasm-unsafe-eval'"}
+    others = {name: sources for name, sources in policy.items() if name != "script-src"}
+    assert set.union(*others.values()) == {"'none'"} and "connect-src" not in policy
+    module = client.get("/static/kernel/module.js").headers["content-security-policy"]
+    assert module == policies.NOTHING
+
+
 def test_the_scenes_page_runs_its_own_scripts_by_their_hashes_alone(client):
     reply = client.get(f"/scene/{session_id('a')}/")
     scripts = directives(reply.headers["content-security-policy"])["script-src"]

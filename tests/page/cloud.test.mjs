@@ -1,7 +1,10 @@
-/** The feed of the cloud: few rigs at once, many at rest, one request at a time, nothing when it is off. */
+/**
+ * The feed of the cloud: of the server few rigs at once, many at rest, one request at a time; where the page computes,
+ * all at once, and nobody is asked; nothing when it is off.
+ */
 import assert from 'node:assert/strict';
 import { mock, test } from 'node:test';
-import { CloudFeed, cloudRequest, cloudWords, uncertain } from '../../static/splane/cloud_feed.js';
+import { CloudFeed, cloudRequest, cloudWords, uncertain } from '../../static/clouds/feed.js';
 import { designOf, Store } from '../../static/model/store.js';
 import { MACHINE } from './presets.mjs';
 
@@ -164,4 +167,79 @@ test('while the page computes itself what moves nothing is asked, and no cloud o
   feed.render(store.state);
   assert.equal(sockets[0].sent.length, 2);
   feed.render({ ...store.state, spread: 0 });
+});
+
+/** The page computes itself, by hand; another method it cannot. */
+function computing() {
+  const made = rigged();
+  const asked = [];
+  const rigs = {
+    asked,
+    forgotten: 0,
+    serves: (design) => design.method !== 'lqr',
+    ask: (design, _preset, spreads, count, then) => asked.push({ design, spreads, count, then }),
+    forget: () => (rigs.forgotten += 1),
+  };
+  return { ...made, rigs, asked };
+}
+const found = (done, judged = done) => ({ done, judged, share_stable: 1, share_within_limits: 1 });
+
+test('where the page computes, every move of the hand asks for all rigs, and no server', () => {
+  const { store, feed, sockets, open, rigs, asked } = computing();
+  store.set({ spread: 0.1 });
+  feed.render(store.state);
+  open(sockets[0]);
+  feed.take(rigs);
+  assert.equal(sockets[0].closed, true, 'the server is asked no more');
+  assert.deepEqual([asked.length, asked[0].count, asked[0].spreads], [1, 2000, { K_pp: 0.1 }]);
+  feed.render(store.state);
+  assert.equal(asked.length, 1, 'once for a design');
+  store.set({ dragging: true, connection: 'lost' });
+  for (const outer of ['none', 'pi']) {
+    store.edit((d) => ({ ...d, outer }), { gesture: 'drag-0' });
+    store.set({ answered: store.state.design }); // the page's own numbers
+    feed.render(store.state);
+    asked.at(-1).then(found(2000, 200));
+    assert.deepEqual(store.state.cloud, found(2000, 200));
+    assert.equal(asked.at(-1).design.outer, outer);
+  }
+  asked.at(-1).then(found(2000));
+  assert.equal(store.state.cloud.judged, 2000);
+  store.set({ motion: 'psi' });
+  feed.render(store.state);
+  assert.deepEqual(asked.at(-1).design.scenario, { reference: { psi: 0.2 }, duration: 3 });
+  store.set({ spread: 0.2 });
+  feed.render(store.state);
+  assert.deepEqual([asked.length, asked.at(-1).spreads.K_pp], [5, 0.2]);
+  assert.equal(sockets.length, 1);
+  store.set({ spread: 0 });
+  feed.render(store.state);
+  assert.deepEqual([store.state.cloud, rigs.forgotten], [null, 1]);
+});
+
+test('what the page does not serve, or does not find, the server is asked', () => {
+  const { store, feed, sockets, open, rigs, asked } = computing();
+  feed.take(rigs);
+  store.set({ spread: 0.1 });
+  feed.render(store.state);
+  assert.deepEqual([sockets.length, asked.length], [0, 1]);
+  asked[0].then(null);
+  open(sockets[0]);
+  assert.equal(sockets[0].sent[0].samples, 200);
+  assert.equal(rigs.forgotten, 1);
+  feed.render(store.state);
+  assert.equal(asked.length, 1, 'not again for this design');
+  store.edit((d) => ({ ...d, pairing: 'cross' }));
+  feed.render(store.state);
+  assert.deepEqual([sockets[0].closed, asked.length], [true, 2]);
+  store.edit((d) => ({ ...d, method: 'lqr' }));
+  feed.render(store.state);
+  open(sockets[1]);
+  assert.equal(sockets[1].sent[0].method, 'lqr');
+  assert.equal(asked.length, 2);
+});
+
+test('words say of how many rigs the responses are known', () => {
+  const cloud = { done: 2000, judged: 200, share_stable: 1, share_within_limits: 0.5 };
+  assert.equal(cloudWords(cloud), '2000 rigs: 100 % stable, 50 % of 200 within limits');
 });

@@ -1,7 +1,7 @@
 /** The experiment's options: what is kept, what is sent, what is said. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { cloudRequest, cloudWords } from '../../static/splane/cloud_feed.js';
+import { cloudRequest, cloudWords } from '../../static/clouds/feed.js';
 import {
   cloudCaveat,
   cloudScenario,

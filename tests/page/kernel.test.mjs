@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { Block, KernelError, Kernels, MODULE, compiled, instantiated } from '../../static/kernel/index.js';
+import { Block, KernelError, Kernels, MODULE, compiled, instantiated } from '../../static/kernel/module.js';
 import { SIGNATURES } from '../../static/kernel/table.js';
 
 const bytes = readFileSync(MODULE);
@@ -102,7 +102,7 @@ test('a kernel that gives up is an error', () => {
   const memory = new WebAssembly.Memory({ initial: 1 });
   const given = { memory, __heap_base: { value: 1024 }, eigenvalues: () => 2 };
   const kernels = new Kernels(/** @type {any} */ (given));
-  const [a, v] = [kernels.array('f64', 4, 4), kernels.array('f64', 4)];
+  const [a, v] = [kernels.array('f64', 2, 2), kernels.array('f64', 2)];
   assert.throws(() => kernels.bound('eigenvalues', { a, real: v, imaginary: v, v })(), KernelError);
 });
 

@@ -5,10 +5,10 @@ import { readFileSync } from 'node:fs';
 import { createInterface } from 'node:readline';
 import { differenceOf } from '../../static/kernel/compare.js';
 import { AT } from '../../static/kernel/layout.js';
-import { MODULE } from '../../static/kernel/module.js';
+import { compiled, instantiated, MODULE } from '../../static/kernel/module.js';
 import { fill, serves, sizeOf } from '../../static/kernel/numbers.js';
 import { replyOf } from '../../static/kernel/reply.js';
-import { loadModule } from '../../static/kernel/updates.js';
+import { Updates } from '../../static/kernel/updates.js';
 import { designOf, evaluationOf, scenarioOf } from '../../static/model/index.js';
 
 const UNUSUAL = { NaN, Infinity, '-Infinity': -Infinity };
@@ -18,7 +18,7 @@ const heard = (v) => (typeof v === 'string' ? UNUSUAL[v] : v);
 let updates;
 /** The module's block. */
 async function run(design, preset, size) {
-  updates ??= await loadModule(readFileSync(MODULE));
+  updates ??= new Updates(await instantiated(await compiled(readFileSync(MODULE))));
   fill(updates.numbers, design, preset);
   return updates.update(size, scenarioOf(design).samples);
 }

@@ -1,0 +1,2 @@
+/** What other rooms may import of clouds/. */
+export { Clouds } from './clouds.js';
