@@ -12,7 +12,7 @@ const FIGURE = 1e-6;
 const POLE = 1e-4;
 /** @type {Record<string, number>} */
 const LOOSER = { eigenvector_condition: 1e-2 };
-/** How large those are as a rule whose value may be nearly 0: they are compared by that. @type {Record<string, number>} */
+/** How large those are whose value may be nearly 0: they are compared by that. @type {Record<string, number>} */
 const USUAL = {
   ...{ overshoot: 100, undershoot: 100, steady_state_error: 1, coupling_peak: 1, iae: 1e-2, itae: 1e-2 },
   ...{ pole_error: 1, pole_error_bound: 1, saturated: 1, effort: 1e-3, rga: 1, niederlinski: 1, niederlinski_cross: 1 },
@@ -36,7 +36,7 @@ const arePoles = (v) => Array.isArray(v) && typeof v[0]?.re === 'number';
 const isMatrix = (v) => Array.isArray(v) && isSeries(v[0]);
 
 /** Eigenvectors that rounding tells apart or not: their condition has no digits. @param {unknown} condition */
-const areMerging = (condition) => condition === undefined || Number(condition) > 1e6;
+const areMerging = (condition) => condition === undefined || Number(condition) > 1e4;
 
 /** @param {number} v */
 const words = (v) => String(Number(v.toPrecision(7)));
@@ -51,7 +51,8 @@ const largest = (values) => Array.from(values).reduce((most, v) => Math.max(most
  * @returns {Difference|null}
  */
 function farthest(name, own, server, share, size = 1e-9) {
-  if (own.length !== server.length) return { name, own: `${own.length}`, server: `${server.length}`, by: Infinity }; // so many values
+  // so many values
+  if (own.length !== server.length) return { name, own: `${own.length}`, server: `${server.length}`, by: Infinity };
   const tolerance = share * Math.max(largest(server), size);
   let [at, most] = [0, 0];
   for (let i = 0; i < own.length; i++) {
@@ -61,7 +62,11 @@ function farthest(name, own, server, share, size = 1e-9) {
   return most <= tolerance ? null : { name, own: words(own[at]), server: words(server[at]), by: most / tolerance };
 }
 
-/** Poles have no order. @param {string} name @param {Complex[]} own @param {Complex[]} server @returns {Difference|null} */
+/**
+ * Poles have no order.
+ * @param {string} name @param {Complex[]} own @param {Complex[]} server
+ * @returns {Difference|null}
+ */
 function farthestPole(name, own, server) {
   if (own.length !== server.length) return farthest(name, Array(own.length), Array(server.length), POLE);
   const left = [...own];

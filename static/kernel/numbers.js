@@ -109,7 +109,10 @@ function fits(design, preset) {
   );
 }
 
-/** @param {Design} design @param {Preset} preset @param {'pitch'|'yaw'} axis @returns {import('../contract.js').Rotor} */
+/**
+ * @param {Design} design @param {Preset} preset @param {'pitch'|'yaw'} axis
+ * @returns {import('../contract.js').Rotor}
+ */
 function rotorOf(design, preset, axis) {
   const own = /** @type {import('../contract.js').Rotor} */ ({ ...preset.rotors[axis], ...design.rotors[axis] });
   return { ...own, tau: own.tau < AT_ONCE ? 0 : own.tau };

@@ -158,7 +158,7 @@ export class Own {
     const found = made ? differenceOf(made, reply) : null;
     const told = found && {
       differences: state.differences + 1,
-      notice: say`The server’s numbers differ from those computed here: ${found.name} is ${found.server} there, ${found.own} here. The server’s are shown.`,
+      notice: say`The server’s ${found.name} is ${found.server}; here it was ${found.own}. The server’s is shown.`,
     };
     if (design) {
       this.#asked.delete(design);

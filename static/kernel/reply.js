@@ -72,7 +72,11 @@ function modelOf({ A, B, actuators }, placed) {
  */
 const unchanged = (now, before) => (JSON.stringify(now) === JSON.stringify(before) ? before : now);
 
-/** Relative gains, and what is said of them. @param {number} gain λ₁₁ @param {Reply['rga']} said @returns {Reply['rga']} */
+/**
+ * Relative gains, and what is said of them.
+ * @param {number} gain λ₁₁ @param {Reply['rga']} said
+ * @returns {Reply['rga']}
+ */
 function relativeGains(gain, { reason, findings }) {
   if (Number.isNaN(gain)) return { findings };
   const cross = 1 - gain;

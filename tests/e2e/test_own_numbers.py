@@ -191,9 +191,7 @@ def test_a_difference_is_told_and_the_servers_numbers_hold(chromium: Browser, ap
         until_state(page, "s.differences === 1")
         told = page.get_by_test_id("notice")
         expect(told).to_contain_text(
-            re.compile(
-                r"The server’s numbers differ .*: \S+ is \S+.* there, \S+.* here\. The server’s are shown\."
-            )
+            re.compile(r"The server’s \S+ is \S+.*; here it was \S+.*\. The server’s is shown\.")
         )
         assert alike(state(page)["K"], K_of(state(page)).tolist())
         visit.page.get_by_test_id("notice-close").click()

@@ -144,6 +144,31 @@ test('a hand that rests without letting go gets its many rigs when it does', () 
   mock.timers.reset();
 });
 
+test('while the page computes itself what moves nothing is asked, and no cloud of another design is seen', () => {
+  const { store, feed, sockets, answer, open } = rigged();
+  store.set({ spread: 0.1, answered: store.state.design, heard: store.state.design });
+  feed.render(store.state);
+  open(sockets[0]);
+  answer(sockets[0], 200);
+  assert.equal(store.state.cloud.done, 200);
+  const moved = () => {
+    store.edit((d) => ({ ...d, theta0: d.theta0 + 0.01 }), { gesture: 'drag' });
+    store.set({ answered: store.state.design });
+    feed.render(store.state);
+  };
+  store.set({ dragging: true });
+  moved();
+  moved();
+  assert.equal(store.state.cloud, null);
+  answer(sockets[0], 2000);
+  assert.equal(store.state.cloud, null, 'it is of a design that is no more');
+  assert.equal(sockets[0].sent.length, 1);
+  store.set({ dragging: false, heard: store.state.design });
+  feed.render(store.state);
+  assert.equal(sockets[0].sent.length, 2);
+  feed.render({ ...store.state, spread: 0 });
+});
+
 /** The page computes itself, by hand; another method it cannot. */
 function computing() {
   const made = rigged();

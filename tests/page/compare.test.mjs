@@ -148,7 +148,7 @@ test('a number that is none differs from every number', () => {
   );
 });
 
-test('a rig that rounding drives apart is not compared: an unstable loop’s, and an unsettled one’s only so far', () => {
+test('a rig that rounding drives apart is not compared, and an unsettled one only so far', () => {
   for (const [part, by, told] of [
     [{ stable: true }, 1e-3, true],
     [{ stable: false }, 1e-3, false],

@@ -1,5 +1,5 @@
-// Who is asked while a hand moves something: nobody, as long as the page's own kernel serves; and what is said where the
-// server's numbers differ from the page's.
+// Who is asked while a hand moves something: nobody, as long as the page's own kernel serves; and what is said where
+// the server's numbers differ from the page's.
 import assert from 'node:assert/strict';
 import { beforeEach, test } from 'node:test';
 
@@ -209,7 +209,7 @@ test('the server’s answer holds; where its numbers differ it is told which, an
   answered((said) => (said.gains.K[0][0] = -4.001));
   assert.equal(K(), -4.001);
   assert.equal(store.state.differences, 1);
-  assert.match(store.state.notice, /gains\.K is -4\.001 there, -4 here/);
+  assert.match(store.state.notice, /gains\.K is -4\.001; here it was -4\. /);
 });
 
 test('an answer to an earlier design brings its words alone, and takes no numbers back', () => {
