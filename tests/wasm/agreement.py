@@ -21,6 +21,7 @@ RIGS = ("rig_poles", "angles", "stable", "within")
 FILLED = {
     "update": tuple(re.sub("^open$", "own_poles", name) for name in block_shapes(6, 2)),
     "run_rigs": RIGS,
+    "eigenvalues": ("real", "imaginary"),
 }
 """What a kernel is asked for; all else that it writes into is scratch."""
 EXACT = 1e-12

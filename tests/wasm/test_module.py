@@ -45,13 +45,16 @@ def tools() -> dict[str, str]:
 
 def calls_of(count: int, seed: int) -> list[Call]:
     """All that so many random designs ask of the kernels."""
-    designs = random_designs(np.random.default_rng(seed))
+    rng, designs = np.random.default_rng(seed), random_designs(np.random.default_rng(seed))
     with recorded() as calls:
         for _ in range(count):
             spec = next(designs)
             evaluate(spec, each_axis=True)
             with suppress(InvalidInputError):  # sampled and disturbed rigs have no cloud
                 cloud(spec, Uncertainty(samples=2))
+    for n in rng.integers(1, 15, count):
+        a = rng.standard_normal((n, n)) * 10.0 ** rng.uniform(-3, 3, (n, 1))
+        calls.append(called("eigenvalues", a, np.zeros(n), np.zeros(n), np.zeros(n)))
     return calls
 
 
