@@ -8,7 +8,7 @@ mode all is smooth.
 
 from __future__ import annotations
 
-from math import cos, inf
+from math import inf
 
 from .jit import kernel
 from .layout import (
@@ -27,6 +27,7 @@ from .layout import (
     TAU,
     ZONE,
 )
+from .trigonometry import sine_and_cosine
 
 
 @kernel
@@ -81,7 +82,7 @@ def inertia(axis, theta, c):
     """About an axis, kg·m²."""
     if axis == 0:
         return c[ALPHA]
-    cosine = cos(theta)
+    _, cosine = sine_and_cosine(theta)
     return c[J_Y] + c[ML2] * cosine * cosine
 
 

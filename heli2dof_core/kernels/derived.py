@@ -10,9 +10,8 @@ there is no such structure something is divided by zero.
 
 from __future__ import annotations
 
-from math import cos, sin
-
 from .jit import keep_apart, kernel
+from .trigonometry import sine_and_cosine
 
 
 @kernel
@@ -20,8 +19,7 @@ def entries(p, theta_0):
     """a, b_11, b_12, b_21, b_22, nu_p, nu_y, Delta: what A and B are made of; Delta is B₂'s determinant."""
     K_pp, K_py, K_yp, K_yy, J_p, J_y = p[0], p[1], p[2], p[3], p[4], p[5]
     m, l, B_p, B_y, K_s, g = p[6], p[7], p[8], p[9], p[10], p[11]
-    sin_0 = sin(theta_0)
-    cos_0 = cos(theta_0)
+    sin_0, cos_0 = sine_and_cosine(theta_0)
     alpha = J_p + (l * l) * m
     beta_0 = J_y + (l * l) * m * (cos_0 * cos_0)
     a = (-K_s + g * l * m * sin_0) / alpha
@@ -43,7 +41,7 @@ def rig_model(p, theta_0, A, B, trim):
     nu_y = rig[6]
     K_pp, K_py, K_yp, K_yy, m, l = p[0], p[1], p[2], p[3], p[6], p[7]
     K_s, g = p[10], p[11]
-    cos_0 = cos(theta_0)
+    _, cos_0 = sine_and_cosine(theta_0)
     A[0, 0] = 0.0
     A[0, 1] = 0.0
     A[0, 2] = 1.0

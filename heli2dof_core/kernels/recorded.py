@@ -7,7 +7,7 @@ gives the exact derivatives of the numerical solution.
 
 from __future__ import annotations
 
-from math import ceil, cos, sin
+from math import ceil
 
 from . import examples
 from .digital import (
@@ -41,6 +41,7 @@ from .layout import (
     WANTED,
     WORKSPACE,
 )
+from .trigonometry import sine_and_cosine
 
 
 @entry_point(
@@ -154,7 +155,7 @@ def runge_kutta_4_step(h, V_p, V_y, c, rows, state, stage, slope, total):
 def variational_equations(x, V_p, V_y, c, rows, out):
     """Rates of the state x[0] and of its derivatives x[1:rows] (variational equations of Eqs. 9–12)."""
     theta, theta_dot, psi_dot = x[0, 0], x[0, 2], x[0, 3]
-    sine, cosine, ml2 = sin(theta), cos(theta), c[ML2]
+    (sine, cosine), ml2 = sine_and_cosine(theta), c[ML2]
     sway, turn = ml2 * sine * cosine, ml2 * (cosine * cosine - sine * sine)
     alpha, beta = c[ALPHA], c[J_Y] + ml2 * cosine * cosine
     pitch = c[K_PP] * V_p + c[K_PY] * V_y - c[B_P] * theta_dot - c[K_S] * theta

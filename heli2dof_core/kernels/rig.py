@@ -8,8 +8,6 @@ scratch. `size` is one of `layout.SIZES`.
 
 from __future__ import annotations
 
-from math import cos, sin
-
 from .actuators import (
     curve_zone,
     inertia,
@@ -57,12 +55,13 @@ from .layout import (
     WINDUP,
     ZONE,
 )
+from .trigonometry import sine_and_cosine
 
 
 @kernel
 def accelerations(theta, theta_dot, psi_dot, V_p, V_y, c):
     """(θ̈, ψ̈), rad/s² (Eqs. 9–12); a test holds them to the derivation."""
-    sine, cosine = sin(theta), cos(theta)
+    sine, cosine = sine_and_cosine(theta)
     sway = c[ML2] * sine * cosine
     pitch = c[K_PP] * V_p + c[K_PY] * V_y - c[B_P] * theta_dot - c[K_S] * theta
     pitch -= sway * psi_dot * psi_dot + c[MGL] * cosine

@@ -65,7 +65,7 @@ def modules() -> dict[str, str]:
     """The files' texts by their names, before they are formatted."""
     paper = _HEAD.format(
         about="The rig's linear model, K of the paper's four states and L of the observer, in closed form.",
-        imports="from math import cos, sin\n\nfrom .jit import keep_apart, kernel",
+        imports="from .jit import keep_apart, kernel\nfrom .trigonometry import sine_and_cosine",
     )
     rotors = _HEAD.format(
         about="K of the six states, those of both rotors among them, in closed form.",
@@ -194,7 +194,9 @@ def _function(signature: str, about: str, read: Sequence[Read], body: Sequence[s
             lines.append("rig = entries(p, theta_0)")
         rows = (used[i : i + _IN_A_LINE] for i in range(0, len(used), _IN_A_LINE))
         lines += [" = ".join(map(", ".join, zip(*row, strict=True))) for row in rows]
-    lines += [f"{x} = {f}" for x, f in (("sin_0", "sin(theta_0)"), ("cos_0", "cos(theta_0)")) if x in words]
+    angles = [name if name in words else "_" for name in ("sin_0", "cos_0")]
+    if angles != ["_", "_"]:
+        lines.append(f"{', '.join(angles)} = sine_and_cosine(theta_0)")
     return "\n".join(("@kernel", f"def {signature}:", *(f"    {line}" for line in (*lines, *body))))
 
 

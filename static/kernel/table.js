@@ -206,8 +206,8 @@ export const SIGNATURES = {
 };
 
 /** Checksums of what it was made from, and of kernels.wasm. */
-export const SOURCES = '785d14f13df587706b657f9195630a26aa03d7262a2d9ee1ec69f66785aa1aa5';
-export const MODULE = 'ea51311be54cb9af6941efb2376f54e8f18c02d7a976444d1b7da95cef40725d';
+export const SOURCES = '4138464ebc5a79878ce55d0748c3a3a507a54247ae953fd1afc71da0494f78a8';
+export const MODULE = '74ef673fbd7ed60375455438ead7cf6e433308fe1c8f0a3a8ff8b43a4ee81785';
 
 /** What made it. */
 export const TOOLS = {

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import cache
 from importlib import import_module
-from math import cos
 from typing import Any
 
 import mpmath as mp
@@ -160,16 +159,14 @@ def test_the_observers_gain_is_that_of_the_derivation():
                 assert away(L, exact) < 4
 
 
-def test_the_rigs_model_is_that_of_the_derivation_bit_by_bit():
+def test_the_rigs_model_is_that_of_the_derivation():
     model = linear_model()
     function = written([*PARAMETERS.values(), theta_0], (model.A, model.B, model.trim), "math")
     for case in cases(2000, 4, wild=True):
-        if any(x**2 != x * x for x in (float(case.p[7]), cos(case.theta_0))):
-            continue  # C's pow, which the formula calls, may round a square otherwise
         A, B, trim = np.full((4, 4), np.nan), np.full((4, 2), np.nan), np.full(2, np.nan)
         kernel("interpreted", "rig_model")(case.p, case.theta_0, A, B, trim)
         for own, exact in zip((A, B, trim[:, None]), function(*case.p.tolist(), case.theta_0), strict=True):
-            np.testing.assert_array_equal(own, exact)
+            np.testing.assert_allclose(own, exact, rtol=1e-14)  # C's sine and powers round otherwise
 
 
 def test_compiled_and_interpreted_give_the_same_digits():
