@@ -82,12 +82,9 @@ def panel_input(window: Page, label: str):
 
 
 def shows(window: Page, label: str, value: float) -> None:
-    """Waits until the panel shows a value."""
-    reading = panel_input(window, label)
-    window.wait_for_function(
-        "([input, value]) => Math.abs(parseFloat(input.value) - value) < 1e-6",
-        arg=[reading.element_handle(), value],
-    )
+    """Waits until the panel shows a value; a window that was rebuilt has another panel, so that each look is new."""
+    reading = field(window, label)
+    until(lambda: abs(reading() - value) < 1e-6, f"{label} does not become {value}")
 
 
 def test_window_stands_where_the_page_stands(page: Page, app: App):
