@@ -49,6 +49,14 @@ _ANOTHER_METHOD, _EXACT = 1.0, 2.0
 """Where K comes from that is given."""
 
 
+def _parts(poles: PoleSet) -> tuple[float, ...]:
+    p, q, r, s = poles.values
+    return p.real, p.imag, q.real, q.imag, r.real, r.imag, s.real, s.imag
+
+
+_USUAL_POLES = _parts(_USUAL.poles)
+
+
 class Rest:
     """What of a task no pole changes.
 
@@ -111,8 +119,8 @@ class Task:
 
     def with_poles(self, poles: PoleSet) -> Task:
         """The same with other poles."""
-        numbers, (p, q, r, s) = self.numbers.copy(), poles.values
-        numbers[POLES:ROTOR_POLES] = (p.real, p.imag, q.real, q.imag, r.real, r.imag, s.real, s.imag)
+        numbers = self.numbers.copy()
+        numbers[POLES:ROTOR_POLES] = _parts(poles)
         return Task(self.spec.with_poles(poles), self.rest, numbers)
 
 
@@ -183,17 +191,17 @@ def numbers_of(spec: Spec, each_axis: bool) -> list[float]:
     """
     limits, structure, outer, observer = spec.limits, spec.structure, spec.outer, spec.observer or _USUAL
     pitch, yaw = outer.pitch, outer.yaw
-    rotors, frictions = spec.rotors.both, spec.friction.both
-    scenario = spec.scenario
+    scenario, (a, b), (c, d) = spec.scenario, spec.rotors.both, spec.friction.both
     digital, disturbance = scenario.controller, scenario.disturbance
     own, volts = digital or _DIGITAL, disturbance or _NO_DISTURBANCE
+    theta, psi, *rates = scenario.initial
     return [
         *vars(spec.parameters).values(),
         spec.theta_0,
         limits.V_p,
         limits.V_y,
         inf if limits.theta is None else limits.theta,
-        *(part for pole in spec.poles.values for part in (pole.real, pole.imag)),
+        *_parts(spec.poles),
         *spec.rotor_poles,
         spec.place_rotors,
         _FAMILIES[structure.family],
@@ -206,17 +214,26 @@ def numbers_of(spec: Spec, each_axis: bool) -> list[float]:
         yaw.ti,
         outer.pairing == "cross",
         outer.decoupler,
-        *(rotor.tau for rotor in rotors),
-        *(rotor.curve == "quadratic" for rotor in rotors),
-        *(rotor.dead_zone for rotor in rotors),
-        *(rotor.matched_at or 0.0 for rotor in rotors),
-        *(friction.coulomb for friction in frictions),
-        *(friction.static or 0.0 for friction in frictions),
+        a.tau,
+        b.tau,
+        a.curve == "quadratic",
+        b.curve == "quadratic",
+        a.dead_zone,
+        b.dead_zone,
+        a.matched_at or 0.0,
+        b.matched_at or 0.0,
+        c.coulomb,
+        d.coulomb,
+        c.static or 0.0,
+        d.static or 0.0,
         _MEASURED[scenario.measured],
-        *(part for pole in observer.poles.values for part in (pole.real, pole.imag)),
+        *(_USUAL_POLES if observer is _USUAL else _parts(observer.poles)),
         _FAMILIES[observer.structure],
-        *(nan if angle is None else angle for angle in (scenario.theta, scenario.psi)),
-        *(nan if angle is None else angle for angle in scenario.initial),
+        nan if scenario.theta is None else scenario.theta,
+        nan if scenario.psi is None else scenario.psi,
+        nan if theta is None else theta,
+        nan if psi is None else psi,
+        *rates,
         scenario.duration,
         scenario.saturation,
         WINDUP[scenario.anti_windup],

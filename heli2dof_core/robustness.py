@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -31,7 +31,7 @@ MOST_SPREAD = 0.95
 """Largest relative uncertainty of a parameter."""
 CHUNK = 250
 """Rigs before the first report of progress; each next part is twice as large."""
-SLICE = 50
+SLICE = 100
 """Rigs between two checks whether the work is still wanted: a few milliseconds, or seconds where rigs are stiff."""
 GRID = 101
 """Times at which responses are kept."""
@@ -120,12 +120,12 @@ def cloud(
     spec: Spec, uncertainty: Uncertainty = Uncertainty(), check: Callable[[], None] = lambda: None
 ) -> Cloud:
     """The whole cloud at once."""
-    *_, last = cloud_in_parts(spec, uncertainty, check)
+    *_, last = cloud_in_parts(spec, uncertainty, check, first=uncertainty.samples)
     return last
 
 
 def cloud_in_parts(
-    spec: Spec, uncertainty: Uncertainty, check: Callable[[], None] = lambda: None
+    spec: Spec, uncertainty: Uncertainty, check: Callable[[], None] = lambda: None, first: int = CHUNK
 ) -> Iterator[Cloud]:
     """The cloud after every few hundred rigs; who stops asking stops the work.
 
@@ -135,6 +135,7 @@ def cloud_in_parts(
         spec: the nominal rig with its design and experiment.
         uncertainty: how the rigs differ from it.
         check: called after every few rigs; what it raises ends the work.
+        first: rigs before the first cloud.
 
     Raises:
         InvalidInputError: the scenario has a digital controller or a disturbance.
@@ -153,7 +154,7 @@ def cloud_in_parts(
                 hint="Leave it out.",
             )
     report = evaluate(_nominal(spec))
-    yield from rigs_in_parts(spec, report, _random_factors(report.loop, uncertainty), check)
+    yield from rigs_in_parts(spec, report, _random_factors(report.loop, uncertainty), check, first)
 
 
 def _nominal(spec: Spec) -> Spec:
@@ -161,7 +162,11 @@ def _nominal(spec: Spec) -> Spec:
 
 
 def rigs_in_parts(
-    spec: Spec, report: Report, factors: Floats, check: Callable[[], None] = lambda: None
+    spec: Spec,
+    report: Report,
+    factors: Floats,
+    check: Callable[[], None] = lambda: None,
+    first: int = CHUNK,
 ) -> Iterator[Cloud]:
     """The same of given rigs.
 
@@ -170,6 +175,7 @@ def rigs_in_parts(
         report: of that, with any number of samples.
         factors: by which each rig's parameters and both time constants differ from the nominal ones, (n, 14).
         check: as above.
+        first: as above.
     """
     loop, kernels, task = report.loop, engine(), Task.of(_nominal(spec), each_axis=False)
     size, (placed, L) = size_of(task.rest.order), report.given
@@ -188,22 +194,28 @@ def rigs_in_parts(
         kernels.run_rigs(size, numbers, factors[part], RTOL, *room, *filled)
 
     with ThreadPoolExecutor(2) as pool:
-        begin, chunk = 0, CHUNK
+        begin, chunk = 0, first
         while begin < len(factors):
             end = min(begin + chunk, len(factors))
-            for first in range(begin, end, SLICE):
+            for start in range(begin, end, SLICE):
                 check()
-                last = min(first + SLICE, end)
-                middle = (first + last) // 2
-                list(pool.map(respond, (first, middle), (middle, last)))
-            yield _summary(t, poles[:, : len(loop.connected)], verdicts, angles, end)
+                stop = min(start + SLICE, end)
+                middle = (start + stop) // 2
+                list(pool.map(respond, (start, middle), (middle, stop)))
+            known = angles[:end][np.all(np.isfinite(angles[:end]), axis=(1, 2))]
+            bands = list(pool.map(_bands, (known, known), (0, 1)))
+            yield _summary(t, poles[:, : len(loop.connected)], verdicts, bands, end)
             begin, chunk = end, 2 * chunk  # so that all summaries together cost as much as the last
 
 
-def _summary(t: Floats, poles: Complexes, verdicts: Floats, angles: Floats, done: int) -> Cloud:
-    finite = np.all(np.isfinite(angles[:done]), axis=(1, 2))
-    kept = angles[:done][finite]
-    bands = np.percentile(kept, PERCENTILES, axis=0) if len(kept) else np.zeros((3, 2, len(t)))
+def _bands(angles: Floats, axis: int) -> Floats:
+    """`PERCENTILES` of one axis over the rigs, (3, GRID); zeros where there are none."""
+    if not len(angles):
+        return np.zeros((len(PERCENTILES), GRID))
+    return np.percentile(np.ascontiguousarray(angles[:, axis].T), PERCENTILES, axis=1)
+
+
+def _summary(t: Floats, poles: Complexes, verdicts: Floats, bands: Sequence[Floats], done: int) -> Cloud:
     stable, within = np.mean(verdicts[:, :done], axis=1).tolist()
     return Cloud(
         done=done,
@@ -211,7 +223,7 @@ def _summary(t: Floats, poles: Complexes, verdicts: Floats, angles: Floats, done
         loop_poles=poles[:done].copy(),
         t=read_only(t),
         percentiles=PERCENTILES,
-        envelopes={name: np.ascontiguousarray(bands[:, i]) for i, name in enumerate(("theta", "psi"))},
+        envelopes=dict(zip(("theta", "psi"), bands, strict=True)),
         share_stable=stable,
         share_within_limits=within,
     )

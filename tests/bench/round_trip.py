@@ -19,7 +19,7 @@ from threadpoolctl import threadpool_limits
 from websockets.asyncio.client import connect
 
 from app.contract.encoding import BINARY_SUBPROTOCOL
-from app.contract.evaluation import LiveRequest
+from app.contract.evaluation import LiveReader, LiveRequest
 from app.routes.live import _evaluate
 from heli2dof_core import evaluate, preset
 from tests.e2e.conftest import running_app
@@ -93,7 +93,7 @@ def live(port: int) -> str:
 
 def round_trips() -> dict[str, float]:
     """Medians, s: a full update over the socket, a bare exchange, and the update alone."""
-    text = request()
+    text, reader = request(), LiveReader()
     spec = LiveRequest.model_validate(orjson.loads(text)).to_spec()
     with running_app(message_rate="100000") as app:
         kernels_ready(app.port)
@@ -107,7 +107,7 @@ def round_trips() -> dict[str, float]:
         f"full update over the socket ({size / 1e3:.0f} kB)": median(times),
         "bare exchange of the same size": median(bare),
         "evaluate alone, at the same pace": median(paced(lambda: evaluate(spec))),
-        "request → evaluate → frame alone, at the same pace": median(paced(lambda: _evaluate(text, True))),
+        "request → evaluate → frame alone, at the same pace": median(paced(lambda: _evaluate(reader, text, True))),
     }
 
 
