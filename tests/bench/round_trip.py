@@ -107,7 +107,9 @@ def round_trips() -> dict[str, float]:
         f"full update over the socket ({size / 1e3:.0f} kB)": median(times),
         "bare exchange of the same size": median(bare),
         "evaluate alone, at the same pace": median(paced(lambda: evaluate(spec))),
-        "request → evaluate → frame alone, at the same pace": median(paced(lambda: _evaluate(reader, text, True))),
+        "request → evaluate → frame alone, at the same pace": median(
+            paced(lambda: _evaluate(reader, text, True))
+        ),
     }
 
 
