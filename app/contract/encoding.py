@@ -5,7 +5,6 @@ from __future__ import annotations
 import struct
 from typing import Any
 
-import numpy as np
 import orjson
 from starlette.responses import Response
 
@@ -32,24 +31,6 @@ def described_files(summary: str, content: dict[str, Any]) -> dict[str, Any]:
     """Route options that put files into the schema instead of JSON: the schema of each media type."""
     replies = {200: {"description": summary, "content": content}}
     return {"summary": summary, "responses": replies, "response_class": Response}
-
-
-def binary_frame(reply: dict[str, Any]) -> bytes:
-    """A reply as `framed` says; equal arrays travel once."""
-    chunks: dict[bytes, int] = {}
-    size = 0
-
-    def placed(value: Any) -> Any:  # what orjson does not know itself
-        nonlocal size
-        if not isinstance(value, np.ndarray):
-            return value.item()
-        data = value.astype("<f4").tobytes()
-        if data not in chunks:
-            chunks[data] = size
-            size += value.size
-        return array_at(chunks[data], value.size)
-
-    return framed(orjson.dumps(reply, default=placed), *chunks)
 
 
 def array_at(offset: int, length: int) -> dict[str, list[int]]:

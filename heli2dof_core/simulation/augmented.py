@@ -82,13 +82,6 @@ def inner_start(loop: Loop, x: Floats, steps: tuple[float, float] = (0.0, 0.0)) 
     return start
 
 
-def inner_starts(loop: Loop, experiments: Floats) -> Floats:
-    """`inner_start` of each row of experiments, (n, 2, INNER)."""
-    if len(loop.size) == PLAIN:
-        return np.zeros((len(experiments), 2, INNER))
-    return np.array([inner_start(loop, x) for x in experiments])
-
-
 def _settled(estimator: Estimator, angles: Floats) -> Floats:
     """States of an estimator of a rig that has rested at these angles, in deviations."""
     if estimator.measured == "filtered":

@@ -9,6 +9,7 @@ import { bodyOf, lags, presetOf } from '../model/index.js';
 import { lagTrack } from '../net/index.js';
 import { button, h, setAttr, setText, svg } from '../ui/index.js';
 import { toPixel } from '../splane/index.js';
+import { clipped } from './clipped.js';
 import { crossings } from './crossings.js';
 
 const REST_MS = 150;
@@ -104,35 +105,37 @@ export class LagPaths {
   /** @param {import('../types.js').Complex[]} path */
   #path(path) {
     const { view } = this.plane;
-    const at = path.map((p) => toPixel(view, p));
-    const last = at.length - 1;
-    // where it goes, two thirds along what is drawn
-    const lengths = at.map(([x, y], i) => (i ? Math.hypot(x - at[i - 1][0], y - at[i - 1][1]) : 0));
-    const whole = lengths.reduce((sum, l) => sum + l, 0);
-    let i = 1;
-    for (let gone = lengths[1]; i < last && gone < 0.67 * whole; gone += lengths[++i]);
-    const turned = (Math.atan2(at[i][1] - at[i - 1][1], at[i][0] - at[i - 1][0]) * 180) / Math.PI;
-    const bad = path[last].re >= 0 ? ' bad' : '';
+    const pixels = path.map((p) => toPixel(view, p));
+    const parts = clipped(pixels, view);
+    const bad = path[path.length - 1].re >= 0 ? ' bad' : '';
     return [
       svg('path', {
         class: `lag-path${bad}`,
-        d: `M ${at.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join(' L ')}`,
+        d: parts.map((at) => `M ${at.map((p) => p.map((v) => v.toFixed(1)).join(' ')).join(' L ')}`).join(' '),
       }),
-      ...(whole > 18
-        ? [
-            svg('path', {
-              class: `lag-arrow${bad}`,
-              d: ARROW,
-              transform: `translate(${at[i]}) rotate(${turned.toFixed(0)})`,
-            }),
-          ]
-        : []),
+      ...arrowOf(parts, bad),
       ...crossings(path).map((p) => {
         const [cx, cy] = toPixel(view, p);
         return svg('circle', { class: 'lag-crossing', 'data-testid': 'lag-crossing', cx, cy, r: 4.5 });
       }),
     ];
   }
+}
+
+/**
+ * Where it goes, two thirds along what is drawn.
+ * @param {[number, number][][]} parts @param {string} bad
+ */
+function arrowOf(parts, bad) {
+  const steps = parts.flatMap((at) => at.slice(1).map(([x, y], i) => ({ x, y, dx: x - at[i][0], dy: y - at[i][1] })));
+  const lengths = steps.map(({ dx, dy }) => Math.hypot(dx, dy));
+  const whole = lengths.reduce((sum, l) => sum + l, 0);
+  if (whole <= 18) return [];
+  let i = 0;
+  for (let gone = lengths[0]; i < steps.length - 1 && gone < 0.67 * whole; gone += lengths[++i]);
+  const { x, y, dx, dy } = steps[i];
+  const transform = `translate(${x} ${y}) rotate(${((Math.atan2(dy, dx) * 180) / Math.PI).toFixed(0)})`;
+  return [svg('path', { class: `lag-arrow${bad}`, d: ARROW, transform })];
 }
 
 /** What the track depends on. @param {import('../types.js').Design} design */

@@ -9,7 +9,7 @@ import struct
 import numpy as np
 import pytest
 
-from app.contract.encoding import ARRAY_KEY, BINARY_SUBPROTOCOL, binary_frame
+from app.contract.encoding import ARRAY_KEY, BINARY_SUBPROTOCOL
 from app.contract.evaluation import Evaluation
 from app.edge.messages import Mailbox
 from tests.loops import run
@@ -83,9 +83,17 @@ def test_binary_frames_hold_the_same_evaluation(client):
     assert len(frame) < 0.35 * len(json.dumps(exact))
 
 
-def test_equal_arrays_travel_once():
-    t = np.linspace(0, 1, 100)
-    assert len(binary_frame({"a": t, "b": t.copy()})) < 100 * 4 + 100
+def test_the_times_travel_once(client):
+    request = {"seq": 1, "each_axis": True, "scenario": {"samples": 301}}
+    with client.websocket_connect("/api/v1/live", subprotocols=[BINARY_SUBPROTOCOL]) as socket:
+        socket.send_json(request)
+        frame = socket.receive_bytes()
+    (length,) = struct.unpack_from("<I", frame)
+    reply = json.loads(frame[4 : 4 + length])
+    both = [reply["step"], *reply["axis_steps"].values()]
+    places = {tuple(step["t"][ARRAY_KEY]) for steps in both for step in steps.values()}
+    assert len(both) == 3 and len(places) == 1
+    assert len(frame) - 4 - length == (1 + 6 * 4) * 301 * 4  # t once, four curves of each response
 
 
 @pytest.mark.parametrize(
