@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Page, Route, expect
 
 from tests.browser import EMPTY, SEEN, goto, reopened, settled, state, visited
 from tests.e2e.conftest import App
@@ -124,3 +124,16 @@ def test_a_view_that_throws_stops_no_other_and_is_told_of_quietly(chromium: Brow
         visit.errors.clear()
         page.get_by_test_id("fault-close").click()
         expect(page.get_by_test_id("fault")).to_be_hidden()
+
+
+def test_a_place_whose_room_is_still_loading_is_led_to_when_it_is_there(chromium: Browser, app: App):
+    held: list[Route] = []
+    with visited(chromium, EMPTY, SEEN) as visit:
+        visit.page.route("**/static/machine/lag_paths.js", lambda route: held.append(route))  # noqa: PLW0108 (Playwright writes to a handler)
+        with visit.page.expect_request("**/static/machine/lag_paths.js"):
+            goto(visit.page, app.url)
+        note = visit.page.locator("#strip .list [data-code=lives_by_fast_rotors] button")
+        note.click()
+        expect(note).to_be_focused()
+        held[0].continue_()
+        expect(visit.page.get_by_test_id("show-lag")).to_be_focused()
