@@ -8,7 +8,7 @@ const FLOORS = [
   ['model', 'net'],
   ['ui', 'link', 'kernel'],
   ['charts'],
-  ['plots', 'splane', 'scene', 'recordings', 'tour', 'panels'],
+  ['plots', 'splane', 'scene', 'recordings', 'explore', 'panels'],
   ['paper', 'compare', 'machine', 'clouds'],
 ];
 const TOP = ['static/main.js', 'static/api_docs.js'];

@@ -4,9 +4,9 @@
  * @typedef {import('./types.js').State} State
  */
 import { languageOf, loadWords, messageOf, say, translatePage } from './text/index.js';
-import { requestOf, Store } from './model/index.js';
+import { isView, requestOf, Store } from './model/index.js';
 import { backoff, getMethods, getPresets, Live } from './net/index.js';
-import { byId, isolated, Projector, recall, remember, Stats, Turns, watched } from './ui/index.js';
+import { byId, isolated, recall, Stats, Turns, watched } from './ui/index.js';
 import { Address, LockedControls, PinKeeper } from './link/index.js';
 import { Plots } from './plots/index.js';
 import { SPlane } from './splane/index.js';
@@ -24,7 +24,9 @@ import {
   PinsPanel,
   PolesPanel,
   Remarks,
+  RigPanel,
   ScenarioPanel,
+  ViewSwitch,
 } from './panels/index.js';
 
 const language = languageOf(location.search, navigator.languages);
@@ -44,30 +46,32 @@ const scene = new SceneView(byId('scene'), store, {
 });
 const sharing = new SceneSharing(store, scene);
 const plots = new Plots(byId('plots'), store, { onSeek: (t) => scene.seek(t), onPeek: (t) => scene.peek(t) });
-const projector = new Projector();
 const plane = new SPlane(byId('splane'), store); // what the hand moves
 const experiment = new ExperimentPanel(byId('scenario'), store);
-/** @type {{render: (state: State) => void}[]} */
-const figures = [
-  new HeaderPanel(byId('header'), store, address, { tour, projector }),
-  { render: (/** @type {State} */ state) => plane.renderReadout(state) },
-  { render: (/** @type {State} */ state) => plots.renderValues(state) },
-  new PolesPanel(byId('poles'), store),
-  new LoopsPanel(byId('loops'), store),
-  new ScenarioPanel(byId('scenario'), store),
-  experiment,
-  new NumbersPanel(byId('numbers'), store),
-  new MetricsPanel(byId('metrics')),
-  new PinBar(byId('pin-bar'), store),
-  new PinsPanel(byId('pins'), store),
-  new FieldProblems(document.body),
-  scene,
-  new Notice(byId('notice'), store),
-  new Remarks(document),
-  new FindingsPanel(byId('strip'), store), // it measures what it has written
-  { render: publish }, // last, when all is shown
+/** @typedef {{render: (state: State) => void}} Part */
+/** Parts of the page, and where each stands. @type {[Part, HTMLElement?][]} */
+const parts = [
+  [new HeaderPanel(byId('header'), store, address)],
+  [{ render: (/** @type {State} */ state) => plane.renderReadout(state) }],
+  [{ render: (/** @type {State} */ state) => plots.renderValues(state) }, byId('plots')],
+  [new PolesPanel(byId('poles'), store), byId('poles')],
+  [new LoopsPanel(byId('loops'), store), byId('loops')],
+  [new ScenarioPanel(byId('scenario'), store), byId('scenario')],
+  [experiment, byId('scenario')],
+  [new NumbersPanel(byId('numbers'), store), byId('numbers')],
+  [new MetricsPanel(byId('metrics')), byId('metrics')],
+  [new PinBar(byId('pin-bar'), store), byId('pin-bar')],
+  [new PinsPanel(byId('pins'), store), byId('pins')],
+  [new RigPanel(byId('rig'), store), byId('rig')],
+  [new FieldProblems(document.body)],
+  [scene],
+  [new Notice(byId('notice'), store)],
+  [new Remarks(document)],
+  [new FindingsPanel(byId('strip'), store)], // it measures what it has written
+  [{ render: publish }], // last, when all is shown
 ];
-const views = { plane: viewOf(plane), figures: figures.map(viewOf) };
+const views = { plane: drawn([plane]), figures: parts.map(drawn) };
+const sides = new ViewSwitch(address);
 /** @type {import('./clouds/index.js').Clouds|null} drawn in every frame, once it is loaded */ let clouds = null;
 let drawClouds = (/** @type {State} */ _state) => {};
 const turns = new Turns();
@@ -82,10 +86,7 @@ let answered = false;
 
 const live = new Live({
   onReply: (reply) => {
-    if (!answered) {
-      welcome();
-      furtherDown().catch(report);
-    }
+    if (!answered) furtherDown().catch(report);
     answered = true;
     const design = asked.get(reply.seq) ?? null;
     for (const old of asked.keys()) if (old <= reply.seq) asked.delete(old);
@@ -102,8 +103,6 @@ store.addEventListener('design', (event) => {
   const { design } = store.state;
   if (!design) return;
   const { stamp } = /** @type {CustomEvent} */ (event).detail;
-  // who has moved something needs no tour at the next visit
-  if (stamp !== undefined && recall('tour') !== 'done') remember('tour', 'done');
   stamps.set(design, stamp);
   seq += 1;
   if (!own?.edited()) ask();
@@ -138,29 +137,31 @@ function render() {
   const { state } = store;
   // each says again which of its controls can be used
   if (locked.release(state)) for (const view of [views.plane, ...views.figures]) view.forget();
+  sides.render(state);
+  if (state.view === 'explore') explore();
   drawClouds(state);
   views.plane(state);
-  const drawn = drawPlots(state);
-  turns.take(state, views.figures, { busy: drawn === true, again: schedule });
+  const plotted = drawPlots(state);
+  turns.take(state, views.figures, { busy: plotted === true, again: schedule });
   for (const always of lookers) always(state);
-  if (!drawn) return;
+  if (!plotted) return;
   const now = performance.now();
   stats.drawn(now, state.answered ? stamps.get(state.answered) : undefined, now - begin);
   if (state.answered) stamps.delete(state.answered);
 }
 
 /**
- * A view that is drawn where what it reads has changed, and stops no other where it fails; `forget` has it drawn in any
- * case.
- * @param {{render: (state: State) => void}} view
+ * A part that is drawn where what it reads has changed and its view is shown, and stops no other where it fails;
+ * `forget` has it drawn in any case.
+ * @param {[part: Part, root?: HTMLElement]} of
  */
-function viewOf(view) {
-  let draw = watched(view);
+function drawn([part, root]) {
+  let draw = watched(part);
   return Object.assign(
-    isolated((/** @type {State} */ state) => draw(state), report),
+    isolated((/** @type {State} */ state) => (root?.closest('.elsewhere') ? false : draw(state)), report),
     {
       forget: () => {
-        draw = watched(view);
+        draw = watched(part);
       },
     },
   );
@@ -176,6 +177,16 @@ function report(error) {
     }),
   );
 }
+
+/** The first minute, fetched when it is wanted. */
+async function explore() {
+  if (explored) return;
+  explored = true;
+  const { Explore } = await fetched(() => import('./explore/index.js'));
+  views.figures.unshift(drawn([new Explore(byId('explore'), store), byId('explore')]));
+  schedule();
+}
+let explored = false;
 
 const RETRIES = 24; // four minutes
 
@@ -196,19 +207,6 @@ async function fetched(load) {
   }
 }
 
-/** @type {Promise<import('./tour/index.js').Tour>|null} */ let tours = null;
-
-/** The five hints, loaded when they are wanted. @param {HTMLElement} [from] the button that asks */
-async function tour(from) {
-  tours ??= fetched(() => import('./tour/index.js')).then(({ Tour }) => new Tour(byId('tour')));
-  (await tours).start(from);
-}
-
-/** At a first visit, after the first picture. */
-function welcome() {
-  if (recall('tour') !== 'done') setTimeout(() => recall('tour') !== 'done' && tour(), 600);
-}
-
 /** The page's own numbers; where a browser cannot have them, the server goes on alone. */
 async function computeHere() {
   const { compiled, instantiated, loadRigs, MODULE, Own, Updates } = await fetched(() => import('./kernel/index.js'));
@@ -225,24 +223,23 @@ async function furtherDown() {
     Promise.all([import('./machine/index.js'), import('./clouds/index.js')]),
   );
   clouds = new Clouds(plane, store);
-  drawClouds = viewOf(clouds);
+  drawClouds = drawn([clouds]);
   views.figures.unshift(
-    ...[new RotorPoles(byId('poles'), store), new MeasuredPart(experiment.body, store), new LagPaths(plane, store)].map(
-      viewOf,
-    ),
+    drawn([new RotorPoles(byId('poles'), store), byId('poles')]),
+    drawn([new MeasuredPart(experiment.body, store), byId('scenario')]),
+    drawn([new LagPaths(plane, store)]),
   );
   schedule();
   computeHere().catch(console.warn);
   const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await fetched(() =>
     Promise.all([import('./compare/index.js'), import('./recordings/index.js'), import('./paper/index.js')]),
   );
-  const further = [
-    new ComparePanel(byId('compare'), store),
-    new RecordingsPanel(byId('recordings'), store),
-    new FormulasPanel(byId('formulas'), store),
-    new PaperPanel(byId('paper'), store),
-  ];
-  views.figures.unshift(...further.map(viewOf));
+  views.figures.unshift(
+    drawn([new ComparePanel(byId('compare'), store), byId('compare')]),
+    drawn([new RecordingsPanel(byId('recordings'), store), byId('recordings')]),
+    drawn([new FormulasPanel(byId('formulas'), store), byId('formulas')]),
+    drawn([new PaperPanel(byId('paper'), store), byId('paper')]),
+  );
   schedule();
 }
 
@@ -269,6 +266,7 @@ function publish(state) {
     problem: problem?.code ?? null,
     locks,
     notice,
+    view: state.view,
     pins: pinned.map(({ name, reply: own }) => ({ name, K: own?.gains.K ?? null })),
   });
 }
@@ -276,14 +274,19 @@ function publish(state) {
 /** The figures for scripts: `heli2dofStats.summary()`, `heli2dofStats.reset()`. */
 /** @type {Window & {heli2dofStats?: typeof stats}} */ (window).heli2dofStats = stats;
 
+/** Without a link: at a first visit the first minute, later the view that was left. */
+function firstView() {
+  const last = recall('view');
+  return isView(last) ? last : 'explore';
+}
+
 async function start() {
   for (let delay = 300; ; delay = Math.min(2 * delay, 5000)) {
     try {
       const [presets, methods] = await Promise.all([getPresets(), getMethods()]);
       store.set({ presets, methods });
-      const place = address.open();
+      address.open(firstView());
       pins.open();
-      if (place) document.getElementById(place)?.scrollIntoView();
       return;
     } catch {
       store.set({ connection: 'lost' });

@@ -22,6 +22,7 @@ export type Poles = [Complex, Complex, Complex, Complex];
 export type Axis = keyof Angles;
 export type Motor = keyof contract.Voltages;
 export type Motion = Axis | 'both';
+export type View = 'explore' | 'design' | 'compare' | 'rig' | 'derivation';
 export type Connection = 'connecting' | 'open' | 'lost';
 /** Numbers over time: of the live socket, a view on its frame. */
 export type Series = ArrayLike<number>;
@@ -179,6 +180,8 @@ export interface Cloud {
 }
 
 export interface State {
+  /** from which side the design is seen */
+  view: View;
   requirements: Requirements;
   /** relative uncertainty of the rigs in the cloud; 0: no cloud */
   spread: number;

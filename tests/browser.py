@@ -32,7 +32,7 @@ UNDRAWN = """for (const call of ["drawArrays", "drawElements", "drawArraysInstan
 DRAWN = ""
 GONE = "net::ERR_CONNECTION_"
 """What the console says while a server is away."""
-SEEN = "try { localStorage.setItem('heli2dof.tour', 'done') } catch { /* a frame without storage */ }"
+SEEN = "try { localStorage.setItem('heli2dof.view', 'design') } catch { /* a frame without storage */ }"
 FRAME = "() => new Promise((drawn) => requestAnimationFrame(drawn))"
 
 

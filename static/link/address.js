@@ -5,6 +5,7 @@
  * @typedef {import('../types.js').State} State
  * @typedef {import('./permalink.js').Known} Known
  */
+import { isView, viewOfPlace } from '../model/index.js';
 import { linkOf, placeIn, readLink, troubleWords } from './permalink.js';
 
 const WITHIN_MS = 1000; // between two writes of one gesture
@@ -35,6 +36,7 @@ export class Budget {
 /** What of the state a link holds. @param {State} s */
 const held = (s) => [
   s.design,
+  s.view,
   s.motion,
   s.showLinear,
   s.showMarks,
@@ -96,20 +98,32 @@ export class Address {
 
   /**
    * Fills the store from the address; called once, when the presets are known.
-   * @returns {string|null} the place to which it leads
+   * @param {import('../types.js').View} [first] the view where the address names none
    */
-  open() {
+  open(first = this.store.state.view) {
     const link = readLink(this.of.hash(), this.#known);
     const { design } = readLink('#v1', this.#known);
-    if (link.shown) this.store.set(link.shown);
-    this.store.load(/** @type {import('../types.js').Design} */ (link.design ?? design));
+    this.store.set(link.shown ?? { view: viewOfPlace(link.place) ?? first });
+    const fresh = /** @type {import('../types.js').Design} */ (design);
+    // the first minute begins with the inner loop alone: PI moves the poles that one has just placed
+    const alone = this.store.state.view === 'explore' ? { ...fresh, outer: /** @type {const} */ ('none') } : fresh;
+    this.store.load(link.design ?? alone);
     if (link.pins?.length) this.store.addPins(link.pins.map((pin) => ({ ...pin, reply: null })));
     this.store.set({ notice: troubleWords(link.trouble) });
-    this.#place = link.place ?? null;
+    this.#at(link.place);
     this.#step = this.store.step;
     // a link that was not understood stays to be read
     if (!link.trouble.length) this.#write(this.store.state, this.#step);
+  }
+
+  /** The place on the page to which the address leads; null where it names a whole view. */
+  get place() {
     return this.#place;
+  }
+
+  /** @param {string|null} [place] */
+  #at(place) {
+    this.#place = place && !isView(place) ? place : null;
   }
 
   /** After Back, Forward, a jump within the page, or a link put into the address bar. */
@@ -120,15 +134,22 @@ export class Address {
     if (!link.design && !link.trouble.length) {
       // a jump within the page: the design goes along
       this.flush();
-      this.#place = placeIn(hash) ?? null;
+      const place = placeIn(hash);
+      this.#at(place);
+      this.store.set({ view: viewOfPlace(place) ?? this.store.state.view });
+      this.#seen = held(this.store.state);
       this.#replace(linkOf(this.store.state, this.#known, this.#place));
       return;
     }
     this.#cancel();
     this.store.set({ ...link.shown, notice: troubleWords(link.trouble) });
     if (!link.design) return;
-    this.#place = link.place ?? null;
+    this.#at(link.place);
     this.#shown = hash;
+    if (linkOf(this.store.state, this.#known, link.place) === hash) {
+      this.#seen = held(this.store.state); // the design is the same one: there is nothing to undo
+      return;
+    }
     const known = new Set(this.store.state.pins.map((p) => p.name));
     // going back takes no pin away
     this.store.addPins((link.pins ?? []).filter((p) => !known.has(p.name)).map((pin) => ({ ...pin, reply: null })));

@@ -6,7 +6,7 @@
  * pitch, k_p, T_i of yaw. `set.…`: parameters; `limits.…`; `step.…`: references;
  * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`,
  * `lag`, `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`.
- * `at`: the place on the page. A part that cannot be read is named and left out; the rest is restored.
+ * `view`: the view, `at`: the place on the page. A part that cannot be read is named and left out; the rest is restored.
  *
  * The format is part of the page's contract: a change that an old reader would misread takes a new version, and the
  * reader of the old one stays.
@@ -16,12 +16,23 @@
  * @typedef {import('./link_values.js').Leaf} Leaf
  * @typedef {{part: string, why: string}} Trouble
  * @typedef {{index: number, name: string, design: Design}} PinnedDesign
- * @typedef {Pick<State, 'motion'|'showLinear'|'showMarks'|'showLag'|'spread'|'requirements'|'locks'>} Shown
+ * @typedef {Pick<State, 'view'|'motion'|'showLinear'|'showMarks'|'showLag'|'spread'|'requirements'|'locks'>} Shown
  * @typedef {{design?: Design, shown?: Shown, pins?: PinnedDesign[], place?: string, trouble: Trouble[]}} Link
  * @typedef {{presets: Preset[], methods: {name: string}[]}} Known
  */
 import { differences, escaped, leafOf, polesLink, polesOf, setLeaf, unescaped } from './link_values.js';
-import { allowed, asking, designOf, LOCKS, NONE, observerPoles, QUANTITIES } from '../model/index.js';
+import {
+  allowed,
+  asking,
+  designOf,
+  isView,
+  LOCKS,
+  NONE,
+  observerPoles,
+  QUANTITIES,
+  STANDARD_VIEW,
+  viewOfPlace,
+} from '../model/index.js';
 
 const NO_POLES = 'not four poles in real or conjugate pairs';
 const VERSION = 1;
@@ -78,7 +89,7 @@ const joined = (parts, separator) => parts.map(([key, text]) => `${key}=${escape
  * @returns {string} with its #; empty while there is no design
  */
 export function linkOf(state, { presets }, place = null, most = MOST) {
-  const { design, motion, showLinear, showMarks, showLag, spread, requirements, locks, pins } = state;
+  const { design, view, motion, showLinear, showMarks, showLag, spread, requirements, locks, pins } = state;
   if (!design) return '';
   const parts = designParts(design, presets);
   if (motion !== 'both') parts.push(['motion', motion]);
@@ -88,6 +99,7 @@ export function linkOf(state, { presets }, place = null, most = MOST) {
   if (spread) parts.push(['spread', String(spread)]);
   for (const [path, text] of differences(requirements, NONE)) parts.push([`req.${path}`, text]);
   if (locks.length) parts.push(['lock', locks.join()]);
+  if (view !== STANDARD_VIEW) parts.push(['view', view]);
   if (place) parts.push(['at', place]);
   const link = `#v${VERSION}&${joined(parts, '&')}`;
   const pinned = pins
@@ -244,6 +256,7 @@ function readPin(raw, known, trouble, order) {
 function readFirst(body, known) {
   /** @type {Trouble[]} */ const trouble = [];
   /** @type {Shown} */ const shown = {
+    view: STANDARD_VIEW,
     motion: 'both',
     showLinear: true,
     showMarks: true,
@@ -255,6 +268,7 @@ function readFirst(body, known) {
   /** @type {[string, string][]} */ const design = [];
   /** @type {PinnedDesign[]} */ const pins = [];
   let place;
+  /** @type {State['view']|undefined} */ let view;
   const raw = body.split(/&(?:amp;)?/).filter(Boolean);
   for (const text of raw.filter((part) => part.startsWith('pin=')))
     pins.push(...readPin(text.slice(4), known, trouble, pins.length));
@@ -274,12 +288,14 @@ function readFirst(body, known) {
       for (const name of value.split(','))
         if (!Object.hasOwn(LOCKS, name)) refuse(`“${name}” is nothing that can be locked`);
     } else if (key === 'at') place = value;
+    else if (key === 'view') isView(value) ? (view = value) : refuse('no view of this page');
     else if (key.startsWith('req.')) {
       const asked = asking(shown.requirements, key.slice(4), /^["[{]/.test(value) ? undefined : leafOf(value));
       if (asked) shown.requirements = asked;
       else refuse('no requirement of this page, or out of its range');
     } else design.push([key, value]);
   }
+  shown.view = view ?? viewOfPlace(place) ?? STANDARD_VIEW;
   return { design: readDesign(design, known, trouble), shown, pins, place, trouble };
 }
 

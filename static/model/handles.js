@@ -40,12 +40,21 @@ export function withRotorPole(design, rotor, re) {
   return { ...design, rotor_poles: rotor ? [p, own] : [own, y] };
 }
 
-/** By handle, where there is one now. @param {Design} design @returns {(Complex|undefined)[]} */
-export const handlesOf = (design) => [
-  ...design.poles,
-  ...(design.place_rotors ? fromWire(design.rotor_poles) : [undefined, undefined]),
-  ...(placesObserver(design) ? observerPoles(design) : []),
-];
+/**
+ * By handle, where there is one now.
+ * @param {Design} design
+ * @param {0|1|null} [alone] the one pair that is seen, if not all are
+ * @returns {(Complex|undefined)[]}
+ */
+export function handlesOf(design, alone = null) {
+  const { poles } = design;
+  if (alone !== null) return poles.map((p, i) => (pairOf(i) === alone ? p : undefined));
+  return [
+    ...poles,
+    ...(design.place_rotors ? fromWire(design.rotor_poles) : [undefined, undefined]),
+    ...(placesObserver(design) ? observerPoles(design) : []),
+  ];
+}
 
 /** The four poles among which a handle's stands. @param {Design} design @param {number} index */
 export const fourOf = (design, index) => (index < ROTOR ? design.poles : observerPoles(design));

@@ -80,3 +80,4 @@ export {
 export { bodyOf, designOf, evaluationOf, initialState, presetOf, requestOf, scenarioOf, Store } from './store.js';
 export { niceStep, ticks } from './ticks.js';
 export { extent, indexAt, isVoltage, motionOf, rangeOf, SIGNALS, trace, TRACES, tracesOf } from './traces.js';
+export { isRead, isView, pairAlone, STANDARD_VIEW, viewOfPlace, VIEWS } from './views.js';

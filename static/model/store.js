@@ -20,11 +20,13 @@ import { letterOf } from './pins.js';
 import { fromWire } from './poles.js';
 import { OUTER, ROTORS, STRUCTURE } from './quantities.js';
 import { NONE } from './requirements.js';
+import { STANDARD_VIEW } from './views.js';
 
 const DEPTH = 200;
 
 /** @returns {State} */
 export const initialState = () => ({
+  view: STANDARD_VIEW,
   presets: [],
   methods: [],
   design: null,
@@ -128,6 +130,16 @@ export const requestOf = (design, seq) =>
 /** @param {Pick<State, 'presets'|'design'>} state @returns {Preset|undefined} */
 export const presetOf = ({ presets, design }) => presets.find((p) => p.name === design?.preset);
 
+/**
+ * One view shows one axis at a time; who leaves it sees both again.
+ * @param {State} before @param {Partial<State>} part @returns {Partial<State>}
+ */
+function motionIn(before, { view = before.view, motion }) {
+  const wanted = motion ?? before.motion;
+  if (view === 'explore') return { motion: wanted === 'both' ? 'theta' : wanted };
+  return before.view === 'explore' ? { motion: motion ?? 'both' } : {};
+}
+
 export class Store extends EventTarget {
   /** @type {State} */ state = initialState();
   /** @type {Design[]} */ #past = [];
@@ -139,7 +151,7 @@ export class Store extends EventTarget {
 
   /** Changes what is not the design. @param {Partial<State>} part */
   set(part) {
-    this.state = { ...this.state, ...part };
+    this.state = { ...this.state, ...part, ...motionIn(this.state, part) };
     this.dispatchEvent(new Event('change'));
   }
 

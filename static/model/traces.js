@@ -48,15 +48,18 @@ export function trace(step, signal, linear) {
 
 /**
  * @param {Reply} reply @param {Motion} motion @param {boolean} showLinear
+ * @param {0|1|null} [alone] 0: the rig's pitch step and nothing else, 1: its yaw step
  * @returns {{t: import('../types.js').Series, plots: Record<Signal, (import('../types.js').Series|undefined)[]>}}
  */
-export function tracesOf(reply, motion, showLinear) {
-  const steps = reply.axis_steps ?? {};
+export function tracesOf(reply, motion, showLinear, alone = null) {
+  const all = reply.axis_steps ?? {};
+  const steps = alone === null ? all : alone ? { psi: all.psi } : { theta: all.theta };
+  const linear = showLinear && alone === null;
   const played = motionOf(reply, motion)?.nonlinear;
   const of = (/** @type {Signal} */ s) => [
     trace(played, s, false),
-    showLinear ? trace(steps.theta?.linear, s, true) : undefined,
-    showLinear ? trace(steps.psi?.linear, s, true) : undefined,
+    linear ? trace(steps.theta?.linear, s, true) : undefined,
+    linear ? trace(steps.psi?.linear, s, true) : undefined,
     trace(steps.psi?.nonlinear, s, false),
     trace(steps.theta?.nonlinear, s, false),
     rotorTrace(steps.psi?.nonlinear, s),

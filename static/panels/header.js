@@ -3,11 +3,12 @@
  * and whether the server is there.
  */
 import { say } from '../text/index.js';
-import { designOf, lockNames, presetOf } from '../model/index.js';
+import { changedWords, designOf, lockNames, presetOf } from '../model/index.js';
 import { button, h, setAttr, setText } from '../ui/index.js';
 import { exportMenu } from './export_menu.js';
-import { RigPanel } from './rig.js';
+import { CONCERNED } from './rig.js';
 import { ShareButtons } from './share.js';
+import { viewLinks } from './views.js';
 
 const STATUS = { connecting: 'connecting…', open: 'live', lost: 'connection lost' };
 
@@ -16,9 +17,8 @@ export class HeaderPanel {
    * @param {HTMLElement} root
    * @param {import('../model/store.js').Store} store
    * @param {import('../link/address.js').Address} address
-   * @param {{tour: (from: HTMLElement) => void, projector: import('../ui/projector.js').Projector}} aids
    */
-  constructor(root, store, address, { tour, projector }) {
+  constructor(root, store, address) {
     this.store = store;
     this.select = h('select', {
       'data-testid': 'preset',
@@ -40,13 +40,12 @@ export class HeaderPanel {
     this.pin = tool('pin', 'Pin', 'Keep this design beside those that follow: its poles, responses and figures', () =>
       store.pin(),
     );
-    this.rig = new RigPanel(store);
-    this.tour = tool('tour-open', 'Tour', 'Five hints on what can be done here', () => tour(this.tour));
-    this.projector = tool('projector', 'Aa', 'Projector: large type and thick lines', () =>
-      this.projector.setAttribute('aria-pressed', String(projector.toggle())),
-    );
-    this.projector.setAttribute('aria-pressed', String(projector.on));
-    setAttr(this.projector, 'aria-label', 'Projector mode');
+    this.rig = h('a', {
+      class: 'rig-link',
+      href: '#rig',
+      'data-testid': 'rig',
+      title: 'The rig’s parameters and limits',
+    });
     this.share = new ShareButtons(store, address);
     this.locked = h('span', { class: 'locked', hidden: true, 'data-testid': 'locked' });
     this.status = h(
@@ -57,21 +56,16 @@ export class HeaderPanel {
       (this.kept = h('span', { class: 'kept', hidden: true }, 'your changes are kept')),
     );
     root.append(
-      h('div', { class: 'rig' }, this.select, this.rig.node, this.locked, this.source),
+      viewLinks(),
+      h('div', { class: 'rig' }, this.select, this.rig, this.locked, this.source),
       h(
         'div',
         { class: 'buttons' },
         this.undo,
         this.redo,
         this.reset,
-        this.pin,
-        this.share.node,
-        exportMenu(store, address),
-        h('a', { class: 'button', href: '#compare', title: 'Methods side by side' }, 'Compare'),
-        h('a', { class: 'button', href: '#formulas' }, 'Formulas'),
-        h('a', { class: 'button', href: '#paper', title: 'The paper, step by step' }, 'Paper'),
-        this.tour,
-        this.projector,
+        h('span', { class: 'takes', 'data-views': 'design compare rig derivation' }, this.pin, this.share.node),
+        h('span', { class: 'takes', 'data-views': 'design compare rig derivation' }, exportMenu(store, address)),
       ),
       this.status,
     );
@@ -101,8 +95,11 @@ export class HeaderPanel {
 
   /** @param {import('../types.js').State} state */
   render(state) {
-    const { presets, design, connection, canUndo, canRedo, locks } = state;
-    this.rig.render(state);
+    const { presets, design, connection, canUndo, canRedo, locks, problem } = state;
+    const changed = design ? changedWords(design) : '';
+    setText(this.rig, changed || 'Parameters');
+    this.rig.classList.toggle('changed', Boolean(changed));
+    this.rig.classList.toggle('refused', CONCERNED.test(problem?.field ?? ''));
     if (this.select.options.length !== presets.length)
       this.select.replaceChildren(...presets.map((p) => h('option', { value: p.name, title: p.source }, p.title)));
     if (design) this.select.value = design.preset;

@@ -11,4 +11,6 @@ export { PinsPanel } from './pins.js';
 export { PairEditor, PolesPanel } from './poles.js';
 export { FieldProblems } from './problems.js';
 export { Remarks } from './remarks.js';
+export { RigPanel } from './rig.js';
 export { ScenarioPanel } from './scenario.js';
+export { ViewSwitch } from './views.js';

@@ -3,6 +3,8 @@
  * focus leaves. A place whose room is still being loaded is led to when it is there.
  */
 
+import { goTo } from './views.js';
+
 /** Ends the wait for a place. */
 let unawait = () => {};
 
@@ -19,7 +21,7 @@ export function leadTo(selector) {
     arrival.disconnect();
     elsewhere.abort();
   };
-  arrival.observe(document.body, { childList: true, subtree: true });
+  arrival.observe(document.body, { childList: true, subtree: true, attributeFilter: ['class'] });
   for (const act of ['pointerdown', 'keydown'])
     document.addEventListener(act, () => unawait(), { capture: true, signal: elsewhere.signal });
 }
@@ -28,6 +30,11 @@ export function leadTo(selector) {
 function led(selector) {
   /** @type {HTMLElement|SVGElement|null} */ let node = document.querySelector(selector);
   if (!node) return false;
+  const [view] = node.closest('.elsewhere')?.getAttribute('data-views')?.split(' ') ?? [];
+  if (view) {
+    goTo(/** @type {import('../types.js').View} */ (view));
+    return false; // it is there with the view
+  }
   for (let outer = node.closest('details'); outer; outer = outer.parentElement?.closest('details') ?? null)
     outer.open = true;
   if (!usable(node)) {

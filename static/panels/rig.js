@@ -1,7 +1,4 @@
-/**
- * The rig's parameters and limits as fields, each beside what the preset says. Folded away; the header's line says how
- * many differ.
- */
+/** The rig's parameters and limits as fields, each beside what the preset says; the header's link says how many differ. */
 import { inField, say, t } from '../text/index.js';
 import {
   asProposed,
@@ -15,9 +12,9 @@ import {
   withValue,
 } from '../model/index.js';
 import { button, h, designField, setAttr, setText, symbol } from '../ui/index.js';
-import { folded } from './folded.js';
 
-const CONCERNED = /^(parameters|limits|rotors|friction)(\.|$)/;
+/** The paths of fields that stand here. */
+export const CONCERNED = /^(parameters|limits|rotors|friction)(\.|$)/;
 /** The parts of the panel, by where their quantities stand. */
 const PARTS = /** @type {[import('../model/rig.js').Kind, string][]} */ ([
   ['parameters', ''],
@@ -117,11 +114,9 @@ export class RigPanel {
   /** @type {import('../types.js').Preset|undefined} */ preset;
   /** @type {Row[]} */ rows = [];
 
-  /** @param {import('../model/store.js').Store} store */
-  constructor(store) {
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
+  constructor(root, store) {
     this.store = store;
-    this.name = h('span');
-    this.summary = h('summary', { 'data-testid': 'rig', title: 'The rig’s parameters and limits' }, this.name);
     this.source = h('p', { class: 'rig-source', 'data-testid': 'rig-source' });
     this.all = button(
       {
@@ -136,17 +131,20 @@ export class RigPanel {
     this.parts = PARTS.map(([kind, title]) =>
       h('fieldset', { 'aria-label': title || kind }, title && h('p', { class: 'caption' }, title)),
     );
-    const how = { testid: 'rig', kind: 'rig-details', summary: this.summary, what: 'parameters' };
-    this.node = folded(how, (close) => [
-      h('div', { class: 'row' }, this.source, this.all, close),
-      this.problem,
-      ...this.parts,
-    ]);
+    root.append(
+      h(
+        'div',
+        { class: 'rig-body', 'data-testid': 'rig-body' },
+        h('div', { class: 'row' }, this.source, this.all),
+        this.problem,
+        h('div', { class: 'rig-parts' }, this.parts),
+      ),
+    );
   }
 
   #reset() {
     this.store.edit(asProposed);
-    this.summary.focus();
+    this.rows[0]?.field.input.focus();
   }
 
   /** @param {import('../types.js').State} state */
@@ -160,12 +158,9 @@ export class RigPanel {
         this.parts[i].append(...this.rows.filter((r) => r.q.kind === kind).map((r) => r.node));
     }
     const changed = changedWords(design);
-    setText(this.name, changed || 'Parameters');
-    this.summary.classList.toggle('changed', Boolean(changed));
     this.all.hidden = !changed;
     setText(this.source, preset.source);
     const concerned = CONCERNED.test(problem?.field ?? '');
-    this.summary.classList.toggle('refused', concerned);
     setText(this.problem, concerned ? `✕ ${[problem?.detail, problem?.hint].filter(Boolean).join(' ')}` : '');
     for (const row of this.rows) row.render(design, preset);
   }

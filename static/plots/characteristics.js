@@ -116,14 +116,15 @@ function couplingMark(step, stepped, other) {
  * one has looked.
  * @param {Reply|null} reply
  * @param {Signal} signal
+ * @param {boolean} [alone] without what the other axis' step does here
  * @returns {Mark[]}
  */
-export function marksOf(reply, signal) {
+export function marksOf(reply, signal, alone = false) {
   if (!reply?.stable || isVoltage(signal)) return [];
   const own = /** @type {'theta'|'psi'} */ (signal);
   const other = own === 'theta' ? 'psi' : 'theta';
   const [step, cross] = [reply.axis_steps?.[own]?.nonlinear, reply.axis_steps?.[other]?.nonlinear];
-  return [...(step ? ownMarks(step, own) : []), ...(cross ? couplingMark(cross, other, own) : [])].sort(
+  return [...(step ? ownMarks(step, own) : []), ...(cross && !alone ? couplingMark(cross, other, own) : [])].sort(
     (a, b) => a.t - b.t,
   );
 }

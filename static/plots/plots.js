@@ -6,7 +6,7 @@
  */
 import { marksOf } from './characteristics.js';
 import { fixed, say, t as word, typographic } from '../text/index.js';
-import { extent, indexAt, isVoltage, rangeOf, SIGNALS, TRACES, tracesOf } from '../model/index.js';
+import { extent, indexAt, isVoltage, pairAlone, rangeOf, SIGNALS, TRACES, tracesOf } from '../model/index.js';
 import { button, h, pictureScale, setText, symbol } from '../ui/index.js';
 import { chartBody, ink, makeChart, scaled } from '../charts/index.js';
 import { PlotGhosts } from './ghosts.js';
@@ -48,6 +48,7 @@ export class Plots {
   /** @type {import('../types.js').Cloud|null} */ #cloud = null;
   /** @type {import('../types.js').Requirements|null} */ #asked = null;
   /** @type {ReturnType<typeof tracesOf>|null} */ #data = null;
+  /** Whether one plot is seen by itself. */ alone = false;
 
   /**
    * @param {HTMLElement} root
@@ -125,7 +126,8 @@ export class Plots {
       auto: false,
       paths: plainPath,
     });
-    const last = () => signal === 'V_y' || (signal === 'V_p' && this.root.classList.contains('two-columns'));
+    const last = () =>
+      this.alone || signal === 'V_y' || (signal === 'V_p' && this.root.classList.contains('two-columns'));
     /** @type {PlotGhosts|undefined} */ let ghosts;
     /** @type {PlotMarks|undefined} */ let marks;
     /** @type {PlotTexts|undefined} */ let texts;
@@ -198,11 +200,13 @@ export class Plots {
       this.#asked = state.requirements;
       for (const { signal, chart } of this.plots) if (!isVoltage(signal)) chart.redraw(false);
     }
-    const seen = [state.reply, state.motion, state.showLinear, state.showMarks, state.pins];
+    const alone = pairAlone(state);
+    const seen = [state.reply, state.motion, state.showLinear, state.showMarks, state.pins, alone];
     if (!state.reply || seen.every((v, i) => v === this.#seen[i])) return false;
     this.#seen = seen;
+    this.alone = alone !== null;
     const fresh = this.#data === null;
-    const data = (this.#data = tracesOf(state.reply, state.motion, state.showLinear));
+    const data = (this.#data = tracesOf(state.reply, state.motion, state.showLinear, alone));
     const end = data.t[data.t.length - 1];
     const whole = end !== this.#time[1];
     this.#time = [0, end];
@@ -235,7 +239,7 @@ export class Plots {
   /** @param {Signal} signal */
   #marks(signal) {
     const { reply, showMarks } = this.store.state;
-    return showMarks ? marksOf(reply, signal) : [];
+    return showMarks ? marksOf(reply, signal, this.alone) : [];
   }
 
   /** @param {uPlot} u */

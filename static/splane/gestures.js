@@ -5,7 +5,7 @@
  * @typedef {import('./math.js').View} View
  * @typedef {{x: number, y: number}} Point  pixels of the view
  */
-import { dragHandle, handlesOf, nudgeHandle, tidy } from '../model/index.js';
+import { dragHandle, handlesOf, nudgeHandle, pairAlone, tidy } from '../model/index.js';
 import { keyStep, pick, pinch, toPixel, toPlane, zoom } from './math.js';
 
 export const REACH = 28; // px: how near a press must be to take a pole
@@ -84,8 +84,15 @@ export class Gestures {
 
   /** @param {MouseEvent} e @returns {number|null} the pole that a press here would take */
   #under(e) {
-    const { design } = this.plane.store.state;
-    return design ? pick(this.plane.view, handlesOf(design), this.plane.marks.order, this.#at(e), REACH) : null;
+    const { state } = this.plane.store;
+    if (!state.design) return null;
+    return pick(
+      this.plane.view,
+      handlesOf(state.design, pairAlone(state)),
+      this.plane.marks.order,
+      this.#at(e),
+      REACH,
+    );
   }
 
   /** @param {PointerEvent} e */

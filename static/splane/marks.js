@@ -6,7 +6,7 @@
  * @typedef {import('./math.js').View} View
  */
 import { poleText, say } from '../text/index.js';
-import { axisOf, guideWords, HANDLES, handlesOf, isAsked, kindOf, numeralOf, placesPoles } from '../model/index.js';
+import { axisOf, guideWords, HANDLES, handlesOf, isAsked, kindOf, numeralOf, pairAlone, placesPoles } from '../model/index.js';
 import { setAttr, svg } from '../ui/index.js';
 import { toPixel } from './math.js';
 
@@ -117,8 +117,10 @@ export class Marks {
   draw(state, view, fresh) {
     const { design, reply, requirements } = state;
     if (!design) return;
-    if (fresh || design !== this.#design || requirements !== this.#requirements)
-      this.#drawPlaced(handlesOf(design), view, requirements);
+    const alone = pairAlone(state);
+    if (fresh || design !== this.#design || requirements !== this.#requirements || alone !== this.#alone)
+      this.#drawPlaced(handlesOf(design, alone), view, requirements);
+    this.#alone = alone;
     this.#design = design;
     this.#requirements = requirements;
     // where they are none but the placed ones, these are all there is to see
@@ -131,6 +133,7 @@ export class Marks {
   }
 
   /** @type {import('../types.js').Design|null} */ #design = null;
+  /** @type {0|1|null} */ #alone = null;
   /** @type {import('../types.js').Requirements|null} */ #requirements = null;
   /** @type {{open?: Complex[], loop?: Complex[]}} */ #shown = {};
 

@@ -5,7 +5,7 @@
  * @typedef {import('../types.js').State} State
  */
 import { say } from '../text/index.js';
-import { handlesOf, placesPoles } from '../model/index.js';
+import { handlesOf, pairAlone, placesPoles } from '../model/index.js';
 import { button, drawingUnit, h, setText, svg } from '../ui/index.js';
 import { loopPaths } from './loop_paths.js';
 import { Gestures } from './gestures.js';
@@ -28,6 +28,7 @@ export class SPlane {
   /** CSS pixels to one of the drawing, which grows with the page. */ unit = 1;
   #manual = false;
   /** @type {string|null} */ #preset = null;
+  /** @type {0|1|null} */ #alone = null;
   /** @type {number|null} */ #active = null;
   /**
    * What is drawn over the plane by others, told whether the view is a new one.
@@ -135,7 +136,7 @@ export class SPlane {
     const { design, reply } = state;
     if (!design || !this.view.width) return;
     this.#manual = false;
-    const own = handlesOf(design).filter((p) => p !== undefined);
+    const own = handlesOf(design, pairAlone(state)).filter((p) => p !== undefined);
     this.view = fit(own, [...(reply?.loop_poles ?? []), ...(reply?.open_loop_poles ?? [])], this.view);
     this.#draw(state);
   };
@@ -159,9 +160,10 @@ export class SPlane {
   render(state) {
     const { design, reply, dragging } = state;
     if (!design || !this.view.width) return;
-    const fresh = design.preset !== this.#preset;
+    const fresh = design.preset !== this.#preset || pairAlone(state) !== this.#alone;
     this.#preset = design.preset;
-    const own = handlesOf(design).filter((p) => p !== undefined);
+    this.#alone = pairAlone(state);
+    const own = handlesOf(design, pairAlone(state)).filter((p) => p !== undefined);
     const watched = [...own, ...(reply?.loop_poles ?? []).filter((p) => p.re >= 0)];
     if (!dragging && (fresh || (!this.#manual && outgrown(this.view, watched)))) this.fit(state);
     else this.#draw(state);

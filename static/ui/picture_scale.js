@@ -1,5 +1,5 @@
 /**
- * How large type and lines are on canvases: style.css and projector.css say it as `--picture-type` (rem) and
+ * How large type and lines are on canvases: style.css and views.css say it as `--picture-type` (rem) and
  * `--picture-lines`, so that charts grow with the page, be it for a reader's setting, a very large window or a lecture
  * hall. Every chart is registered here once and then follows.
  */

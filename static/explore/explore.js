@@ -1,0 +1,198 @@
+/**
+ * The first minute: what this is in one sentence, six steps that each ask for something, and the few switches that they
+ * bring along. S-plane, plot and rig are the page's own, large (see views.css).
+ * @typedef {import('../types.js').State} State
+ * @typedef {import('./steps.js').Switch} Switch
+ */
+import { say, t } from '../text/index.js';
+import { pairAlone } from '../model/index.js';
+import { button, Choice, h, Projector, recall, remember, setAttr, setText, shape } from '../ui/index.js';
+import { sideOf, STEPS, SWITCHES } from './steps.js';
+
+const MEMORY = 'explore';
+
+export class Explore {
+  #at = 0;
+  /** @type {Set<string>} names of steps */ #done = new Set();
+  #goal = NaN;
+  /** @type {number|null} of which pair and step the goal is */ #goalOf = null;
+
+  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
+  constructor(root, store) {
+    this.root = root;
+    this.store = store;
+    this.#recall();
+    this.pair = new Choice({
+      label: 'Pair of poles',
+      testid: 'explore-pair',
+      options: [
+        ['theta', 'pitch'],
+        ['psi', 'yaw'],
+      ],
+      onChange: (v) => store.set({ motion: v }),
+    });
+    for (const [i, input] of this.pair.inputs.entries()) input.nextElementSibling?.prepend(shape(i ? 'yaw' : 'pitch'));
+    this.seen = new Choice({
+      label: 'Plot',
+      testid: 'explore-plot',
+      options: [
+        ['angle', 'angle'],
+        ['volts', 'voltage'],
+      ],
+      onChange: (v) => this.#show(v),
+    });
+    this.switches = /** @type {Switch[]} */ (Object.keys(SWITCHES)).map((name) => {
+      const node = button(
+        { class: 'switch', 'data-testid': `explore-${name}`, 'aria-pressed': 'false', onclick: () => this.#turn(name) },
+        SWITCHES[name].text,
+      );
+      return { name, node };
+    });
+    this.dots = STEPS.map(({ title }, i) =>
+      button({ class: 'dot', title, 'data-testid': `step-${i + 1}`, onclick: () => this.#go(i) }, String(i + 1)),
+    );
+    this.title = h('h2', { 'data-testid': 'step-title' });
+    this.ask = h('p', { class: 'ask', 'data-testid': 'step-ask' });
+    this.see = h('p', { class: 'see' });
+    this.told = h('span', { class: 'well', role: 'status', 'data-testid': 'step-done' });
+    this.next = button({ class: 'primary', 'data-testid': 'step-next', onclick: () => this.#go(this.#at + 1) });
+    const projector = new Projector();
+    this.projector = button(
+      {
+        class: 'quiet',
+        'data-testid': 'projector',
+        title: 'For a lecture hall: large type',
+        'aria-label': 'Projector',
+        'aria-pressed': String(projector.on),
+        onclick: () => setAttr(this.projector, 'aria-pressed', String(projector.toggle())),
+      },
+      'Aa',
+    );
+    this.end = h(
+      'p',
+      { class: 'onward' },
+      h('a', { class: 'button primary', href: '#design', 'data-testid': 'explore-design' }, 'Design with all of it'),
+      h('a', { class: 'button', href: '#derivation' }, 'See where K comes from'),
+      button({ 'data-testid': 'explore-again', onclick: () => this.#again() }, 'Once more'),
+    );
+    root.append(
+      h(
+        'p',
+        { class: 'what-it-is', 'data-testid': 'what-it-is' },
+        'Two motors hold this laboratory helicopter. Its poles, the crosses, say how it moves. Drag them: the feedback ' +
+          'u = −Kx that puts them there follows, and so does the rig.',
+      ),
+      h(
+        'div',
+        { class: 'step', 'data-testid': 'step' },
+        h('div', { class: 'dots', role: 'group', 'aria-label': 'Steps' }, this.dots, this.projector),
+        this.title,
+        this.ask,
+        this.see,
+        this.end,
+        h('div', { class: 'step-foot' }, this.told, this.next),
+      ),
+      h(
+        'div',
+        { class: 'switches', role: 'group', 'aria-label': 'What is seen and switched' },
+        this.pair.node,
+        this.seen.node,
+        this.switches.map(({ node }) => node),
+      ),
+    );
+    this.#show('angle');
+    this.#go(this.#at);
+  }
+
+  #recall() {
+    const [at, ...done] = (recall(MEMORY) ?? '').split(' ');
+    this.#done = new Set(STEPS.map(({ name }) => name).filter((name) => done.includes(name)));
+    this.#at = Math.max(0, Math.min(STEPS.length, Math.trunc(Number(at)) || 0));
+  }
+
+  /** @param {'angle'|'volts'} what */
+  #show(what) {
+    this.seen.set(what);
+    document.documentElement.dataset.plot = what;
+  }
+
+  /** @param {Switch} name */
+  #turn(name) {
+    const { on, turned } = SWITCHES[name];
+    this.store.edit((d) => turned(d, !on(this.store.state), this.store.state));
+  }
+
+  #again() {
+    this.#done.clear();
+    this.#go(0);
+  }
+
+  /** @param {number} at the step to show; after the last, the way on */
+  #go(at) {
+    this.#at = at;
+    this.#goalOf = null;
+    this.#show(STEPS[at]?.volts ? 'volts' : 'angle');
+    this.#keep();
+    this.render(this.store.state);
+  }
+
+  #keep() {
+    remember(MEMORY, [this.#at, ...this.#done].join(' '));
+  }
+
+  /** @param {State} state */
+  render(state) {
+    const { design, reply, answered, view } = state;
+    const pair = pairAlone(state);
+    if (!design || pair === null || view !== 'explore') return;
+    const side = sideOf(pair);
+    this.pair.set(side.axis);
+    document.documentElement.dataset.pair = side.axis;
+    const step = STEPS[this.#at];
+    this.#switch(state);
+    this.end.hidden = Boolean(step);
+    if (!step) {
+      setText(this.title, 'That is pole placement');
+      setText(this.ask, 'You put the poles, K followed, and the motors, their lag and their pairing had the last word.');
+      setText(this.see, '');
+    } else if (reply && answered === design) {
+      if (this.#goalOf !== pair || Number.isNaN(this.#goal)) {
+        this.#goalOf = pair;
+        this.#goal = step.goal?.(state, side) ?? 0;
+      }
+      if (!Number.isNaN(this.#goal)) {
+        setText(this.ask, step.ask(this.#goal, side));
+        if (!this.#done.has(step.name) && step.done(state, side, this.#goal)) {
+          this.#done.add(step.name);
+          this.#keep();
+        }
+      }
+    }
+    if (step) {
+      setText(this.title, step.title);
+      setText(this.see, step.see);
+    }
+    const done = Boolean(step && this.#done.has(step.name));
+    setText(this.told, done ? '✓ Done' : '');
+    this.next.hidden = !step;
+    setText(this.next, done ? 'Next' : 'Skip');
+    this.next.classList.toggle('primary', done);
+    for (const [i, dot] of this.dots.entries()) {
+      const [is, name] = [this.#done.has(STEPS[i].name), t(STEPS[i].title)];
+      dot.classList.toggle('done', is);
+      setAttr(dot, 'aria-label', is ? say`Step ${i + 1}, done: ${name}` : say`Step ${i + 1}: ${name}`);
+      if (i === this.#at) dot.setAttribute('aria-current', 'step');
+      else dot.removeAttribute('aria-current');
+    }
+  }
+
+  /** Those that the steps so far have brought. @param {State} state */
+  #switch(state) {
+    const seen = new Set(STEPS.slice(0, this.#at + 1).flatMap(({ switches }) => switches ?? []));
+    this.seen.node.hidden = !STEPS.slice(0, this.#at + 1).some(({ volts }) => volts);
+    for (const { name, node } of this.switches) {
+      node.hidden = !seen.has(name);
+      setAttr(node, 'aria-pressed', String(SWITCHES[name].on(state)));
+    }
+  }
+}

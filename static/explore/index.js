@@ -1,0 +1,2 @@
+/** What other rooms may import of explore/. */
+export { Explore } from './explore.js';

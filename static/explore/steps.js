@@ -1,0 +1,138 @@
+/**
+ * The first minute's six steps: each asks for something and knows when it was done. Pure.
+ * @typedef {import('../types.js').State} State
+ * @typedef {import('../types.js').Design} Design
+ * @typedef {{axis: 'theta'|'psi', motor: 'V_p'|'V_y', pair: 0|1}} Side  the pair that is seen, its angle and motor
+ * @typedef {'pi'|'lag'|'first-aero'|'cross'} Switch
+ */
+import { inField, say, t } from '../text/index.js';
+import { designOf, isComplex, lagOf, presetOf } from '../model/index.js';
+
+/** Of an Aero's rotors, measured, s. */
+export const AERO_LAG = 0.16;
+const FIRST_AERO = 'quanser-aero';
+
+/** @param {0|1} pair @returns {Side} */
+export const sideOf = (pair) =>
+  pair ? { axis: 'psi', motor: 'V_y', pair: 1 } : { axis: 'theta', motor: 'V_p', pair: 0 };
+
+/** How the rig follows the step of one axis. @param {State} state @param {Side} side */
+export const metricsOf = ({ reply }, { axis }) => reply?.axis_steps?.[axis]?.nonlinear.metrics;
+
+/** @param {number} v up to the next of 1, 2, 5, 10 … tenths */
+const nice = (v) => Number((Math.floor(v * 20) / 20).toFixed(2));
+
+/**
+ * @typedef {object} Step
+ * @property {string} name
+ * @property {string} title
+ * @property {(goal: number, side: Side) => string} ask  what to do, one line
+ * @property {string} see  what that shows, one line
+ * @property {(state: State, side: Side) => number} [goal]  of the design that is there as the step begins; NaN while
+ *   nothing is known of it
+ * @property {(state: State, side: Side, goal: number) => boolean} done
+ * @property {Switch[]} [switches]  what the step brings along
+ * @property {true} [volts]  that it is seen in the voltage
+ */
+
+const WHO = { theta: 'pitch', psi: 'yaw' };
+
+/** @type {Step[]} */
+export const STEPS = [
+  {
+    name: 'swing',
+    title: 'Make it swing',
+    ask: (goal, { axis }) =>
+      say`Drag one pole of ${t(WHO[axis])} onto the other, then both up, until it overshoots by ${inField(goal)} %.`,
+    see: 'On the real axis poles creep. Off it they swing: the steeper the dashed ray, the larger the overshoot.',
+    goal: (state, side) => {
+      const own = metricsOf(state, side)?.[side.axis]?.overshoot;
+      return own === undefined ? NaN : own < 8 ? 10 : 5 * Math.ceil(own / 4);
+    },
+    done: (state, side, goal) =>
+      isComplex(state.design?.poles ?? [], side.pair) &&
+      (metricsOf(state, side)?.[side.axis]?.overshoot ?? 0) >= goal,
+  },
+  {
+    name: 'settle',
+    title: 'Settle in time',
+    ask: (goal, { axis }) => say`Drag the pair until ${t(WHO[axis])} has settled within ${inField(goal)} s.`,
+    see: 'Left is fast: a pole at −σ dies away like exp(−σt) and has settled after about 4/σ seconds.',
+    goal: (state, side) => {
+      const metrics = metricsOf(state, side);
+      if (!metrics) return NaN;
+      return Math.max(0.2, nice(0.6 * (metrics[side.axis]?.settling_time ?? state.reply?.step.nonlinear.t.at(-1) ?? 5)));
+    },
+    done: (state, side, goal) => (metricsOf(state, side)?.[side.axis]?.settling_time ?? Infinity) <= goal,
+  },
+  {
+    name: 'pi',
+    title: 'Add PI, and see the poles move',
+    ask: () => t('Switch the PI loops on.'),
+    see: 'They remove what error lasts, but the poles that you placed move: the diamonds are where they are now.',
+    done: ({ design }) => design?.outer === 'pi',
+    switches: ['pi'],
+  },
+  {
+    name: 'saturate',
+    title: 'Run out of volts',
+    ask: () => t('Drag the pair to the left until the motor’s voltage reaches its limit.'),
+    see: 'Fast poles need large gains, and the motor cuts what is beyond the red line: more gain, no more speed.',
+    done: (state, side) => (metricsOf(state, side)?.[side.motor]?.saturated ?? 0) > 0,
+    volts: true,
+  },
+  {
+    name: 'lag',
+    title: 'Let the rotors lag',
+    ask: () => say`Give both rotors the lag of a real Aero’s, ${inField(AERO_LAG)} s.`,
+    see: 'Placement knew of no lag: the dashed track shows where it takes the poles. Right of the axis the rig is lost.',
+    done: (state) =>
+      state.design !== null &&
+      /** @type {const} */ (['pitch', 'yaw']).every(
+        (axis) => lagOf(/** @type {Design} */ (state.design), presetOf(state), axis) >= 0.9 * AERO_LAG,
+      ),
+    switches: ['lag'],
+  },
+  {
+    name: 'cross',
+    title: 'Pair crosswise',
+    ask: () => t('Take the first Aero, then lead each angle’s error to the other motor.'),
+    see: 'Its relative gain λ₁₁ is 0.30, nearer to 0 than to 1: there each motor moves the other angle more.',
+    done: ({ design, reply }) => design?.pairing === 'cross' && (reply?.rga?.rga[0][0] ?? 1) < 0.5,
+    switches: ['first-aero', 'cross'],
+  },
+];
+
+/**
+ * Switches in words, whether they are on, and the design with them turned.
+ * @type {Record<Switch, {text: string, on: (state: State) => boolean, turned: (d: Design, on: boolean, state: State) =>
+ *   Design}>}
+ */
+export const SWITCHES = {
+  pi: {
+    text: 'PI loops',
+    on: ({ design }) => design?.outer === 'pi',
+    turned: (d, on) => ({ ...d, outer: on ? 'pi' : 'none', ...(!on && { pairing: 'diagonal' }) }),
+  },
+  lag: {
+    text: 'rotors lag',
+    on: (state) => STEPS[4].done(state, sideOf(0), NaN),
+    turned: (d, on) => ({
+      ...d,
+      rotors: { pitch: { ...d.rotors.pitch, tau: on ? AERO_LAG : 0 }, yaw: { ...d.rotors.yaw, tau: on ? AERO_LAG : 0 } },
+    }),
+  },
+  'first-aero': {
+    text: 'first Aero',
+    on: ({ design }) => design?.preset === FIRST_AERO,
+    turned: (d, on, { presets }) => {
+      const preset = on ? presets.find((p) => p.name === FIRST_AERO) : presets[0];
+      return preset ? designOf(preset, { outer: 'pi' }) : d;
+    },
+  },
+  cross: {
+    text: 'crosswise',
+    on: ({ design }) => design?.pairing === 'cross',
+    turned: (d, on) => ({ ...d, pairing: on ? 'cross' : 'diagonal', ...(on && { outer: 'pi' }) }),
+  },
+};

@@ -1,0 +1,83 @@
+/**
+ * Shows the view that the state names: what belongs to another one is not drawn, and takes no keys. Views are reached
+ * by links, so that Back, new tabs and bookmarks know them; G and a letter does the same.
+ * @typedef {import('../types.js').View} View
+ */
+import { say, t } from '../text/index.js';
+import { isRead, VIEWS } from '../model/index.js';
+import { h, remember } from '../ui/index.js';
+
+const names = /** @type {View[]} */ (Object.keys(VIEWS));
+const TITLE = document.title;
+
+/** Goes there as a link does. @param {View} view */
+export const goTo = (view) => {
+  location.hash = view;
+};
+
+/** The view's link and title. @returns {HTMLElement} */
+export const viewLinks = () =>
+  h(
+    'nav',
+    { class: 'views', 'aria-label': 'Views' },
+    names.map((name) =>
+      h(
+        'a',
+        {
+          href: `#${name}`,
+          'data-testid': `view-${name}`,
+          title: say`${t(VIEWS[name].about)} (G, then ${VIEWS[name].key})`,
+        },
+        VIEWS[name].title,
+      ),
+    ),
+  );
+
+/** @param {EventTarget|null} target */
+const isTyping = (target) =>
+  target instanceof HTMLElement && target.matches('input:not([type=checkbox], [type=radio], [type=range]), textarea, select');
+
+export class ViewSwitch {
+  /** @type {View|null} */ #shown = null;
+  #led = -Infinity;
+
+  /** @param {import('../link/address.js').Address} address */
+  constructor(address) {
+    this.address = address;
+    document.addEventListener('keydown', (e) => this.#key(e));
+  }
+
+  /** @param {KeyboardEvent} e */
+  #key(e) {
+    if (e.ctrlKey || e.metaKey || e.altKey || isTyping(e.target)) return;
+    const key = e.key.toUpperCase();
+    const to = names.find((name) => VIEWS[name].key === key);
+    if (to && e.timeStamp - this.#led < 1500) {
+      e.preventDefault();
+      goTo(to);
+    }
+    this.#led = key === 'G' ? e.timeStamp : -Infinity;
+  }
+
+  /** @param {{view: View}} state */
+  render({ view }) {
+    const first = this.#shown === null;
+    if (view === this.#shown) return;
+    this.#shown = view;
+    remember('view', view);
+    const page = document.documentElement;
+    page.dataset.view = view;
+    page.classList.toggle('reading', isRead(view));
+    for (const node of document.querySelectorAll('[data-views]'))
+      node.classList.toggle('elsewhere', !node.getAttribute('data-views')?.split(' ').includes(view));
+    for (const name of names) {
+      const link = document.querySelector(`[data-testid="view-${name}"]`);
+      if (name === view) link?.setAttribute('aria-current', 'page');
+      else link?.removeAttribute('aria-current');
+    }
+    document.title = view === 'explore' ? TITLE : `${t(VIEWS[view].title)} · ${TITLE}`;
+    const place = this.address.place;
+    if (place) document.getElementById(place)?.scrollIntoView();
+    else if (!first) scrollTo(0, 0);
+  }
+}

@@ -1,2 +1,0 @@
-/** What other rooms may import of tour/. */
-export { Tour } from './tour.js';
