@@ -6,7 +6,7 @@
 import { languageOf, loadWords, messageOf, say, translatePage } from './text/index.js';
 import { isView, requestOf, Store } from './model/index.js';
 import { backoff, getMethods, getPresets, Live } from './net/index.js';
-import { byId, isolated, recall, Stats, Turns, watched } from './ui/index.js';
+import { byId, isolated, projectorWanted, recall, Stats, Turns, watched } from './ui/index.js';
 import { Address, LockedControls, PinKeeper } from './link/index.js';
 import { Plots } from './plots/index.js';
 import { SPlane } from './splane/index.js';
@@ -207,6 +207,16 @@ async function fetched(load) {
   }
 }
 
+/** A stylesheet of rooms that come later. @param {string} name */
+function styles(name) {
+  const link = Object.assign(document.createElement('link'), { rel: 'stylesheet', href: `static/css/${name}.css` });
+  return new Promise((resolve, reject) => {
+    link.onload = resolve;
+    link.onerror = () => reject(new Error(`static/css/${name}.css`));
+    document.head.append(link);
+  });
+}
+
 /** The page's own numbers; where a browser cannot have them, the server goes on alone. */
 async function computeHere() {
   const { compiled, instantiated, loadRigs, MODULE, Own, Updates } = await fetched(() => import('./kernel/index.js'));
@@ -232,7 +242,13 @@ async function furtherDown() {
   schedule();
   computeHere().catch(console.warn);
   const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await fetched(() =>
-    Promise.all([import('./compare/index.js'), import('./recordings/index.js'), import('./paper/index.js')]),
+    Promise.all([
+      import('./compare/index.js'),
+      import('./recordings/index.js'),
+      import('./paper/index.js'),
+      styles('recordings'),
+      styles('paper'),
+    ]),
   );
   views.figures.unshift(
     drawn([new ComparePanel(byId('compare'), store), byId('compare')]),
@@ -274,10 +290,10 @@ function publish(state) {
 /** The figures for scripts: `heli2dofStats.summary()`, `heli2dofStats.reset()`. */
 /** @type {Window & {heli2dofStats?: typeof stats}} */ (window).heli2dofStats = stats;
 
-/** Without a link: at a first visit the first minute, later the view that was left. */
+/** Without a link: at a first visit and in a lecture the first minute, later the view that was left. */
 function firstView() {
   const last = recall('view');
-  return isView(last) ? last : 'explore';
+  return isView(last) && !projectorWanted(location.search, null) ? last : 'explore';
 }
 
 async function start() {

@@ -17,6 +17,7 @@ LINKED = re.compile(r"""<(?:link|script|img)\b[^>]*?\b(?:href|src)="([^"]+)\""""
 COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)  # types are imported in comments, which loads nothing
 AT_FIRST = re.compile(r"""(?:\bfrom|\bimport)\s*["'](\.[^"']+)["']""")
 IMPORTED = re.compile(r"""(?:\bfrom|\bimport|\bnew Worker\(new URL)\s*\(?\s*["'](\.[^"']+)["']""")
+STYLED = re.compile(r"""\bstyles\(['"](\w+)['"]\)""")
 
 
 def loaded(imported: re.Pattern[str] = IMPORTED) -> set[Path]:
@@ -29,9 +30,10 @@ def loaded(imported: re.Pattern[str] = IMPORTED) -> set[Path]:
             continue
         found.add(file)
         if file.suffix == ".js" and "vendor" not in file.parts:
-            waiting += [
-                file.parent / name for name in imported.findall(COMMENT.sub("", file.read_text("utf-8")))
-            ]
+            text = COMMENT.sub("", file.read_text("utf-8"))
+            waiting += [file.parent / name for name in imported.findall(text)]
+            if imported is IMPORTED:
+                waiting += [STATIC / "css" / f"{name}.css" for name in STYLED.findall(text)]
     return found
 
 

@@ -79,8 +79,8 @@ export class Explore {
       h(
         'p',
         { class: 'what-it-is', 'data-testid': 'what-it-is' },
-        'Two motors hold this laboratory helicopter. Its poles, the crosses, say how it moves. Drag them: the feedback ' +
-          'u = −Kx that puts them there follows, and so does the rig.',
+        'Two motors hold this laboratory helicopter. Its poles, the crosses, say how it moves. Drag them: the ' +
+          'feedback u = −Kx that puts them there follows, and so does the rig.',
       ),
       h(
         'div',
@@ -153,7 +153,10 @@ export class Explore {
     this.end.hidden = Boolean(step);
     if (!step) {
       setText(this.title, 'That is pole placement');
-      setText(this.ask, 'You put the poles, K followed, and the motors, their lag and their pairing had the last word.');
+      setText(
+        this.ask,
+        'You put the poles, K followed, and the motors, their lag and their pairing had the last word.',
+      );
       setText(this.see, '');
     } else if (reply && answered === design) {
       if (this.#goalOf !== pair || Number.isNaN(this.#goal)) {

@@ -50,8 +50,7 @@ export const STEPS = [
       return own === undefined ? NaN : own < 8 ? 10 : 5 * Math.ceil(own / 4);
     },
     done: (state, side, goal) =>
-      isComplex(state.design?.poles ?? [], side.pair) &&
-      (metricsOf(state, side)?.[side.axis]?.overshoot ?? 0) >= goal,
+      isComplex(state.design?.poles ?? [], side.pair) && (metricsOf(state, side)?.[side.axis]?.overshoot ?? 0) >= goal,
   },
   {
     name: 'settle',
@@ -61,7 +60,7 @@ export const STEPS = [
     goal: (state, side) => {
       const metrics = metricsOf(state, side);
       if (!metrics) return NaN;
-      return Math.max(0.2, nice(0.6 * (metrics[side.axis]?.settling_time ?? state.reply?.step.nonlinear.t.at(-1) ?? 5)));
+      return Math.max(0.2, nice(0.6 * (metrics[side.axis]?.settling_time ?? state.design?.scenario.duration ?? 5)));
     },
     done: (state, side, goal) => (metricsOf(state, side)?.[side.axis]?.settling_time ?? Infinity) <= goal,
   },
@@ -85,7 +84,7 @@ export const STEPS = [
     name: 'lag',
     title: 'Let the rotors lag',
     ask: () => say`Give both rotors the lag of a real Aero’s, ${inField(AERO_LAG)} s.`,
-    see: 'Placement knew of no lag: the dashed track shows where it takes the poles. Right of the axis the rig is lost.',
+    see: 'Placement knew of no lag. The dashed track shows where it takes the poles: right of the axis all is lost.',
     done: (state) =>
       state.design !== null &&
       /** @type {const} */ (['pitch', 'yaw']).every(
@@ -98,7 +97,7 @@ export const STEPS = [
     title: 'Pair crosswise',
     ask: () => t('Take the first Aero, then lead each angle’s error to the other motor.'),
     see: 'Its relative gain λ₁₁ is 0.30, nearer to 0 than to 1: there each motor moves the other angle more.',
-    done: ({ design, reply }) => design?.pairing === 'cross' && (reply?.rga?.rga[0][0] ?? 1) < 0.5,
+    done: ({ design, reply }) => design?.pairing === 'cross' && (reply?.rga?.rga?.[0][0] ?? 1) < 0.5,
     switches: ['first-aero', 'cross'],
   },
 ];
@@ -119,7 +118,10 @@ export const SWITCHES = {
     on: (state) => STEPS[4].done(state, sideOf(0), NaN),
     turned: (d, on) => ({
       ...d,
-      rotors: { pitch: { ...d.rotors.pitch, tau: on ? AERO_LAG : 0 }, yaw: { ...d.rotors.yaw, tau: on ? AERO_LAG : 0 } },
+      rotors: {
+        pitch: { ...d.rotors.pitch, tau: on ? AERO_LAG : 0 },
+        yaw: { ...d.rotors.yaw, tau: on ? AERO_LAG : 0 },
+      },
     }),
   },
   'first-aero': {

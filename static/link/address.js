@@ -6,7 +6,8 @@
  * @typedef {import('./permalink.js').Known} Known
  */
 import { isView, viewOfPlace } from '../model/index.js';
-import { linkOf, placeIn, readLink, troubleWords } from './permalink.js';
+import { linkOf, placeIn, readLink } from './permalink.js';
+import { troubleWords } from './trouble.js';
 
 const WITHIN_MS = 1000; // between two writes of one gesture
 const BURST = 20; // calls that may follow each other at once

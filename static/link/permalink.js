@@ -333,16 +333,3 @@ export function placeIn(hash) {
   if (/^v\d+(&|%26|$)/i.test(text)) return split(text, '&').find(([key]) => key === 'at')?.[1];
   return text ? unescaped(text) : undefined;
 }
-
-/** @param {Trouble[]} trouble */
-export function troubleWords(trouble) {
-  if (!trouble.length) return null;
-  const parts =
-    trouble
-      .slice(0, 3)
-      .map(({ part, why }) => `${part} (${why})`)
-      .join('; ') + (trouble.length > 3 ? `; and ${trouble.length - 3} more` : '');
-  return /^v\d+$/.test(trouble[0].part)
-    ? `This link cannot be opened: ${trouble[0].why}.`
-    : `Not taken from this link: ${parts}. The rest is restored.`;
-}

@@ -28,9 +28,14 @@ export const STANDARD_VIEW = 'design';
 /** @param {string|null|undefined} name @returns {name is View} */
 export const isView = (name) => name !== null && name !== undefined && Object.hasOwn(VIEWS, name);
 
-/** The view that shows a place on the page, by the place's name. @param {string|null} [place] @returns {View|undefined} */
+/**
+ * The view that shows a place on the page, by the place's name.
+ * @param {string|null} [place]
+ * @returns {View|undefined}
+ */
 export function viewOfPlace(place) {
-  if (!place || isView(place)) return place || undefined;
+  if (!place) return undefined;
+  if (isView(place)) return place;
   const names = /** @type {View[]} */ (Object.keys(VIEWS));
   return names.find((name) => VIEWS[name].places.some((own) => place === own || place.startsWith(`${own}-`)));
 }

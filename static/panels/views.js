@@ -8,7 +8,6 @@ import { isRead, VIEWS } from '../model/index.js';
 import { h, remember } from '../ui/index.js';
 
 const names = /** @type {View[]} */ (Object.keys(VIEWS));
-const TITLE = document.title;
 
 /** Goes there as a link does. @param {View} view */
 export const goTo = (view) => {
@@ -35,7 +34,8 @@ export const viewLinks = () =>
 
 /** @param {EventTarget|null} target */
 const isTyping = (target) =>
-  target instanceof HTMLElement && target.matches('input:not([type=checkbox], [type=radio], [type=range]), textarea, select');
+  target instanceof HTMLElement &&
+  target.matches('input:not([type=checkbox], [type=radio], [type=range]), textarea, select');
 
 export class ViewSwitch {
   /** @type {View|null} */ #shown = null;
@@ -44,6 +44,7 @@ export class ViewSwitch {
   /** @param {import('../link/address.js').Address} address */
   constructor(address) {
     this.address = address;
+    this.title = document.title;
     document.addEventListener('keydown', (e) => this.#key(e));
   }
 
@@ -75,7 +76,7 @@ export class ViewSwitch {
       if (name === view) link?.setAttribute('aria-current', 'page');
       else link?.removeAttribute('aria-current');
     }
-    document.title = view === 'explore' ? TITLE : `${t(VIEWS[view].title)} · ${TITLE}`;
+    document.title = view === 'explore' ? this.title : `${t(VIEWS[view].title)} · ${this.title}`;
     const place = this.address.place;
     if (place) document.getElementById(place)?.scrollIntoView();
     else if (!first) scrollTo(0, 0);

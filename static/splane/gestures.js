@@ -86,13 +86,7 @@ export class Gestures {
   #under(e) {
     const { state } = this.plane.store;
     if (!state.design) return null;
-    return pick(
-      this.plane.view,
-      handlesOf(state.design, pairAlone(state)),
-      this.plane.marks.order,
-      this.#at(e),
-      REACH,
-    );
+    return pick(this.plane.view, handlesOf(state.design, pairAlone(state)), this.plane.marks.order, this.#at(e), REACH);
   }
 
   /** @param {PointerEvent} e */

@@ -6,7 +6,17 @@
  * @typedef {import('./math.js').View} View
  */
 import { poleText, say } from '../text/index.js';
-import { axisOf, guideWords, HANDLES, handlesOf, isAsked, kindOf, numeralOf, pairAlone, placesPoles } from '../model/index.js';
+import {
+  axisOf,
+  guideWords,
+  HANDLES,
+  handlesOf,
+  isAsked,
+  kindOf,
+  numeralOf,
+  pairAlone,
+  placesPoles,
+} from '../model/index.js';
 import { setAttr, svg } from '../ui/index.js';
 import { toPixel } from './math.js';
 

@@ -11,7 +11,7 @@ export { recall, remember } from './memory.js';
 export { CALM, Turns } from './pace.js';
 export { drawingUnit, followsPage, pictureScale } from './picture_scale.js';
 export { icon, popupButton } from './popup.js';
-export { Projector } from './projector.js';
+export { Projector, projectorWanted } from './projector.js';
 export { Stats } from './stats.js';
 export { groupedHead, head, keepingFocus, shape, wide } from './tables.js';
 export { watched } from './watch.js';

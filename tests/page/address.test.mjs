@@ -162,10 +162,8 @@ test('going back takes no pin away', () => {
 });
 
 test('a link opens design, pins, locks and place; a bad part is told and stays until the next change', () => {
-  assert.equal(
-    opened('#v1&preset=quanser-aero&p=-5,-4,-3,-2&lock=poles&pin=1~x~preset=quanser-aero&at=compare'),
-    'compare',
-  );
+  opened('#v1&preset=quanser-aero&p=-5,-4,-3,-2&lock=poles&pin=1~x~preset=quanser-aero&at=eq-13');
+  assert.deepEqual([address.place, store.state.view], ['eq-13', 'derivation']);
   assert.equal(pole(), -5);
   assert.equal(store.state.pins[0].name, 'x');
   move(-9);
@@ -203,4 +201,47 @@ test('the budget gives twenty at once and one more every 0.4 s', () => {
   assert.equal(taken(), 3);
   now = 1e6;
   assert.equal(taken(), 20);
+});
+
+test('a view has an address: links, Back and Forward know it, and no step of undo comes of it', () => {
+  opened('');
+  const steps = store.step;
+  for (const [place, view] of [
+    ['compare', 'compare'],
+    ['recordings', 'rig'],
+    ['erratum-Eq-13', 'derivation'],
+    ['explore', 'explore'],
+    ['design', 'design'],
+    ['nowhere', 'design'], // stays where it is
+  ]) {
+    browser.push(`#${place}`); // as a link in the page does
+    address.navigated();
+    assert.equal(store.state.view, view);
+    assert.equal(browser.hash().includes(`&view=${view}`), view !== 'design');
+  }
+  assert.equal(address.place, 'nowhere');
+  go(-2);
+  assert.deepEqual([store.state.view, store.state.motion], ['explore', 'theta']); // one axis at a time
+  go(-1);
+  assert.deepEqual([store.state.view, store.state.motion, address.place], ['derivation', 'both', 'erratum-Eq-13']);
+  go(1);
+  assert.equal(store.state.view, 'explore');
+  assert.deepEqual([store.step, store.state.canUndo], [steps, false]);
+});
+
+test('an address without a design opens the view that is wanted first; the first minute without PI', () => {
+  const first = (hash, view) => {
+    browser.entries = [hash];
+    browser.at = 0;
+    address = new Address(store, browser);
+    address.open(view);
+    return [store.state.view, store.state.design.outer];
+  };
+  assert.deepEqual(first('', 'explore'), ['explore', 'none']);
+  assert.deepEqual(first('', 'rig'), ['rig', 'pi']);
+  assert.deepEqual(first('#compare', 'explore'), ['compare', 'pi']);
+  assert.deepEqual(first('#v1', 'explore'), ['design', 'pi']); // links of the time before views
+  assert.deepEqual(first('#v1&view=explore', 'design'), ['explore', 'pi']);
+  assert.deepEqual(first('#v1&view=nonsense', 'explore'), ['design', 'pi']);
+  assert.match(store.state.notice, /view \(no view of this page\)/);
 });

@@ -3,7 +3,8 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 
-import { linkOf, MOST, placeIn, readLink, troubleWords } from '../../static/link/permalink.js';
+import { linkOf, MOST, placeIn, readLink } from '../../static/link/permalink.js';
+import { troubleWords } from '../../static/link/trouble.js';
 import {
   differences,
   escaped,
@@ -17,6 +18,7 @@ import {
 import { LOCKS } from '../../static/model/locks.js';
 import { NONE } from '../../static/model/requirements.js';
 import { designOf, initialState } from '../../static/model/store.js';
+import { VIEWS } from '../../static/model/views.js';
 import { KNOWN, PRESETS } from './presets.mjs';
 
 /** Numbers from 0 to 1, the same at every run (mulberry32). */
@@ -94,6 +96,7 @@ function generator(seed) {
     ...initialState(),
     presets: PRESETS,
     design: design(),
+    view: pick(Object.keys(VIEWS)),
     motion: pick(['both', 'theta', 'psi']),
     showLinear: chance(0.7),
     showMarks: chance(0.7),
@@ -112,7 +115,8 @@ function generator(seed) {
   return { state, pick, random };
 }
 
-const shownOf = ({ motion, showLinear, showMarks, showLag, spread, requirements, locks }) => ({
+const shownOf = ({ view, motion, showLinear, showMarks, showLag, spread, requirements, locks }) => ({
+  view,
   motion,
   showLinear,
   showMarks,
@@ -173,7 +177,8 @@ test('links of version 1 open as they did', () => {
     const preset = PRESETS.find((p) => p.name === (design.preset ?? PRESETS[0].name));
     assert.deepEqual(read.trouble, []);
     assert.deepEqual(read.design, designOf(preset, design));
-    if (shown) assert.deepEqual(read.shown, { requirements: NONE, showMarks: true, showLag: null, ...shown });
+    const view = place ? 'derivation' : 'design'; // there was one page then; the places named are in the paper
+    if (shown) assert.deepEqual(read.shown, { view, requirements: NONE, showMarks: true, showLag: null, ...shown });
     assert.equal(read.place, place);
     if (pins)
       assert.deepEqual(

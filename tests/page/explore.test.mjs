@@ -1,0 +1,94 @@
+// The first minute: each of its steps knows when it was done, and not before.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { sideOf, STEPS, SWITCHES } from '../../static/explore/steps.js';
+import { designOf, initialState } from '../../static/model/store.js';
+import { PRESETS } from './presets.mjs';
+
+const step = (name) => STEPS.find((s) => s.name === name);
+/** A state whose pitch step has these figures. */
+const state = ({ design = {}, theta = {}, V_p = {}, rga } = {}) => ({
+  ...initialState(),
+  presets: PRESETS,
+  design: { ...designOf(PRESETS[0]), outer: 'none', ...design },
+  reply: { axis_steps: { theta: { nonlinear: { metrics: { theta, V_p } } } }, rga: { rga: [[rga ?? 1]] } },
+});
+const pitch = sideOf(0);
+const swinging = [
+  { re: -5, im: 6 },
+  { re: -5, im: -6 },
+  { re: -9, im: 0 },
+  { re: -8, im: 0 },
+];
+
+test('there are six, each of two lines', () => {
+  assert.deepEqual(
+    STEPS.map((s) => s.name),
+    ['swing', 'settle', 'pi', 'saturate', 'lag', 'cross'],
+  );
+  for (const { ask, see } of STEPS) {
+    assert.match(ask(5, pitch), /^[A-Z].*\.$/);
+    assert.ok(see.length <= 120, see);
+  }
+});
+
+test('swinging asks for more overshoot than there is, of a pair off the axis', () => {
+  const { goal, done } = step('swing');
+  assert.ok(Number.isNaN(goal({ ...state(), reply: null }, pitch)), 'nothing is known yet');
+  for (const [now, wanted] of [
+    [0, 10],
+    [7, 10],
+    [12, 15],
+    [40, 50],
+  ]) {
+    const asked = goal(state({ theta: { overshoot: now } }), pitch);
+    assert.equal(asked, wanted);
+    assert.equal(done(state({ design: { poles: swinging }, theta: { overshoot: now } }), pitch, asked), false);
+  }
+  assert.equal(done(state({ design: { poles: swinging }, theta: { overshoot: 10 } }), pitch, 10), true);
+  assert.equal(done(state({ theta: { overshoot: 30 } }), pitch, 10), false, 'real poles do not swing');
+});
+
+test('settling asks for less than it takes now, also where it has not settled', () => {
+  const { goal, done } = step('settle');
+  assert.equal(goal(state({ theta: { settling_time: 1 } }), pitch), 0.6);
+  assert.equal(goal(state({ theta: {} }), pitch), 1.8);
+  for (const settling_time of [0.21, 0.5, 1.234, 40]) {
+    const asked = goal(state({ theta: { settling_time } }), pitch);
+    assert.ok(asked < settling_time);
+    assert.equal(done(state({ theta: { settling_time } }), pitch, asked), false);
+    assert.equal(done(state({ theta: { settling_time: asked } }), pitch, asked), true);
+  }
+  assert.equal(done(state({ theta: {} }), pitch, 1), false);
+});
+
+test('its switches do what the steps ask for, and undo it', () => {
+  const turned = (s, name, on) => ({ ...s, design: SWITCHES[name].turned(s.design, on, s) });
+  for (const [asked, name] of [
+    ['pi', 'pi'],
+    ['lag', 'lag'],
+  ]) {
+    const [before, on] = [state(), turned(state(), name, true)];
+    assert.deepEqual([step(asked).done(before, pitch), SWITCHES[name].on(before)], [false, false]);
+    assert.deepEqual([step(asked).done(on, pitch), SWITCHES[name].on(on)], [true, true]);
+    const off = turned(on, name, false);
+    assert.deepEqual([step(asked).done(off, pitch), SWITCHES[name].on(off)], [false, false]);
+  }
+  const crossed = turned(turned(state({ rga: 0.3 }), 'first-aero', true), 'cross', true);
+  assert.deepEqual(
+    [crossed.design.preset, crossed.design.pairing, crossed.design.outer],
+    ['quanser-aero', 'cross', 'pi'],
+  );
+  assert.equal(step('cross').done(crossed, pitch), true);
+  const usual = turned(state({ rga: 1.007 }), 'cross', true);
+  assert.equal(step('cross').done(usual, pitch), false, 'where the relative gain is against it');
+  assert.equal(turned(crossed, 'pi', false).design.pairing, 'diagonal', 'without loops there is no pairing');
+});
+
+test('saturation is of the motor of the pair that is seen', () => {
+  const { done } = step('saturate');
+  assert.equal(done(state({ V_p: { saturated: 0 } }), pitch), false);
+  assert.equal(done(state({ V_p: { saturated: 0.02 } }), pitch), true);
+  assert.equal(done(state({ V_p: { saturated: 0.02 } }), sideOf(1)), false);
+});
