@@ -9,7 +9,7 @@ const FLOORS = [
   ['ui', 'link', 'kernel'],
   ['charts'],
   ['plots', 'splane', 'scene', 'recordings', 'explore', 'panels'],
-  ['paper', 'compare', 'machine', 'clouds'],
+  ['paper', 'compare', 'rig', 'machine', 'clouds'],
 ];
 const TOP = ['static/main.js', 'static/api_docs.js'];
 

@@ -21,10 +21,8 @@ import {
   Notice,
   NumbersPanel,
   PinBar,
-  PinsPanel,
   PolesPanel,
   Remarks,
-  RigPanel,
   ScenarioPanel,
   ViewSwitch,
 } from './panels/index.js';
@@ -61,8 +59,6 @@ const parts = [
   [new NumbersPanel(byId('numbers'), store), byId('numbers')],
   [new MetricsPanel(byId('metrics')), byId('metrics')],
   [new PinBar(byId('pin-bar'), store), byId('pin-bar')],
-  [new PinsPanel(byId('pins'), store), byId('pins')],
-  [new RigPanel(byId('rig'), store), byId('rig')],
   [new FieldProblems(document.body)],
   [scene],
   [new Notice(byId('notice'), store)],
@@ -241,17 +237,21 @@ async function furtherDown() {
   );
   schedule();
   computeHere().catch(console.warn);
-  const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await fetched(() =>
-    Promise.all([
-      import('./compare/index.js'),
-      import('./recordings/index.js'),
-      import('./paper/index.js'),
-      styles('recordings'),
-      styles('paper'),
-    ]),
+  const [{ ComparePanel, PinsPanel }, { RigPanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await fetched(
+    () =>
+      Promise.all([
+        import('./compare/index.js'),
+        import('./rig/index.js'),
+        import('./recordings/index.js'),
+        import('./paper/index.js'),
+        styles('recordings'),
+        styles('paper'),
+      ]),
   );
   views.figures.unshift(
+    drawn([new PinsPanel(byId('pins'), store), byId('pins')]),
     drawn([new ComparePanel(byId('compare'), store), byId('compare')]),
+    drawn([new RigPanel(byId('rig'), store), byId('rig')]),
     drawn([new RecordingsPanel(byId('recordings'), store), byId('recordings')]),
     drawn([new FormulasPanel(byId('formulas'), store), byId('formulas')]),
     drawn([new PaperPanel(byId('paper'), store), byId('paper')]),

@@ -6,7 +6,8 @@
  * pitch, k_p, T_i of yaw. `set.…`: parameters; `limits.…`; `step.…`: references;
  * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`,
  * `lag`, `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`.
- * `view`: the view, `at`: the place on the page. A part that cannot be read is named and left out; the rest is restored.
+ * `view`: the view, `at`: the place on the page. A part that cannot be read is named and left out; the rest is
+ * restored.
  *
  * The format is part of the page's contract: a change that an old reader would misread takes a new version, and the
  * reader of the old one stays.

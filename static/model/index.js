@@ -68,6 +68,7 @@ export {
   asProposed,
   changedWords,
   isChanged,
+  isOfRig,
   lagOf,
   lags,
   proposedShown,

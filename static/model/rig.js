@@ -182,3 +182,6 @@ export function changedWords({ parameters, limits, rotors, friction }) {
   if (!p) return count(l, '{0} limit changed', '{0} limits changed');
   return `${count(p, '{0} parameter', '{0} parameters')}, ${count(l, '{0} limit changed', '{0} limits changed')}`;
 }
+
+/** Whether a field, by its path in the contract, is one of the rig's. @param {string} [path] */
+export const isOfRig = (path = '') => /^(parameters|limits|rotors|friction)(\.|$)/.test(path);

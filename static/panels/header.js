@@ -3,10 +3,9 @@
  * and whether the server is there.
  */
 import { say } from '../text/index.js';
-import { changedWords, designOf, lockNames, presetOf } from '../model/index.js';
+import { changedWords, designOf, isOfRig, lockNames, presetOf } from '../model/index.js';
 import { button, h, setAttr, setText } from '../ui/index.js';
 import { exportMenu } from './export_menu.js';
-import { CONCERNED } from './rig.js';
 import { ShareButtons } from './share.js';
 import { viewLinks } from './views.js';
 
@@ -99,7 +98,7 @@ export class HeaderPanel {
     const changed = design ? changedWords(design) : '';
     setText(this.rig, changed || 'Parameters');
     this.rig.classList.toggle('changed', Boolean(changed));
-    this.rig.classList.toggle('refused', CONCERNED.test(problem?.field ?? ''));
+    this.rig.classList.toggle('refused', isOfRig(problem?.field));
     if (this.select.options.length !== presets.length)
       this.select.replaceChildren(...presets.map((p) => h('option', { value: p.name, title: p.source }, p.title)));
     if (design) this.select.value = design.preset;

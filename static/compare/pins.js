@@ -5,7 +5,7 @@
 import { polesText } from '../text/index.js';
 import { differenceTable, FIGURES, nameOf } from '../model/index.js';
 import { button, groupedHead, h, keepingFocus, printed, setAttr, setText, whileSeen, wide } from '../ui/index.js';
-import { badge } from './pin_bar.js';
+import { badge } from '../panels/index.js';
 
 /** @typedef {import('../types.js').Pin} Pin @typedef {import('../types.js').Design} Design */
 

@@ -1,8 +1,9 @@
-/** The rig's parameters and limits as fields, each beside what the preset says; the header's link says how many differ. */
+/** The rig's parameters and limits as fields, each beside what the preset says. */
 import { inField, say, t } from '../text/index.js';
 import {
   asProposed,
   changedWords,
+  isOfRig,
   isChanged,
   presetOf,
   proposedShown,
@@ -13,8 +14,6 @@ import {
 } from '../model/index.js';
 import { button, h, designField, setAttr, setText, symbol } from '../ui/index.js';
 
-/** The paths of fields that stand here. */
-export const CONCERNED = /^(parameters|limits|rotors|friction)(\.|$)/;
 /** The parts of the panel, by where their quantities stand. */
 const PARTS = /** @type {[import('../model/rig.js').Kind, string][]} */ ([
   ['parameters', ''],
@@ -160,7 +159,7 @@ export class RigPanel {
     const changed = changedWords(design);
     this.all.hidden = !changed;
     setText(this.source, preset.source);
-    const concerned = CONCERNED.test(problem?.field ?? '');
+    const concerned = isOfRig(problem?.field);
     setText(this.problem, concerned ? `✕ ${[problem?.detail, problem?.hint].filter(Boolean).join(' ')}` : '');
     for (const row of this.rows) row.render(design, preset);
   }

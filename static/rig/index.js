@@ -1,0 +1,2 @@
+/** What other rooms may import of rig/. */
+export { RigPanel } from './rig_panel.js';
