@@ -97,7 +97,7 @@ def opened(
     url: str,
     *,
     scene: str = EMPTY,
-    tour: bool = False,
+    first: bool = False,
     moving: bool = False,
     size: tuple[int, int] = (1280, 800),
     **how: Any,
@@ -108,13 +108,13 @@ def opened(
         chromium: the worker's browser.
         url: with the design's part, if any.
         scene: EMPTY, UNDRAWN or DRAWN.
-        tour: whether the tour comes, as at a first visit.
+        first: whether it is a first visit, which begins with the first minute.
         moving: whether a new response plays by itself, as it does unless one asks for reduced motion.
         size: of the window, CSS pixels.
         how: of the context, as Playwright names it.
     """
     how = {"reduced_motion": "no-preference" if moving else "reduce"} | how
-    with visited(chromium, scene, "" if tour else SEEN, size=size, **how) as visit:
+    with visited(chromium, scene, "" if first else SEEN, size=size, **how) as visit:
         visit.page.goto(url)
         settled(visit.page)
         yield visit.page
@@ -124,6 +124,12 @@ def settled(page: Page) -> None:
     """Waits until what is shown answers what was asked last; the page says so in the frame after an edit."""
     page.evaluate(FRAME)
     page.wait_for_function("() => JSON.parse(document.documentElement.dataset.state ?? '{}').settled")
+
+
+def view(page: Page, name: str) -> None:
+    """Goes to one of the page's views, by its link."""
+    page.get_by_test_id(f"view-{name}").click()
+    page.wait_for_function("(name) => document.documentElement.dataset.view === name", arg=name)
 
 
 def state(page: Page) -> dict[str, Any]:

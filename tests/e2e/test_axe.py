@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page
 
-from tests.browser import opened, settled
+from tests.browser import opened, settled, view
 from tests.e2e.conftest import App
 
 AXE = Path(__file__).parents[2] / "node_modules" / "axe-core" / "axe.min.js"
@@ -45,16 +45,22 @@ def test_no_violation(chromium: Browser, app: App, size: tuple[int, int]):
         assert page.evaluate(RUN) == []
 
 
-def test_no_violation_below_the_instrument(page: Page):
-    for section, there in (
-        ("compare", "[data-testid=splits-table] td"),
-        ("compare .card:last-child", "[data-testid=interaction-loop-phase] canvas"),
-        ("formulas", ".symbols math"),
-        ("paper", "[data-testid=paper-K] td, [data-testid=paper-tally]"),
-    ):
-        page.locator(f"#{section}").scroll_into_view_if_needed()
-        page.locator(f"#{section}").locator(there).first.wait_for(state="attached")
-    assert violations(page) == []
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_no_violation_in_the_other_views(chromium: Browser, app: App, scheme: str):
+    with opened(chromium, app.url, color_scheme=scheme) as page:
+        violations(page)
+        for name, section, there in (
+            ("explore", "explore", "[data-testid=step-ask]"),
+            ("compare", "compare", "[data-testid=splits-table] td"),
+            ("compare", "compare .card:last-child", "[data-testid=interaction-loop-phase] canvas"),
+            ("rig", "rig", "[data-testid=rig-B_y]"),
+            ("derivation", "formulas", ".symbols math"),
+            ("derivation", "paper", "[data-testid=paper-K] td, [data-testid=paper-tally]"),
+        ):
+            view(page, name)
+            page.locator(f"#{section}").scroll_into_view_if_needed()
+            page.locator(f"#{section}").locator(there).first.wait_for(state="attached")
+            assert page.evaluate(RUN) == [], name
 
 
 def test_axe_would_find_something(page: Page):

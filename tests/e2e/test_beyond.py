@@ -8,7 +8,7 @@ import re
 import pytest
 from playwright.sync_api import Browser, Locator, Page, WebSocketRoute, expect
 
-from tests.browser import opened, settled, state
+from tests.browser import opened, settled, state, view
 from tests.e2e.conftest import App
 from tests.e2e.test_derivation import card
 from tests.e2e.test_paper import opened_paper
@@ -42,7 +42,7 @@ def test_the_first_design_is_told_to_stand_at_the_edge(page: Page, app: App):
     expect(page.get_by_test_id("paper-lag")).to_contain_text(f"{margin:.3f} s")
     expect(page.get_by_test_id("paper-lag")).to_contain_text("at the edge")
     expect(page.get_by_test_id("paper-lag-table")).to_contain_text("0.1648")
-    page.goto(page.url.split("#")[0] + "#v1&outer=none")
+    page.goto(page.url.split("#")[0] + "#v1&outer=none&view=derivation")
     settled(page)
     alone = page.request.post(app.url + "api/v1/gains", data={"outer": "none"}).json()
     expect(page.get_by_test_id("paper-lag")).not_to_contain_text(f"{margin:.3f} s")
@@ -120,6 +120,7 @@ def test_formulas_are_those_of_six_states_where_the_rotors_are_placed(chromium: 
         settled(page)
         K = state(page)["K"]
         assert len(K[0]) == 6
+        view(page, "derivation")
         page.locator("#formulas").scroll_into_view_if_needed()
         cell = page.get_by_test_id("formulas").get_by_test_id("value-k_15")
         cell.wait_for(state="attached")
@@ -135,6 +136,7 @@ def test_formulas_are_those_of_six_states_where_the_rotors_are_placed(chromium: 
 @pytest.mark.parametrize("size", [(390, 844), (820, 1180), (1280, 800)], ids=str)
 def test_nothing_sticks_out_of_the_window(chromium: Browser, app: App, size: tuple[int, int]):
     with opened(chromium, app.url, size=size) as page:
+        view(page, "derivation")
         page.locator("#paper").scroll_into_view_if_needed()
         page.get_by_test_id("paper-K-00").wait_for(state="attached")
         for name in ("limit", "six", "observer"):

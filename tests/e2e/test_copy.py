@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser import state
+from tests.browser import state, view
 from tests.e2e.conftest import App
 from tests.e2e.test_permalink import clipboard
 
@@ -56,7 +56,7 @@ def test_copying_works_where_the_browser_gives_no_clipboard(page: Page, app: App
 
 def test_formulas_are_copied(page: Page, app: App):
     clipboard(page, app)
-    page.get_by_role("link", name="Formulas").click()
+    view(page, "derivation")
     page.get_by_test_id("formulas").locator("math").first.wait_for()
     names: dict = {}
     exec(copied(page, "formula-RGA", "RGA-Python"), names)

@@ -7,7 +7,7 @@ import re
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from tests.browser import opened, settled, state
+from tests.browser import opened, settled, state, view
 from tests.e2e.conftest import App
 from tests.e2e.test_paper import follows, opened_paper
 
@@ -84,6 +84,7 @@ def test_arrow_keys_walk_through_the_symbols_of_a_formula(page: Page):
 
 def test_a_tap_shows_the_card_and_a_tap_elsewhere_closes_it(chromium: Browser, app: App):
     with opened(chromium, app.url, size=(390, 844), has_touch=True) as page:
+        view(page, "derivation")
         page.locator("#paper").scroll_into_view_if_needed()
         page.get_by_test_id("paper-alpha").wait_for(state="attached")
         scrolled_to(page, "eq-15")

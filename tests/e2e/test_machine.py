@@ -8,7 +8,7 @@ import re
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser import opened, settled, state, until_state
+from tests.browser import opened, settled, state, until_state, view
 from tests.e2e.conftest import App
 
 LAG = "#v1&rotors.pitch.tau=0.165&rotors.yaw.tau=0.165"
@@ -31,7 +31,7 @@ def test_rotors_that_lag_are_the_fault_and_placing_them_the_remedy(page: Page):
     until_state(page, "s.settled && s.stable === false")
     assert "rotors_unstable" in state(page)["findings"]
     assert max(p["re"] for p in state(page)["loopPoles"]) == pytest.approx(0, abs=5e-3)
-    page.get_by_test_id("rig-close").click()
+    view(page, "design")
     expect(page.get_by_test_id("lag-crossing")).to_have_count(2)
     expect(page.get_by_test_id("turning-V_p")).to_be_visible()
     page.get_by_test_id("place-rotors").check()
@@ -99,7 +99,7 @@ def test_links_carry_the_machine_and_locks_hold_it(app: App, chromium: Browser):
         assert sorted(p["re"] for p in now["observerPoles"]) == pytest.approx([-33, -32, -31, -30], rel=1e-5)
         page.get_by_test_id("rig").click()
         expect(page.get_by_test_id("rig-rotors.pitch.tau")).to_be_disabled()
-        page.get_by_test_id("rig-close").click()
+        view(page, "design")
         page.get_by_test_id("experiment").click()
         expect(page.get_by_test_id("observer-pole-field-0")).to_be_disabled()
         assert "rotors.pitch.tau=0.165" in page.url and "q=-30,-31" in page.url

@@ -20,6 +20,7 @@ from tests.browser import (
     until_state,
     visited,
 )
+from tests.browser import view
 from tests.e2e.conftest import App, running_app
 from tests.e2e.test_scene import rendered
 
@@ -182,7 +183,7 @@ def test_other_preset_changes_the_rig_and_tells_of_its_pairing(page_with_scene: 
 
 
 def test_formulas_are_typeset(page: Page):
-    page.get_by_role("link", name="Formulas").click()
+    view(page, "derivation")
     formulas = page.get_by_test_id("formulas")
     formulas.locator("math").first.wait_for()
     assert formulas.locator("math").count() >= 12

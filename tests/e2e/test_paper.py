@@ -5,12 +5,13 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser import opened, settled, state
+from tests.browser import opened, settled, state, view
 from tests.e2e.conftest import App
 
 
 def opened_paper(page: Page) -> None:
-    page.get_by_role("link", name="Paper", exact=True).click()
+    view(page, "derivation")
+    page.locator("#paper").evaluate("(e) => e.scrollIntoView()")
     page.get_by_test_id("paper-K-00").wait_for()
     follows(page)
 
@@ -79,10 +80,12 @@ def test_live_numbers_follow_the_design(page: Page):
     opened_paper(page)
     before = page.get_by_test_id("paper-K-00").inner_text()
     assert page.get_by_test_id("paper-d_10").inner_text() == "120"
+    view(page, "design")
     field = page.get_by_test_id("pole-field-0")
     field.fill("-15")
     field.press("Enter")
     settled(page)
+    view(page, "derivation")
     page.locator("#paper").scroll_into_view_if_needed()
     page.get_by_test_id("paper-d_10").get_by_text("150").wait_for()
     follows(page)
@@ -104,8 +107,10 @@ def test_worked_example_and_parameters_are_those_of_the_rig(page: Page):
 
 def test_another_method_says_that_it_has_no_such_steps(page: Page):
     opened_paper(page)
+    view(page, "design")
     page.get_by_test_id("method").select_option("tits-yang")
     settled(page)
+    view(page, "derivation")
     page.locator("#paper").scroll_into_view_if_needed()
     for anchor in ("#eq-transformation", "#eq-desired-polynomials", "#eq-gain-in-z", "#eq-closed-loop"):
         page.locator(f"{anchor} .refused-words", has_text="full-rank method").first.wait_for()

@@ -8,7 +8,7 @@ import socket
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser import EMPTY, GONE, SEEN, goto, reopened, settled, state, until_state, visited
+from tests.browser import EMPTY, GONE, SEEN, goto, reopened, settled, state, until_state, view, visited
 from tests.e2e.conftest import App, running_app
 from tests.e2e.test_page import drag
 

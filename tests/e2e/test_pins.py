@@ -7,7 +7,7 @@ import re
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser import opened, reopened, settled, state, until_state
+from tests.browser import opened, reopened, settled, state, until_state, view
 from tests.e2e.conftest import App
 from tests.e2e.test_page import PLOTS, drag
 from tests.e2e.test_permalink import set_field, until_hash
@@ -91,7 +91,9 @@ def test_use_rename_and_unpin_by_keyboard(page: Page):
     page.keyboard.press("Enter")
     until_state(page, "s.pins[0].name === 'the manual’s & mine'")
     expect(page.get_by_test_id("pin-rename-0")).to_be_focused()
+    view(page, "design")
     expect(page.get_by_test_id("pin-chip-0")).to_contain_text("the manual’s & mine")
+    seen_table(page)
     page.get_by_test_id("pin-use-0").focus()
     page.keyboard.press("Enter")
     until_state(page, "s.poles[0].re === -12")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from tests.browser import opened, settled, state
+from tests.browser import opened, settled, state, view
 from tests.e2e.conftest import App
 from tests.e2e.test_copy import saved
 from tests.e2e.test_page import PLOTS, centre
@@ -115,7 +115,7 @@ def test_marks_follow_the_zoom_and_the_design(page: Page):
 
 
 def test_plots_over_frequency_are_saved_as_picture_and_numbers(page: Page, app: App):
-    page.locator("#compare").scroll_into_view_if_needed()
+    view(page, "compare")
     page.locator("[data-testid=interaction-gains] canvas").wait_for()
     rows = list(csv.reader(io.StringIO(saved(page, "frequency-gains", "CSV").read_text(encoding="utf-8"))))
     assert rows[0] == ["omega [rad/s]", "|λ₁₁|", "|λ₁₂|"]
@@ -130,6 +130,7 @@ def test_plots_over_frequency_are_saved_as_picture_and_numbers(page: Page, app: 
 
 def test_bode_plots_show_the_loops_and_their_margins(page: Page, app: App):
     card = page.get_by_test_id("open-loops")
+    view(page, "compare")
     card.scroll_into_view_if_needed()
     card.locator("canvas").first.wait_for()
     rows = list(csv.reader(io.StringIO(saved(page, "frequency-loop-phase", "CSV").read_text("utf-8"))))
@@ -149,6 +150,7 @@ def test_bode_plots_show_the_loops_and_their_margins(page: Page, app: App):
 
 def test_plots_over_frequency_are_read_by_keys(page: Page):
     card = page.get_by_test_id("open-loops")
+    view(page, "compare")
     card.scroll_into_view_if_needed()
     card.locator("canvas").first.wait_for()
     shown = page.get_by_test_id("interaction-loop-gain-0")
@@ -164,6 +166,7 @@ def test_plots_over_frequency_are_read_by_keys(page: Page):
 
 def test_an_unstable_loop_has_no_margins(chromium: Browser, app: App):
     with opened(chromium, app.url + UNSTABLE) as page:
+        view(page, "compare")
         page.get_by_test_id("open-loops").scroll_into_view_if_needed()
         expect(page.get_by_test_id("margin-words")).to_have_text(
             "The whole loop is unstable: it has no margins."
@@ -200,9 +203,9 @@ def test_a_very_large_window_grows_all_and_all_still_fits(chromium: Browser, app
     sizes = {}
     for size in ((1920, 1080), (3840, 2160)):
         with opened(chromium, app.url, size=size) as page:
-            page.locator("#compare").scroll_into_view_if_needed()
+            view(page, "compare")
             page.locator("[data-testid=interaction-gains] canvas").wait_for()
-            page.evaluate("() => scrollTo(0, 0)")
+            view(page, "design")
             unit = page.locator("[data-testid=pole-mark-0] .ring").bounding_box()
             assert unit is not None
             sizes[size] = [page.evaluate(LETTERS), unit["width"], min(type_of(page))]
@@ -231,12 +234,12 @@ def test_in_a_very_large_window_a_pole_goes_where_the_pointer_takes_it(chromium:
 
 
 @pytest.mark.parametrize(
-    ("search", "size"), [("", (1280, 800)), ("?projector", (1280, 800)), ("", (390, 844))]
+    "size", [(1280, 800), (390, 844)]
 )
 def test_figures_of_an_unstable_loop_do_not_touch(
-    chromium: Browser, app: App, search: str, size: tuple[int, int]
+    chromium: Browser, app: App, size: tuple[int, int]
 ):
-    with opened(chromium, app.url + search + UNSTABLE, size=size) as page:
+    with opened(chromium, app.url + UNSTABLE, size=size) as page:
         assert state(page)["stable"] is False
         over = page.locator(".metrics tbody td").evaluate_all(
             """all => all.filter((td) => td.checkVisibility()).map((td) => {
@@ -266,7 +269,7 @@ def test_what_is_painted_passes_through_the_words_too(chromium: Browser, app: Ap
         page.wait_for_function(
             "() => JSON.parse(document.documentElement.dataset.state).pins.every((p) => p.K)"
         )
-        page.locator("#compare").scroll_into_view_if_needed()
+        view(page, "compare")
         page.locator("[data-testid=interaction-gains] canvas").wait_for()
         page.get_by_test_id("open-loops").scroll_into_view_if_needed()
         page.locator("[data-testid=interaction-loop-phase] canvas").wait_for()

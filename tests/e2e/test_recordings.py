@@ -4,10 +4,16 @@ from __future__ import annotations
 
 import re
 
+import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser import settled, state
+from tests.browser import settled, state, view
 from tests.e2e.test_axe import violations
+
+
+@pytest.fixture(autouse=True)
+def rig(page: Page) -> None:
+    view(page, "rig")
 
 
 def fit(page: Page, axis: str) -> float:

@@ -10,7 +10,7 @@ import httpx2
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser import SEEN, UNDRAWN, Visit, settled, visited
+from tests.browser import SEEN, UNDRAWN, Visit, settled, view, visited
 from tests.e2e.conftest import App, running_app
 
 TOKEN = "a-token-of-a-class-2026"
@@ -37,8 +37,8 @@ def test_page_and_scene_violate_nothing(listening: Visit, app: App):
     listening.page.goto(app.url)
     settled(listening.page)
     expect(listening.page.get_by_test_id("scene-notice")).to_be_hidden()
-    for name in ("Compare", "Formulas", "Paper"):
-        listening.page.locator("#header").get_by_text(name, exact=True).click()
+    for name in ("explore", "compare", "rig", "derivation"):
+        view(listening.page, name)
     expect(listening.page.locator("#formulas math").first).to_be_visible()
     expect(listening.page.locator("#paper math").first).to_be_visible()
     assert len(listening.page.frames) == 2
