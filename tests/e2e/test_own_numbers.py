@@ -43,7 +43,11 @@ def computing(chromium: Browser, url: str, *, scene: str = EMPTY) -> Iterator[Vi
 
 
 class Wire:
-    """All that goes over a page's sockets, and what it asks; not its own files, nor how windows compare clocks."""
+    """All that goes over a page's sockets, and what it asks.
+
+    Not its own files, nor how windows compare clocks, nor where the scene's camera stands, which viser's client tells
+    once it has drawn.
+    """
 
     def __init__(self, page: Page) -> None:
         self.messages: list[str] = []
@@ -55,7 +59,9 @@ class Wire:
             ws.on(way, lambda frame, way=way: self._keep(f"{way} {ws.url}", frame))
 
     def _keep(self, what: str, frame: str | bytes) -> None:
-        if not (isinstance(frame, str) and re.match(r'\{"type": ?"clock"', frame)):
+        clock = isinstance(frame, str) and re.match(r'\{"type": ?"clock"', frame)
+        camera = isinstance(frame, bytes) and b"ViewerCameraMessage" in frame
+        if not clock and not camera:
             self.messages.append(what)
 
 
