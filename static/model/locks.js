@@ -11,7 +11,7 @@ export const LOCKS = {
   preset: {
     name: 'rig',
     keys: ['preset', 'parameters', 'limits', 'rotors', 'friction'],
-    controls: '[data-testid=preset], #header :is([data-field], [data-testid^=rig-reset])',
+    controls: '[data-testid=preset], #rig :is([data-field], [data-testid^=rig-reset])',
   },
   point: { name: 'operating point', keys: ['theta0'], controls: '[data-field^="operating_point"]' },
   poles: {

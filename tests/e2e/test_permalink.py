@@ -8,7 +8,7 @@ import socket
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser import EMPTY, GONE, SEEN, goto, reopened, settled, state, until_state, view, visited
+from tests.browser import EMPTY, GONE, SEEN, goto, reopened, settled, state, until_state, visited
 from tests.e2e.conftest import App, running_app
 from tests.e2e.test_page import drag
 
@@ -78,13 +78,39 @@ def test_back_and_forward_walk_through_designs(page: Page):
 def test_a_jump_within_the_page_keeps_the_design(page: Page):
     set_field(page, "pole-field-0", "-14")
     until_hash(page, "p=-14,")
-    page.get_by_role("link", name="Formulas").click()
-    until_hash(page, "&at=formulas")
-    assert page.evaluate("() => scrollY") > 100
+    page.evaluate("() => { location.hash = 'eq-14'; }")  # as a link into the paper does
+    until_hash(page, "&view=derivation&at=eq-14")
+    page.wait_for_function("() => scrollY > 100")
     page.reload()
     settled(page)
     assert state(page)["poles"][0]["re"] == -14
     page.wait_for_function("() => scrollY > 100")
+    page.go_back()
+    until_state(page, "s.view === 'design'")
+    assert state(page)["poles"][0]["re"] == -14
+
+
+def test_keys_and_links_lead_to_views_and_back_leaves_them(page: Page, app: App):
+    for key, name in (("c", "compare"), ("R", "rig"), ("m", "derivation"), ("e", "explore"), ("d", "design")):
+        page.keyboard.press("g")
+        page.keyboard.press(key)
+        until_state(page, f"s.view === '{name}'")
+        expect(page.get_by_test_id(f"view-{name}")).to_have_attribute("aria-current", "page")
+        assert page.locator("[aria-current=page]").count() == 1
+        expect(page.get_by_test_id("splane")).to_be_visible()  # at hand wherever one reads
+    page.go_back()
+    until_state(page, "s.view === 'explore'")
+    page.reload()
+    settled(page)
+    assert state(page)["view"] == "explore"
+    reopened(page, app.url)  # without a link, where one has been
+    assert state(page)["view"] == "explore"
+    reopened(page, app.url + "#compare")
+    assert state(page)["view"] == "compare"
+    page.get_by_test_id("preset").focus()
+    page.keyboard.press("g")  # in a field it is a letter
+    page.keyboard.press("d")
+    assert state(page)["view"] == "compare"
 
 
 def test_copy_link_gives_the_link(page: Page, app: App):

@@ -13,8 +13,8 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from tests.browser import opened, settled, state, view
 from tests.e2e.conftest import App
 from tests.e2e.test_copy import saved
+from tests.e2e.test_explore import LETTERS
 from tests.e2e.test_page import PLOTS, centre
-from tests.e2e.test_tour import LETTERS
 
 DEGREE = 180 / np.pi
 UNSTABLE = "#v1&preset=paper-as-computed&p=-3%2B2j,-3-2j,-1%2B3j,-1-3j"
@@ -233,12 +233,8 @@ def test_in_a_very_large_window_a_pole_goes_where_the_pointer_takes_it(chromium:
         assert abs(readout["x"] - (x - 90)) < 120 and abs(readout["y"] - y) < 300
 
 
-@pytest.mark.parametrize(
-    "size", [(1280, 800), (390, 844)]
-)
-def test_figures_of_an_unstable_loop_do_not_touch(
-    chromium: Browser, app: App, size: tuple[int, int]
-):
+@pytest.mark.parametrize("size", [(1280, 800), (390, 844)])
+def test_figures_of_an_unstable_loop_do_not_touch(chromium: Browser, app: App, size: tuple[int, int]):
     with opened(chromium, app.url + UNSTABLE, size=size) as page:
         assert state(page)["stable"] is False
         over = page.locator(".metrics tbody td").evaluate_all(

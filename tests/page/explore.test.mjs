@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { sideOf, STEPS, SWITCHES } from '../../static/explore/steps.js';
+import { restOf, sideOf, STEPS, SWITCHES } from '../../static/explore/steps.js';
 import { designOf, initialState } from '../../static/model/store.js';
 import { PRESETS } from './presets.mjs';
 
@@ -50,17 +50,24 @@ test('swinging asks for more overshoot than there is, of a pair off the axis', (
   assert.equal(done(state({ theta: { overshoot: 30 } }), pitch, 10), false, 'real poles do not swing');
 });
 
-test('settling asks for less than it takes now, also where it has not settled', () => {
+test('being quick asks for less than it takes now, of a rig that ends beside its reference, too', () => {
   const { goal, done } = step('settle');
-  assert.equal(goal(state({ theta: { settling_time: 1 } }), pitch), 0.6);
-  assert.equal(goal(state({ theta: {} }), pitch), 1.8);
-  for (const settling_time of [0.21, 0.5, 1.234, 40]) {
-    const asked = goal(state({ theta: { settling_time } }), pitch);
-    assert.ok(asked < settling_time);
-    assert.equal(done(state({ theta: { settling_time } }), pitch, asked), false);
-    assert.equal(done(state({ theta: { settling_time: asked } }), pitch, asked), true);
+  /** A first-order step that ends at `end` of a reference of 0.2 rad. */
+  const decaying = (rate, end) => {
+    const t = Float64Array.from({ length: 501 }, (_, i) => i / 100);
+    const theta = t.map((v) => end * (1 - Math.exp(-rate * v)));
+    const of = state();
+    of.reply.axis_steps.theta.nonlinear = { t, theta, reference: { theta: 0.2, psi: 0 } };
+    return of;
+  };
+  for (const end of [0.2, 0.207]) {
+    const slow = decaying(2, end);
+    assert.ok(Math.abs(restOf(slow, pitch) - Math.log(end / 0.2 / 0.02) / 2) <= 0.011); // a sample
+    const asked = goal(slow, pitch);
+    assert.equal(done(slow, pitch, asked), false);
+    assert.equal(done(decaying(2 / 0.55, end), pitch, asked), true);
   }
-  assert.equal(done(state({ theta: {} }), pitch, 1), false);
+  assert.ok(Number.isNaN(goal(state({ design: {} }), sideOf(1))), 'nothing is known of yaw');
 });
 
 test('its switches do what the steps ask for, and undo it', () => {
