@@ -20,20 +20,29 @@ export const sideOf = (pair) =>
 export const metricsOf = ({ reply }, { axis }) => reply?.axis_steps?.[axis]?.nonlinear.metrics;
 
 /**
- * When the rig comes to rest, s: after that it stays as near to where it ends as settling asks. Where it ends beside the
- * reference, which is what the inner loop alone leaves, it rests all the same.
+ * The step's course as shares of the step, from where it begins to where it ends. It may end beside its reference,
+ * which is what the inner loop alone leaves; that is for PI to mend, and judged apart here.
  * @param {State} state @param {Side} side
  */
-export function restOf({ reply }, { axis }) {
+function courseOf({ reply }, { axis }) {
   const step = reply?.axis_steps?.[axis]?.nonlinear;
-  if (!step) return NaN;
+  if (!step) return null;
   const y = step[axis];
-  const near = BAND * Math.abs(step.reference[axis] - y[0]);
-  let i = y.length - 1;
-  while (i > 0 && Math.abs(y[i - 1] - y[y.length - 1]) <= near) i--;
-  return step.t[i];
+  const [from, end, size] = [y[0], y[y.length - 1], step.reference[axis] - y[0]];
+  return { t: step.t, beyond: Array.from(y, (v) => (v - end) / (size || end - from || 1)) };
 }
+
+/** When the rig comes to rest, s: after that it stays where it ends. @param {State} state @param {Side} side */
+export function restOf(state, side) {
+  const course = courseOf(state, side);
+  return course ? course.t[course.beyond.findLastIndex((v) => Math.abs(v) > BAND) + 1] : NaN;
+}
+
+/** How far the rig swings past where it ends, as a share of the step. @param {State} state @param {Side} side */
+export const swingOf = (state, side) => Math.max(0, ...(courseOf(state, side)?.beyond ?? []));
+
 const BAND = 0.02;
+const SWING = 0.03;
 
 /** @param {number} v down to a number that reads well */
 const nice = (v) => Number((Math.floor(v * 20) / 20).toFixed(2));
@@ -58,15 +67,10 @@ export const STEPS = [
   {
     name: 'swing',
     title: 'Make it swing',
-    ask: (goal, { axis }) =>
-      say`Drag one pole of ${t(WHO[axis])} onto the other, then both up, until it overshoots by ${inField(goal)} %.`,
-    see: 'On the real axis poles creep. Off it they swing: the steeper the dashed ray, the larger the overshoot.',
-    goal: (state, side) => {
-      const own = metricsOf(state, side)?.[side.axis]?.overshoot;
-      return own === undefined ? NaN : own < 8 ? 10 : 5 * Math.ceil(own / 4);
-    },
-    done: (state, side, goal) =>
-      isComplex(state.design?.poles ?? [], side.pair) && (metricsOf(state, side)?.[side.axis]?.overshoot ?? 0) >= goal,
+    ask: (_goal, { axis }) =>
+      say`Drag one pole of ${t(WHO[axis])} onto the other, then both up, until the response swings past its end.`,
+    see: 'On the real axis poles creep. Off it they swing: the steeper the ray they are on, the larger the overshoot.',
+    done: (state, side) => isComplex(state.design?.poles ?? [], side.pair) && swingOf(state, side) >= SWING,
   },
   {
     name: 'settle',

@@ -137,7 +137,8 @@ export class SPlane {
     if (!design || !this.view.width) return;
     this.#manual = false;
     const own = handlesOf(design, pairAlone(state)).filter((p) => p !== undefined);
-    this.view = fit(own, [...(reply?.loop_poles ?? []), ...(reply?.open_loop_poles ?? [])], this.view);
+    const room = pairAlone(state) === null ? [] : own.map((p) => ({ re: p.re, im: p.re })); // to swing
+    this.view = fit([...own, ...room], [...(reply?.loop_poles ?? []), ...(reply?.open_loop_poles ?? [])], this.view);
     this.#draw(state);
   };
 

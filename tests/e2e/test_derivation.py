@@ -49,10 +49,12 @@ def test_a_symbol_under_the_pointer_shows_name_value_and_unit(page: Page):
 
 def test_values_of_symbols_are_those_of_the_design(page: Page):
     opened_paper(page)
+    view(page, "design")
     field = page.get_by_test_id("pole-field-0")
     field.fill("-15")
     field.press("Enter")
     settled(page)
+    view(page, "derivation")
     scrolled_to(page, "eq-21-22")
     follows(page)
     symbol(page, "eq-21-22", "p_1").hover()

@@ -34,7 +34,7 @@ def gone_on(page: Page, number: int) -> None:
 
 def test_a_first_visit_is_led_through_six_steps_by_hand(chromium: Browser, app: App):
     with opened(chromium, app.url, first=True) as page:
-        expect(page.get_by_test_id("step-ask")).to_contain_text("until it overshoots by 10 %")
+        expect(page.get_by_test_id("step-ask")).to_contain_text("Drag one pole of pitch onto the other")
         assert (state(page)["view"], state(page)["outer"], state(page)["motion"]) == (
             "explore",
             "none",
@@ -99,7 +99,7 @@ def test_the_first_minute_is_for_yaw_too_and_by_keyboard(chromium: Browser, app:
 @pytest.mark.parametrize("size", [(1280, 800), (1920, 1080), (820, 1180), (390, 844)])
 def test_the_first_minute_is_clean_and_nothing_is_cut(chromium: Browser, app: App, size: tuple[int, int]):
     with opened(chromium, app.url, first=True, size=size) as page:
-        expect(page.get_by_test_id("step-ask")).to_contain_text("overshoots")
+        expect(page.get_by_test_id("step-ask")).to_contain_text("swings")
         assert violations(page) == []
         page.emulate_media(color_scheme="dark")
         settled(page)

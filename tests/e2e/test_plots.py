@@ -269,7 +269,10 @@ def test_what_is_painted_passes_through_the_words_too(chromium: Browser, app: Ap
         page.locator("[data-testid=interaction-gains] canvas").wait_for()
         page.get_by_test_id("open-loops").scroll_into_view_if_needed()
         page.locator("[data-testid=interaction-loop-phase] canvas").wait_for()
-        for name in ("frequency-loop-phase", "frequency-dominance", "theta", "V_y"):
+        for name in ("frequency-loop-phase", "frequency-dominance"):
+            saved(page, name, "PNG")
+        view(page, "design")
+        for name in ("theta", "V_y"):
             saved(page, name, "PNG")
         painted = page.evaluate("() => [...window.painted]")
         words = [text for text in painted if re.search(r"[^\W\d_]{3}", text)]

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { restOf, sideOf, STEPS, SWITCHES } from '../../static/explore/steps.js';
+import { restOf, sideOf, STEPS, SWITCHES, swingOf } from '../../static/explore/steps.js';
 import { designOf, initialState } from '../../static/model/store.js';
 import { PRESETS } from './presets.mjs';
 
@@ -33,41 +33,42 @@ test('there are six, each of two lines', () => {
   }
 });
 
-test('swinging asks for more overshoot than there is, of a pair off the axis', () => {
-  const { goal, done } = step('swing');
-  assert.ok(Number.isNaN(goal({ ...state(), reply: null }, pitch)), 'nothing is known yet');
-  for (const [now, wanted] of [
-    [0, 10],
-    [7, 10],
-    [12, 15],
-    [40, 50],
-  ]) {
-    const asked = goal(state({ theta: { overshoot: now } }), pitch);
-    assert.equal(asked, wanted);
-    assert.equal(done(state({ design: { poles: swinging }, theta: { overshoot: now } }), pitch, asked), false);
+/** A state whose step goes along `course`, a share of the step by time, of a reference of 0.2 rad. */
+function going(course, design = {}) {
+  const t = Float64Array.from({ length: 501 }, (_, i) => i / 100);
+  const of = state({ design });
+  of.reply.axis_steps.theta.nonlinear = { t, theta: t.map((v) => 0.2 * course(v)), reference: { theta: 0.2, psi: 0 } };
+  return of;
+}
+const creeping = (rate, end) => (t) => end * (1 - Math.exp(-rate * t));
+/** Of a pair with damping ratio zeta: overshoots by exp(-pi zeta / sqrt(1 - zeta²)). */
+const ringing = (zeta, end) => (t) => {
+  const d = Math.sqrt(1 - zeta * zeta);
+  return end * (1 - Math.exp(-8 * zeta * t) * (Math.cos(8 * d * t) + (zeta / d) * Math.sin(8 * d * t)));
+};
+
+test('swinging is past where the response ends, of a pair off the axis', () => {
+  const { done } = step('swing');
+  for (const end of [1, 1.04, 0.9]) {
+    assert.equal(done(going(creeping(4, end), { poles: swinging }), pitch), false);
+    assert.equal(done(going(ringing(0.8, end), { poles: swinging }), pitch), false); // 1.5 %
+    assert.equal(done(going(ringing(0.6, end), { poles: swinging }), pitch), true); // 9.5 %
+    assert.ok(Math.abs(swingOf(going(ringing(0.5, end)), pitch) - end * Math.exp(-Math.PI / Math.sqrt(3))) < 2e-3);
   }
-  assert.equal(done(state({ design: { poles: swinging }, theta: { overshoot: 10 } }), pitch, 10), true);
-  assert.equal(done(state({ theta: { overshoot: 30 } }), pitch, 10), false, 'real poles do not swing');
+  assert.equal(done(going(ringing(0.4, 1)), pitch), false, 'real poles do not swing');
+  assert.equal(swingOf(state(), sideOf(1)), 0, 'nothing is known of yaw');
 });
 
 test('being quick asks for less than it takes now, of a rig that ends beside its reference, too', () => {
   const { goal, done } = step('settle');
-  /** A first-order step that ends at `end` of a reference of 0.2 rad. */
-  const decaying = (rate, end) => {
-    const t = Float64Array.from({ length: 501 }, (_, i) => i / 100);
-    const theta = t.map((v) => end * (1 - Math.exp(-rate * v)));
-    const of = state();
-    of.reply.axis_steps.theta.nonlinear = { t, theta, reference: { theta: 0.2, psi: 0 } };
-    return of;
-  };
-  for (const end of [0.2, 0.207]) {
-    const slow = decaying(2, end);
-    assert.ok(Math.abs(restOf(slow, pitch) - Math.log(end / 0.2 / 0.02) / 2) <= 0.011); // a sample
+  for (const end of [1, 1.04]) {
+    const slow = going(creeping(2, end));
+    assert.ok(Math.abs(restOf(slow, pitch) - Math.log(end / 0.02) / 2) <= 0.011); // a sample
     const asked = goal(slow, pitch);
     assert.equal(done(slow, pitch, asked), false);
-    assert.equal(done(decaying(2 / 0.55, end), pitch, asked), true);
+    assert.equal(done(going(creeping(2 / 0.55, end)), pitch, asked), true);
   }
-  assert.ok(Number.isNaN(goal(state({ design: {} }), sideOf(1))), 'nothing is known of yaw');
+  assert.ok(Number.isNaN(goal(state(), sideOf(1))), 'nothing is known of yaw');
 });
 
 test('its switches do what the steps ask for, and undo it', () => {
