@@ -1,5 +1,6 @@
 /**
- * The first minute's six steps: each asks for something and knows when it was done. Pure.
+ * The first minute's six steps: each asks for something and knows when it was done. The motor is driven to its limit
+ * before PI comes, since with PI a step begins with k_p times its size, whatever the poles. Pure.
  * @typedef {import('../types.js').State} State
  * @typedef {import('../types.js').Design} Design
  * @typedef {{axis: 'theta'|'psi', motor: 'V_p'|'V_y', pair: 0|1}} Side  the pair that is seen, its angle and motor
@@ -81,20 +82,20 @@ export const STEPS = [
     done: (state, side, goal) => restOf(state, side) <= goal,
   },
   {
-    name: 'pi',
-    title: 'Add PI, and see the poles move',
-    ask: () => t('Switch the PI loops on.'),
-    see: 'They remove what error lasts, but the poles that you placed move: the diamonds are where they are now.',
-    done: ({ design }) => design?.outer === 'pi',
-    switches: ['pi'],
-  },
-  {
     name: 'saturate',
     title: 'Run out of volts',
     ask: () => t('Drag the pair to the left until the motor’s voltage reaches its limit.'),
     see: 'Fast poles need large gains, and the motor cuts what is beyond the red line: more gain, no more speed.',
     done: (state, side) => (metricsOf(state, side)?.[side.motor]?.saturated ?? 0) > 0,
     volts: true,
+  },
+  {
+    name: 'pi',
+    title: 'Add PI, and see the poles move',
+    ask: () => t('Switch the PI loops on.'),
+    see: 'They remove what error lasts, but the poles that you placed move: the diamonds are where they are now.',
+    done: ({ design }) => design?.outer === 'pi',
+    switches: ['pi'],
   },
   {
     name: 'lag',

@@ -5,7 +5,7 @@
  * @typedef {import('../contract.js').Lag} Lag
  */
 import { say, significant, t } from '../text/index.js';
-import { bodyOf, lags, presetOf } from '../model/index.js';
+import { bodyOf, lags, pairAlone, presetOf } from '../model/index.js';
 import { lagTrack } from '../net/index.js';
 import { button, h, setAttr, setText, svg } from '../ui/index.js';
 import { toPixel } from '../splane/index.js';
@@ -145,8 +145,10 @@ const asked = (design) => ({
 });
 
 /** Unless someone has said so, where the rotors lag or the design lives by their not lagging. @param {State} state */
-export function isShown({ showLag, design, presets, reply }) {
+export function isShown({ showLag, design, presets, reply, view, motion }) {
   if (showLag !== null || !design) return showLag === true;
-  const matters = reply?.findings.some((f) => f.code === 'lives_by_fast_rotors' || f.code === 'rotors_unstable');
+  const matters =
+    pairAlone({ view, motion }) === null &&
+    reply?.findings.some((f) => f.code === 'lives_by_fast_rotors' || f.code === 'rotors_unstable');
   return lags(design, presetOf({ presets, design })) || matters === true;
 }

@@ -5,7 +5,7 @@
  */
 import { say, t } from '../text/index.js';
 import { isRead, VIEWS } from '../model/index.js';
-import { h, remember } from '../ui/index.js';
+import { button, h, remember } from '../ui/index.js';
 
 const names = /** @type {View[]} */ (Object.keys(VIEWS));
 
@@ -46,6 +46,18 @@ export class ViewSwitch {
     this.address = address;
     this.title = document.title;
     document.addEventListener('keydown', (e) => this.#key(e));
+    const plane = button(
+      {
+        class: 'plane-toggle',
+        'data-testid': 'plane-toggle',
+        'aria-controls': 'splane',
+        'aria-expanded': 'false',
+        onclick: () => plane.setAttribute('aria-expanded', String(root.classList.toggle('plane-open'))),
+      },
+      's-plane',
+    ); // where there is no room beside the text
+    const root = document.documentElement;
+    document.body.append(plane);
   }
 
   /** @param {KeyboardEvent} e */

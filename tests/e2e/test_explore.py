@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser import later, opened, settled, state, until_state, view
+from tests.browser import later, opened, reopened, settled, state, until_state, view
 from tests.e2e.conftest import App
 from tests.e2e.test_axe import RUN, violations
 from tests.e2e.test_page import centre
@@ -49,14 +49,14 @@ def test_a_first_visit_is_led_through_six_steps_by_hand(chromium: Browser, app: 
         expect(page.get_by_test_id("step-ask")).to_contain_text("is at rest within")
         dragged(page, "pole-0", (-220, 150))
         gone_on(page, 2)
-        page.get_by_test_id("explore-pi").click()
-        gone_on(page, 3)
         expect(page.locator("[data-testid=plot-V_p]")).to_be_visible()  # the step is seen in the voltage
         page.get_by_test_id("pole-0").focus()
         for _ in range(40):
             page.keyboard.press("ArrowLeft")
-        gone_on(page, 4)
+        gone_on(page, 3)
         expect(page.locator("[data-testid=plot-theta]")).to_be_visible()
+        page.get_by_test_id("explore-pi").click()
+        gone_on(page, 4)
         page.get_by_test_id("explore-lag").click()
         until_state(page, "s.rotors.pitch?.tau === 0.16 && s.rotors.yaw?.tau === 0.16")
         gone_on(page, 5)
@@ -71,6 +71,8 @@ def test_a_first_visit_is_led_through_six_steps_by_hand(chromium: Browser, app: 
         expect(page.get_by_test_id("step-title")).to_have_text("That is pole placement")  # it is remembered
         page.get_by_test_id("explore-design").click()
         until_state(page, "s.view === 'design' && s.motion === 'both'")
+        reopened(page, app.url)  # without a link, where one has been
+        assert state(page)["view"] == "design"
         assert page.locator(".pole:visible").count() == 4
 
 

@@ -103,8 +103,6 @@ def test_keys_and_links_lead_to_views_and_back_leaves_them(page: Page, app: App)
     page.reload()
     settled(page)
     assert state(page)["view"] == "explore"
-    reopened(page, app.url)  # without a link, where one has been
-    assert state(page)["view"] == "explore"
     reopened(page, app.url + "#compare")
     assert state(page)["view"] == "compare"
     page.get_by_test_id("preset").focus()

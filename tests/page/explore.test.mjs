@@ -25,7 +25,7 @@ const swinging = [
 test('there are six, each of two lines', () => {
   assert.deepEqual(
     STEPS.map((s) => s.name),
-    ['swing', 'settle', 'pi', 'saturate', 'lag', 'cross'],
+    ['swing', 'settle', 'saturate', 'pi', 'lag', 'cross'],
   );
   for (const { ask, see } of STEPS) {
     assert.match(ask(5, pitch), /^[A-Z].*\.$/);
