@@ -1,7 +1,8 @@
-"""PI values that suit the placed poles."""
+"""PI values that suit the poles of the inner loop, by one rule for all methods."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -12,6 +13,7 @@ from .design import Design
 from .eigenvalues import eigenvalues
 from .errors import InvalidInputError
 from .loop import Loop, close_loop
+from .placement.groups import splits
 from .placement.with_rotors import require_slopes
 from .scenario import OuterLoop, PIGains
 from .signals import AXES, Complexes
@@ -59,7 +61,8 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
 
     With T_i at the slower pole p_s, the loop of one axis is kp ĝ(0) p_s p_f / (s (s − p_f)), whose
     damping is ζ for kp ĝ(0) = p_f / (4 ζ² p_s). The coupling between the axes is not in that
-    formula, so both gains are scaled over a grid, and the poles of the whole loop decide.
+    formula, so both gains are scaled over a grid, and the poles of the whole loop decide. The pairs are those that
+    were placed; of a method that chooses its own poles, those that `axis_poles` finds.
 
     Raises:
         InvalidInputError: a placed pole is not stable, or no gain complies.
@@ -74,8 +77,8 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
         )
     columns = (0, 1) if outer.pairing == "diagonal" else (1, 0)
     gains = []
-    for axis, pair in enumerate((design.poles.values[:2], design.poles.values[2:])):
-        slow, fast = sorted(pair, key=lambda p: abs(p.real))
+    for axis, own in enumerate(axis_poles(design)):
+        slow, fast = sorted(own, key=lambda p: abs(p.real))[:2]
         static = float(G_0[axis, columns[axis]])
         if static == 0:
             raise InvalidInputError(
@@ -102,6 +105,29 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
     if best is None:
         raise _nothing_found(design)
     return Suggestion(best.outer, best)
+
+
+def axis_poles(design: Design) -> tuple[Sequence[complex], Sequence[complex]]:
+    """The inner loop's poles of pitch and of yaw, rad/s: the pairs that were placed.
+
+    Where the method chooses its own, they are dealt, conjugates together, so that pitch's poles take part most in
+    pitch's states, and yaw's in yaw's. What a pole takes part in says |v_ki w_ik| of its right and left eigenvectors
+    (Pérez-Arriaga, Verghese and Schweppe, IEEE Trans. Power App. Syst. 101 (1982) 3117–3125).
+    """
+    if design.aims:
+        return design.poles.values[:2], design.poles.values[2:]
+    values, right = np.linalg.eig(design.A_closed)
+    shares = np.abs(right * np.linalg.pinv(right).T)  # states by poles
+    shares /= np.sum(shares, axis=0)
+    n = len(values)
+    owned = shares[0::2].sum(axis=0) - shares[1::2].sum(axis=0)  # the states take turns: pitch's, yaw's
+    deals = splits(values.astype(np.complex128), (n // 2, n - n // 2))
+    best = max(deals, key=lambda deal: sum(owned[list(deal[0])]), default=None)
+    if best is None:  # three conjugate pairs of six cannot be dealt into two threes
+        order = np.argsort(-owned, kind="stable")
+        best = tuple(order[: n // 2]), tuple(order[n // 2 :])
+    pitch, yaw = ([complex(values[i]) for i in own] for own in best)
+    return pitch, yaw
 
 
 def _inner_poles(design: Design) -> Complexes:

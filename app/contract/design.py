@@ -7,9 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import lru_cache
-from typing import Any
 
-from pydantic import Field, create_model
+from pydantic import Field
 
 from heli2dof_core import (
     Design,
@@ -43,14 +42,14 @@ from heli2dof_core.request import (
     ROTOR,
     ROTORS,
     STRUCTURE,
+    WEIGHTS,
     judged_spec,
 )
 from heli2dof_core.rotors import Actuators
 from heli2dof_core.scenario import OuterLoop
-from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
 from heli2dof_core.tuning import Suggestion as CoreSuggestion
 
-from .fields import Pole, PositiveWeight, PresetName, Split, Strict, Weight, asked
+from .fields import Pole, PresetName, Split, Strict, asked
 from .model import (
     OF_GAINS,
     Complex,
@@ -121,24 +120,24 @@ class ObserverChanges(asked(OBSERVER)):
     )
 
 
-def _weights_of(name: str, signals: Iterable[Signal], kind: Any, meaning: str) -> type[Strict]:
-    fields: dict[str, Any] = {
-        s.name: (kind | None, Field(default=None, description=meaning)) for s in signals
-    }
-    return create_model(name, __base__=Strict, **fields)
+class StateWeights(asked(WEIGHTS["states"])):
+    """The diagonal of Q."""
 
 
-StateWeights = _weights_of("StateWeights", STATES, Weight, "on Q's diagonal")
-InputWeights = _weights_of("InputWeights", INPUTS, PositiveWeight, "on R's diagonal")
-IntegralWeights = _weights_of("IntegralWeights", OUTPUTS, PositiveWeight, "on the integral of this error")
+class InputWeights(asked(WEIGHTS["inputs"])):
+    """The diagonal of R."""
+
+
+class IntegralWeights(asked(WEIGHTS["integrals"])):
+    """The diagonal of Q_z, where the method brings integral action."""
 
 
 class WeightChanges(Strict):
     """Weights of the quadratic methods that differ from Bryson's rule for the preset's limits."""
 
-    states: StateWeights = StateWeights()  # pyright: ignore[reportInvalidTypeForm]
-    inputs: InputWeights = InputWeights()  # pyright: ignore[reportInvalidTypeForm]
-    integrals: IntegralWeights = IntegralWeights()  # pyright: ignore[reportInvalidTypeForm]
+    states: StateWeights = StateWeights()
+    inputs: InputWeights = InputWeights()
+    integrals: IntegralWeights = IntegralWeights()
 
 
 class DesignRequest(asked(STRUCTURE, OUTER, ROTORS)):
