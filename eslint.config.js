@@ -10,6 +10,7 @@ const FLOORS = [
   ['charts'],
   ['plots', 'splane', 'scene', 'recordings', 'tour', 'panels'],
   ['paper', 'compare', 'machine', 'clouds'],
+  ['optimal'],
 ];
 const TOP = ['static/main.js', 'static/api_docs.js'];
 

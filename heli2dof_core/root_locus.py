@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .design import Design
-from .eigenvalues import courses
+from .eigenvalues import courses, eigenvalues
 from .errors import InvalidInputError
 from .frozen import Frozen
+from .judged import Rows
 from .placement.method import Weights
 from .placement.registry import METHODS
 from .placement.riccati import Regulator
@@ -31,6 +32,15 @@ class RootLocus(Frozen):
 
     rho: Floats
     poles: Complexes
+
+
+def optimal_poles(A: Rows, B: Rows, K: Rows, integral: Rows | None) -> list[complex]:
+    """The poles of the optimal loop, rad/s: of A − BK, or with its integrators ż = r − y, u = −Kx + K_z z."""
+    closed = np.array(A) - np.array(B) @ np.array(K)
+    if integral is not None:
+        n = len(closed)
+        closed = np.block([[closed, np.array(B) @ np.array(integral)], [-np.eye(2, n), np.zeros((2, 2))]])
+    return sorted(eigenvalues(closed), key=lambda p: (-p.real, -p.imag))
 
 
 def symmetric_root_locus(design: Design, weights: Weights, steps: int = STEPS) -> RootLocus:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import product
 
 import numpy as np
 
@@ -96,15 +95,45 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
     target = min(DAMPING, EASED * _least_damping(_inner_poles(design)))
     best: Loop | None = None
     for factors in (FACTORS, GENTLE):
-        pairs = product(*([_scaled(f, *g) for f in factors] for g in gains))
-        tried = (close_loop(design, replace(outer, outer="pi", pitch=p, yaw=y)) for p, y in pairs)
-        stable = [loop for loop in tried if loop.stable] + ([best] if best else [])
-        best = max(stable, key=lambda loop: _merit(loop, target), default=None)
+        pitch, yaw = ([_scaled(f, *own) for f in factors] for own in gains)
+        found = _best_of(design, replace(outer, outer="pi"), pitch, yaw, target)
+        best = max(filter(None, (found, best)), key=lambda loop: _merit(loop, target), default=None)
         if best and _merit(best, target)[0] >= round(target, 3):
             break
     if best is None:
         raise _nothing_found(design)
     return Suggestion(best.outer, best)
+
+
+def _best_of(
+    design: Design, outer: OuterLoop, pitch: Sequence[PIGains], yaw: Sequence[PIGains], target: float
+) -> Loop | None:
+    """The loop of most merit over a grid of gains, integral times alike; None where none is stable.
+
+    The loop's matrix is affine in the gains: three corners give them all, and one call their poles.
+    """
+
+    def closed(p: PIGains, y: PIGains) -> Loop:
+        return close_loop(design, replace(outer, pitch=p, yaw=y))
+
+    corner = closed(pitch[0], yaw[0])
+    kept = np.ix_(corner.connected, corner.connected)
+    A = corner.A[kept]
+    over = [(np.array([pi.kp for pi in own]) - own[0].kp) / (own[-1].kp - own[0].kp) for own in (pitch, yaw)]
+    by_pitch, by_yaw = closed(pitch[-1], yaw[0]).A[kept] - A, closed(pitch[0], yaw[-1]).A[kept] - A
+    stack = A + over[0][:, None, None, None] * by_pitch + over[1][:, None, None] * by_yaw
+    poles = np.linalg.eigvals(stack.reshape(-1, *A.shape))
+    decay = -np.max(poles.real, axis=1)
+    size = np.maximum(np.abs(poles), np.finfo(float).tiny)
+    damping = np.round(np.minimum(np.min(-poles.real / size, axis=1), target), 3)
+    alike = np.round(decay / np.max(np.abs(decay)), 9)  # of those alike but for rounding, the smaller gains
+    for k in np.lexsort((-alike, -damping)):
+        if decay[k] <= 0.0:
+            continue
+        loop = closed(pitch[k // len(yaw)], yaw[k % len(yaw)])
+        if loop.stable:
+            return loop
+    return None
 
 
 def axis_poles(design: Design) -> tuple[Sequence[complex], Sequence[complex]]:

@@ -221,16 +221,18 @@ async function computeHere() {
 
 /** Panels that the first view does not need, fetched when it is there. */
 async function furtherDown() {
-  const [{ LagPaths, MeasuredPart, RotorPoles }, { Clouds }] = await fetched(() =>
-    Promise.all([import('./machine/index.js'), import('./clouds/index.js')]),
+  const [{ LagPaths, MeasuredPart, RotorPoles }, { Clouds }, { Optimal }] = await fetched(() =>
+    Promise.all([import('./machine/index.js'), import('./clouds/index.js'), import('./optimal/index.js')]),
   );
   clouds = new Clouds(plane, store);
   drawClouds = viewOf(clouds);
-  views.figures.unshift(
-    ...[new RotorPoles(byId('poles'), store), new MeasuredPart(experiment.body, store), new LagPaths(plane, store)].map(
-      viewOf,
-    ),
-  );
+  const beyond = [
+    new RotorPoles(byId('poles'), store),
+    new MeasuredPart(experiment.body, store),
+    new LagPaths(plane, store),
+    new Optimal(plane, byId('poles'), store),
+  ];
+  views.figures.unshift(...beyond.map(viewOf));
   schedule();
   computeHere().catch(console.warn);
   const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await fetched(() =>

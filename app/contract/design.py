@@ -45,6 +45,7 @@ from heli2dof_core.request import (
     WEIGHTS,
     judged_spec,
 )
+from heli2dof_core.root_locus import optimal_poles
 from heli2dof_core.rotors import Actuators
 from heli2dof_core.scenario import OuterLoop
 from heli2dof_core.tuning import Suggestion as CoreSuggestion
@@ -215,6 +216,9 @@ class Gains(told_by({**OF_GAINS, **FIGURES_OF_LOOP})):
         None, description="asked for where the rotors are placed, rad/s"
     )
     closed_loop_poles: list[Complex]
+    optimal_poles: list[Complex] | None = Field(
+        None, description="of a quadratic method: its own, those of its integrators among them, rad/s"
+    )
     controllability_indices: list[int] = Field(description="one per input")
     observer: ObserverGains | None = Field(None, description="where the request has one, or measures by it")
     findings: list[Finding]
@@ -307,6 +311,9 @@ def gains_reply(
     }
     if placed.aims:
         reply["pole_error"], reply["pole_error_bound"] = placed.error, placed.bound
+    if not placed.aims:
+        own = optimal_poles(model["A"], model["B"], placed.K, placed.integral)
+        reply["optimal_poles"] = poles_reply(own)
     if placed.integral is not None:
         reply["integral"] = placed.integral
     if rotors is not None:

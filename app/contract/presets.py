@@ -78,24 +78,24 @@ class FrictionPair(Model):
     yaw: Friction
 
 
-class StateWeights(proposed(WEIGHTS["states"])):
+class ProposedQ(proposed(WEIGHTS["states"])):
     """The diagonal of Q."""
 
 
-class InputWeights(proposed(WEIGHTS["inputs"])):
+class ProposedR(proposed(WEIGHTS["inputs"])):
     """The diagonal of R."""
 
 
-class IntegralWeights(proposed(WEIGHTS["integrals"])):
+class ProposedQz(proposed(WEIGHTS["integrals"])):
     """The diagonal of Q_z."""
 
 
 class Weights(Model):
     """Weights of the quadratic methods by Bryson's rule for this rig's limits."""
 
-    states: StateWeights
-    inputs: InputWeights
-    integrals: IntegralWeights
+    states: ProposedQ
+    inputs: ProposedR
+    integrals: ProposedQz
 
 
 class Preset(proposed(STRUCTURE, OUTER, ROTORS)):

@@ -11,7 +11,7 @@ import { loopPaths } from './loop_paths.js';
 import { Gestures } from './gestures.js';
 import { drawGrid } from './grid.js';
 import { Marks, sample } from './marks.js';
-import { fit, outgrown, zoom } from './math.js';
+import { fit, outgrown, slower, zoom } from './math.js';
 import { drawPins } from './pins.js';
 import { Readout } from './readout.js';
 import { drawForbidden, hatchings, RequirementsBar } from './requirements.js';
@@ -135,10 +135,17 @@ export class SPlane {
     const { design, reply } = state;
     if (!design || !this.view.width) return;
     this.#manual = false;
-    const own = handlesOf(design).filter((p) => p !== undefined);
+    const own = this.#own(state);
     this.view = fit(own, [...(reply?.loop_poles ?? []), ...(reply?.open_loop_poles ?? [])], this.view);
     this.#draw(state);
   };
+
+  /** What the view is to show: what is dragged; of a method that chooses its own poles, these. @param {State} state */
+  #own(state) {
+    const { design, reply, answered } = state;
+    const own = placesPoles(state) || answered?.method !== design?.method ? undefined : reply?.gains.optimal_poles;
+    return own ? slower(own) : design ? handlesOf(design).filter((p) => p !== undefined) : [];
+  }
 
   /** @param {number} width @param {number} height CSS pixels */
   #resize(width, height) {
@@ -161,8 +168,7 @@ export class SPlane {
     if (!design || !this.view.width) return;
     const fresh = design.preset !== this.#preset;
     this.#preset = design.preset;
-    const own = handlesOf(design).filter((p) => p !== undefined);
-    const watched = [...own, ...(reply?.loop_poles ?? []).filter((p) => p.re >= 0)];
+    const watched = [...this.#own(state), ...(reply?.loop_poles ?? []).filter((p) => p.re >= 0)];
     if (!dragging && (fresh || (!this.#manual && outgrown(this.view, watched)))) this.fit(state);
     else this.#draw(state);
   }
