@@ -10,10 +10,12 @@ from .design import Design
 from .eigenvalues import courses, eigenvalues
 from .errors import InvalidInputError
 from .frozen import Frozen
-from .judged import Rows
+from .judged import Placed
 from .placement.method import Weights
 from .placement.registry import METHODS
 from .placement.riccati import Regulator
+from .placement.with_rotors import with_rotors
+from .rotors import Actuators
 from .signals import Complexes, Floats, fixed
 
 DEAREST = 1e4
@@ -34,12 +36,19 @@ class RootLocus(Frozen):
     poles: Complexes
 
 
-def optimal_poles(A: Rows, B: Rows, K: Rows, integral: Rows | None) -> list[complex]:
-    """The poles of the optimal loop, rad/s: of A − BK, or with its integrators ż = r − y, u = −Kx + K_z z."""
-    closed = np.array(A) - np.array(B) @ np.array(K)
-    if integral is not None:
-        n = len(closed)
-        closed = np.block([[closed, np.array(B) @ np.array(integral)], [-np.eye(2, n), np.zeros((2, 2))]])
+def optimal_poles(placed: Placed, rotors: Actuators | None = None) -> list[complex]:
+    """The poles of the optimal loop, rad/s, slowest first: of A − BK, or with its integrators ż = r − y.
+
+    Args:
+        placed: a quadratic method's design.
+        rotors: of the rig, where they are states of the model.
+    """
+    A, B, K = placed.plant.A, placed.plant.B, np.array(placed.K)
+    if placed.rotor_poles is not None and rotors is not None:
+        A, B = with_rotors(A, B * rotors.slope, rotors.tau)
+    closed = A - B @ K
+    if placed.integral is not None:
+        closed = np.block([[closed, B @ np.array(placed.integral)], [-np.eye(2, len(A)), np.zeros((2, 2))]])
     return sorted(eigenvalues(closed), key=lambda p: (-p.real, -p.imag))
 
 

@@ -312,8 +312,7 @@ def gains_reply(
     if placed.aims:
         reply["pole_error"], reply["pole_error_bound"] = placed.error, placed.bound
     if not placed.aims:
-        own = optimal_poles(model["A"], model["B"], placed.K, placed.integral)
-        reply["optimal_poles"] = poles_reply(own)
+        reply["optimal_poles"] = poles_reply(optimal_poles(placed, loop.actuators))
     if placed.integral is not None:
         reply["integral"] = placed.integral
     if rotors is not None:

@@ -16,11 +16,17 @@ export class Locus {
   #shown = '';
   #busy = false;
 
-  /** @param {import('../splane/splane.js').SPlane} plane */
-  constructor(plane) {
+  /** @param {import('../splane/splane.js').SPlane} plane @param {() => void} changed it is to be drawn anew */
+  constructor(plane, changed) {
     this.plane = plane;
+    this.changed = changed;
     this.layer = svg('g', { class: 'locus', 'data-testid': 'locus', 'aria-hidden': 'true' });
     plane.svg.prepend(this.layer);
+  }
+
+  /** Whether it is drawn. */
+  get drawn() {
+    return this.#locus !== null;
   }
 
   /** @param {Body|null} body none where there is no locus to show */
@@ -44,7 +50,7 @@ export class Locus {
     this.#shown = key;
     if (locus === this.#locus) return;
     this.#locus = locus;
-    this.draw(false);
+    this.changed();
   }
 
   /** @param {boolean} fresh whether the view changed */

@@ -1,16 +1,23 @@
 /**
- * Poles that nobody places: LQR's and a Kalman filter's, as marks of their own shape under the handles, with a tooltip,
- * and named in the key.
+ * Poles that nobody places: LQR's and a Kalman filter's, as marks of their own shape under the handles, with a tooltip.
  * @typedef {import('../types.js').Complex} Complex
  */
 import { poleText, polesText, say } from '../text/index.js';
-import { h, setAttr, svg } from '../ui/index.js';
+import { setAttr, svg } from '../ui/index.js';
 import { toPixel } from '../splane/index.js';
 
 const SHAPES = {
   optimal: 'M 9 0 L 4.5 7.8 L -4.5 7.8 L -9 0 L -4.5 -7.8 L 4.5 -7.8 Z', // a hexagon
   kalman: 'M 0 -9 L 2.6 -2.6 L 9 0 L 2.6 2.6 L 0 9 L -2.6 2.6 L -9 0 L -2.6 -2.6 Z', // a star of four points
 };
+
+/** @param {'optimal'|'kalman'} kind a sample of its marks */
+export const sampleOf = (kind) =>
+  svg(
+    'svg',
+    { class: `own-poles ${kind}`, 'aria-hidden': 'true', viewBox: '-10 -10 20 20' },
+    svg('path', { d: SHAPES[kind] }),
+  );
 
 export class OwnMarks {
   /** @type {readonly Complex[]|null} */ #drawn = null;
@@ -22,17 +29,6 @@ export class OwnMarks {
     this.name = name;
     this.layer = svg('g', { class: `own-poles ${kind}`, 'data-testid': `${kind}-poles`, role: 'img' });
     plane.marks.seen.before(this.layer);
-    this.key = h(
-      'span',
-      { 'data-testid': `key-${kind}`, hidden: true, title: 'computed from weights; not dragged' },
-      svg(
-        'svg',
-        { class: `own-poles ${kind}`, 'aria-hidden': 'true', viewBox: '-10 -10 20 20' },
-        svg('path', { d: SHAPES[kind] }),
-      ),
-      name,
-    );
-    plane.key.prepend(this.key);
     this.draw([], true);
   }
 
@@ -40,7 +36,6 @@ export class OwnMarks {
   draw(poles, fresh) {
     if (!fresh && poles === this.#drawn) return;
     this.#drawn = poles;
-    this.key.hidden = !poles.length;
     setAttr(this.layer, 'aria-label', say`${this.name} poles: ${polesText(poles)} rad/s`);
     setAttr(this.layer, 'display', poles.length ? 'inline' : 'none');
     while (this.layer.childElementCount > poles.length) this.layer.lastElementChild?.remove();

@@ -5,8 +5,9 @@
  * @typedef {import('../types.js').Complex} Complex
  */
 import { placesPoles, presetOf } from '../model/index.js';
+import { h } from '../ui/index.js';
 import { Locus } from './locus.js';
-import { OwnMarks } from './marks.js';
+import { OwnMarks, sampleOf } from './marks.js';
 import { WeightsPanel } from './panel.js';
 import { isWeighted, locusBody } from './weights.js';
 
@@ -22,9 +23,17 @@ export class Optimal {
     this.store = store;
     this.root = root;
     this.panel = new WeightsPanel(root, store, () => this.render(store.state));
-    this.locus = new Locus(plane);
+    this.locus = new Locus(plane, () => this.#draw(false));
     this.kalman = new OwnMarks(plane, 'kalman', 'Kalman filter');
     this.optimal = new OwnMarks(plane, 'optimal', 'LQR');
+    const part = (/** @type {string} */ testid, /** @type {(Node|string)[]} */ ...inner) =>
+      h('span', { 'data-testid': testid, hidden: true }, inner);
+    this.keys = {
+      optimal: part('key-optimal', sampleOf('optimal'), 'LQR’s poles'),
+      locus: part('key-locus', 'thin line: root locus, R scaled by ρ; ring: ρ = 1'),
+      kalman: part('key-kalman', sampleOf('kalman'), 'Kalman filter’s poles'),
+    };
+    plane.svg.after(h('div', { class: 'cloud-words own-words' }, Object.values(this.keys)));
     const before = plane.over;
     plane.over = (fresh) => {
       before?.(fresh);
@@ -36,8 +45,12 @@ export class Optimal {
   #draw(fresh) {
     const { state } = this.store;
     this.locus.draw(fresh);
-    this.optimal.draw(optimalPoles(state), fresh);
-    this.kalman.draw(kalmanPoles(state), fresh);
+    const [optimal, kalman] = [optimalPoles(state), kalmanPoles(state)];
+    this.optimal.draw(optimal, fresh);
+    this.kalman.draw(kalman, fresh);
+    this.keys.optimal.hidden = !optimal.length;
+    this.keys.locus.hidden = !this.locus.drawn;
+    this.keys.kalman.hidden = !kalman.length;
   }
 
   /** @param {State} state */

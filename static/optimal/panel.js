@@ -1,12 +1,12 @@
 /**
- * Q and R as sliders: a row for each weight, with the largest value accepted that it stands for (Bryson's rule), and ρ,
- * which scales R as a whole and moves the poles along the symmetric root locus.
+ * Q and R as sliders, each as a weight or as the largest value accepted that it stands for (Bryson's rule), and ρ, which
+ * scales R as a whole and moves the poles along the symmetric root locus.
  * @typedef {import('./weights.js').Weight} Weight
  * @typedef {import('../types.js').State} State
  */
 import { polesText, say } from '../text/index.js';
 import { presetOf, QUANTITIES } from '../model/index.js';
-import { button, check, designField, h, setText, symbol } from '../ui/index.js';
+import { button, check, Choice, designField, h, setText, symbol } from '../ui/index.js';
 import {
   acceptedOf,
   DEAREST,
@@ -33,7 +33,12 @@ const NAMES = {
   'weights.inputs.V_y': ['V', 'y', 'yaw motor’s voltage'],
 };
 
+/** As few digits as a field has room for. @param {number} v */
+const short = (v) => Number(v.toPrecision(4));
+
 export class WeightsPanel {
+  /** @type {'accepted'|'weight'} what the fields show */ #as = 'accepted';
+
   /**
    * @param {HTMLElement} root
    * @param {import('../model/store.js').Store} store
@@ -57,29 +62,32 @@ export class WeightsPanel {
         class: 'quiet',
         'data-testid': 'weights-reset',
         'data-field': 'weights',
+        'aria-label': 'Reset the weights',
         title: 'Back to 10° of error, 1 rad/s, half a second of that error, and the motors’ limits',
         onclick: () => store.edit(withoutWeights),
       },
-      'Reset weights',
+      'Reset',
     );
+    this.as = new Choice({
+      label: 'What the fields show',
+      testid: 'weights-as',
+      options: [
+        ['accepted', 'largest accepted', 'what weighs 1 in the cost: weight = 1/(largest accepted)²'],
+        ['weight', 'weights', 'the diagonals of Q and R, SI units'],
+      ],
+      onChange: (as) => {
+        this.#as = as;
+        changed();
+      },
+    });
     this.words = h('p', { class: 'weights-words', 'data-testid': 'optimal-words', role: 'status' });
     this.node = h(
       'div',
       { class: 'weights', 'data-testid': 'weights', role: 'group', 'aria-label': 'Weights', hidden: true },
-      h(
-        'div',
-        { class: 'weights-head', 'aria-hidden': 'true' },
-        h('span', {}, 'largest accepted'),
-        h('span', {}, 'weight in Q, R'),
-      ),
+      h('div', { class: 'weights-head' }, h('b', {}, 'Q, R'), this.as.node, this.reset),
       this.rows.map((row) => row.node),
-      h('div', { class: 'weights-rho' }, this.rho.node, locus.node, this.reset),
-      h(
-        'p',
-        { class: 'aside' },
-        'Bryson’s rule: weight = 1/(largest accepted)² (Bryson and Ho, 1975). Less ρ: effort is cheap, poles are fast. ' +
-          'Dashed: their symmetric root locus over ρ, a ring where ρ = 1.',
-      ),
+      h('div', { class: 'weights-rho' }, this.rho.node, locus.node),
+      h('p', { class: 'aside' }, 'Weight = 1/(largest accepted)²: Bryson’s rule (Bryson and Ho, 1975, section 5.2).'),
       this.words,
     );
     root.append(this.node);
@@ -110,19 +118,20 @@ export class WeightsPanel {
       (d, v) => this.#with((preset) => withWeight(d, preset, w, weightFor(w, v)), d),
       {
         label: `largest ${name} accepted, ${w.unit}`,
-        mark: symbol(base, index),
+        mark: h('span', {}, symbol(base, index), h('small', { translate: 'no' }, w.unit)),
         unit: w.unit,
         field: w.path,
         min: w.scale / Math.sqrt(max),
         max: min ? w.scale / Math.sqrt(min) : Infinity,
         positive: true,
         optional: w.zero,
+        slider: { min: 1, max: 10, log: true },
       },
     );
     if (w.zero) accepted.setBlank('any', w.scale);
     const weight = designField(this.store, id, (d, v) => this.#with((preset) => withWeight(d, preset, w, v), d), {
       label: `weight of the ${name}, ${unit}`,
-      mark: '',
+      mark: symbol(base, index),
       field: w.path,
       min,
       max,
@@ -141,16 +150,22 @@ export class WeightsPanel {
     for (const { w, accepted, weight, node } of this.rows) {
       node.hidden = w.kind === 'integrals' && !integrates;
       const [v, usual] = [weightOf(design, preset, w), proposedWeight(preset, w)];
+      const ends = [acceptedOf(w, usual * DECADES), acceptedOf(w, usual / DECADES)];
       weight.setRange({ min: usual / DECADES, max: usual * DECADES });
-      weight.set(v);
-      accepted.set(acceptedOf(w, v));
+      accepted.setRange({ min: ends[0], max: ends[1] });
+      weight.set(short(v));
+      accepted.set(v === 0 ? NaN : short(acceptedOf(w, v)));
+      if (v === 0 && accepted.slider) accepted.slider.value = '1';
+      weight.node.hidden = this.#as === 'accepted';
+      accepted.node.hidden = !weight.node.hidden;
     }
+    this.as.set(this.#as);
     this.rho.set(rhoOf(design, preset));
     this.reset.disabled = !design.weights;
     const poles = answered?.method === design.method ? reply?.gains.optimal_poles : undefined;
     setText(
       this.words,
-      poles ? say`LQR’s poles: ${polesText(poles)} rad/s. The placed poles, dimmed, are ignored.` : '',
+      poles ? say`LQR’s poles: ${polesText(poles)} rad/s. Your placed poles are dimmed and ignored.` : '',
     );
   }
 }

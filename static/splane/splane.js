@@ -144,7 +144,10 @@ export class SPlane {
   #own(state) {
     const { design, reply, answered } = state;
     const own = placesPoles(state) || answered?.method !== design?.method ? undefined : reply?.gains.optimal_poles;
-    return own ? slower(own) : design ? handlesOf(design).filter((p) => p !== undefined) : [];
+    const placed =
+      own ?? handlesOf(/** @type {import('../types.js').Design} */ (design)).filter((p) => p !== undefined);
+    const kalman = design?.observer?.method === 'kalman' && design.scenario.measured === 'observer';
+    return slower([...placed, ...((kalman && reply?.observer?.poles) || [])], own || kalman ? 20 : Infinity);
   }
 
   /** @param {number} width @param {number} height CSS pixels */
