@@ -227,6 +227,11 @@ def place(spec: Spec) -> Design:
     return design(*task, actuators=spec.actuators, rotor_poles=rotors)
 
 
+def quadratic(spec: Spec) -> Spec:
+    """The spec by a quadratic method: its own, or LQR in place of one that has no weights."""
+    return spec if method(spec.method).weighted else replace(spec, method="lqr")
+
+
 def weights_of(spec: Spec) -> Weights:
     """Those of a quadratic method: the spec's own, or Bryson's rule for its limits."""
     return spec.weights or bryson_weights(spec.limits)

@@ -1171,7 +1171,7 @@ export interface RobustnessRequest extends StepRequest {
   uncertainty?: Record<string, number> | null;
 }
 
-/** The poles of a quadratic method as R is multiplied by ρ. */
+/** The poles of a quadratic method as R is multiplied by ρ; LQR's where the request's method has no weights. */
 export interface RootLocus {
   /** factor on R, from large to small; 1 in the middle */
   rho: number[];

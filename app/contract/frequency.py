@@ -59,7 +59,7 @@ def lag_reply(track: LagTrack) -> Reply:
 
 
 class RootLocus(Model):
-    """The poles of a quadratic method as R is multiplied by ρ."""
+    """The poles of a quadratic method as R is multiplied by ρ; LQR's where the request's method has no weights."""
 
     rho: list[float] = Field(description="factor on R, from large to small; 1 in the middle")
     poles: list[list[Complex]] = Field(description="per pole its course over `rho`, rad/s")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Response
 
 from heli2dof_core import interaction, loop_of, place
-from heli2dof_core.evaluate import weights_of
+from heli2dof_core.evaluate import quadratic, weights_of
 from heli2dof_core.lag_track import lag_track
 from heli2dof_core.root_locus import symmetric_root_locus
 
@@ -62,7 +62,7 @@ def build_router(compute: Compute) -> APIRouter:
     @router.post("/locus", **described(RootLocus, "The symmetric root locus of a quadratic method"))
     async def locus(request: DesignRequest) -> Response:
         def work() -> Reply:
-            spec = request.to_spec()
+            spec = quadratic(request.to_spec())
             return locus_reply(symmetric_root_locus(place(spec), weights_of(spec)))
 
         return json_response(await compute.run(work))

@@ -345,9 +345,10 @@ export class CompareTable {
   render(state) {
     this.lazy.render(state);
     if (!state.design) return;
-    for (const { row, use, of } of this.#rows.values()) {
-      const own = isIn(state.design, of);
-      row.classList.toggle('current', own);
+    const present = keyOf(state.design);
+    for (const [key, { row, use, of }] of this.#rows) {
+      const own = isIn(state.design, of); // with these loops, too
+      row.classList.toggle('current', key === present);
       if (!use) continue;
       setAttr(use, 'aria-pressed', String(own));
       setText(use, own ? 'In use' : 'Use');
