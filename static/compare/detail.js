@@ -9,7 +9,9 @@ function poles(name, poles) {
 
 /** @param {import('../contract.js').Loops} loops */
 const piText = ({ pitch, yaw }) =>
-  say`pitch ${significant(pitch.kp, 3)} V/rad, ${significant(pitch.ti, 3)} s; yaw ${significant(yaw.kp, 3)} V/rad, ${significant(yaw.ti, 3)} s`;
+  [pitch, yaw]
+    .map(({ kp, ti }, i) => say`${i ? 'yaw' : 'pitch'} ${significant(kp, 3)} V/rad, ${significant(ti, 3)} s`)
+    .join('; ');
 
 /** @param {import('../contract.js').ComparisonRow} row @param {string} key @param {string} title */
 export function rowDetail(row, key, title) {

@@ -1,6 +1,6 @@
 /**
- * The symmetric root locus, drawn as a track: where the optimal poles go as ρ, the factor on R, falls from 10⁴ to 10⁻⁴;
- * a ring where it is 1. One request is under way at a time, and the newest waits.
+ * The symmetric root locus, drawn as a track: where the optimal poles go as ρ, the factor on R, falls; a ring where it
+ * is 1. One request is under way at a time, and the newest waits.
  * @typedef {import('../contract.js').RootLocus} RootLocus
  * @typedef {ReturnType<typeof import('./weights.js').locusBody>} Body
  */

@@ -20,6 +20,7 @@ export class Optimal {
    * @param {import('../model/store.js').Store} store
    */
   constructor(plane, root, store) {
+    document.head.append(h('link', { rel: 'stylesheet', href: 'static/css/optimal.css' })); // not of the first view
     this.store = store;
     this.root = root;
     this.panel = new WeightsPanel(root, store, () => this.render(store.state));

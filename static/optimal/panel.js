@@ -1,6 +1,6 @@
 /**
- * Q and R as sliders, each as a weight or as the largest value accepted that it stands for (Bryson's rule), and ρ, which
- * scales R as a whole and moves the poles along the symmetric root locus.
+ * Q and R as sliders, each as a weight or as the largest value accepted that it stands for (Bryson's rule), and ρ,
+ * which scales R as a whole and moves the poles along the symmetric root locus.
  * @typedef {import('./weights.js').Weight} Weight
  * @typedef {import('../types.js').State} State
  */
@@ -87,7 +87,7 @@ export class WeightsPanel {
       h('div', { class: 'weights-head' }, h('b', {}, 'Q, R'), this.as.node, this.reset),
       this.rows.map((row) => row.node),
       h('div', { class: 'weights-rho' }, this.rho.node, locus.node),
-      h('p', { class: 'aside' }, 'Weight = 1/(largest accepted)²: Bryson’s rule (Bryson and Ho, 1975, section 5.2).'),
+      h('p', { class: 'aside' }, 'Weight = 1/(largest accepted)²: Bryson’s rule (Bryson and Ho, 1975, 5.2).'),
       this.words,
     );
     root.append(this.node);
