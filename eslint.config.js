@@ -10,6 +10,7 @@ const FLOORS = [
   ['charts'],
   ['plots', 'splane', 'scene', 'recordings', 'explore', 'panels'],
   ['paper', 'compare', 'rig', 'machine', 'clouds'],
+  ['optimal'],
 ];
 const TOP = ['static/main.js', 'static/api_docs.js'];
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
+from .checks import require_one_of
 from .couplings import STRUCTURES, Structure
 from .design import FULL_RANK, Design
 from .errors import Heli2DofError, MethodUnavailableError, StructureUnavailableError
@@ -18,10 +20,22 @@ from .metrics import settling_words
 from .placement.groups import splits
 from .placement.registry import METHODS
 from .poles import PoleSet
+from .scenario import OuterLoop
 from .spec import Spec
 from .tables import NOTHING, Shown, Table, number
+from .tuning import RULE, suggest_pi
 
 DYADIC = ("ackermann", "bass-gura")
+
+Tuning = Literal["kept", "placed", "tuned"]
+"""The outer loops under which methods are compared: the spec's own, none, or each method's own by one rule."""
+RULES: dict[Tuning, str] = {
+    "placed": "Each method as placed: the inner loop alone, behind the static prefilter v = Ĝ(0)⁻¹ r; no PI loops.",
+    "tuned": f"PI loops tuned for each method by one rule, with the same target. {RULE}",
+    "kept": "All methods under the present PI values. These were chosen for other poles than some methods have, so "
+    "that a method may look worse or better than it is.",
+}
+OWN_LOOPS = "A method with integral action keeps its own integrators in place of PI loops."
 
 
 @dataclass(frozen=True, repr=False)
@@ -33,12 +47,14 @@ class Row(Shown):
         structure: of the closed loop; None where the method is not full-rank's.
         report: everything; None where the method is not available.
         unavailable: why not.
+        outer: the loops around it; None where it is not available.
     """
 
     method: str
     structure: Structure | None
     report: Report | None
     unavailable: Heli2DofError | None
+    outer: OuterLoop | None = None
 
     @property
     def name(self) -> str:
@@ -54,10 +70,19 @@ class Row(Shown):
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Shown):
-    """Rows in the order of the registry, and what they say of the paper's claim of lower gains."""
+    """Rows in the order of the registry, and what they say of the paper's claim of lower gains.
+
+    Attributes:
+        rows: one per method and structure.
+        claim: in words; empty where nothing is to be said.
+        tuning: under which outer loops.
+        rule: these in words.
+    """
 
     rows: tuple[Row, ...]
     claim: str
+    tuning: Tuning = "kept"
+    rule: str = ""
 
     def summary(self) -> str:
         """How many methods have a result."""
@@ -101,19 +126,31 @@ class Split(Shown):
         return f"poles {pairs}; {self.design.summary()}"
 
 
-def compare(spec: Spec, methods: Sequence[str] | None = None) -> Comparison:
+def compare(spec: Spec, methods: Sequence[str] | None = None, tuning: Tuning = "kept") -> Comparison:
     """Evaluates the spec by each method; full-rank's by each structure.
 
+    PI values suit the poles that they were tuned for. So that no method is judged by another's, all are compared
+    without outer loops (`placed`), or each with its own by one rule (`tuned`: `suggest_pi`).
+
     Args:
-        spec: rig, poles, outer loop and scenario, the same for all.
+        spec: rig, poles and scenario, the same for all; its outer loop only where it is kept.
         methods: names in `placement.registry`; all by default.
+        tuning: of the outer loops; `kept` takes the spec's own for all.
+
+    Raises:
+        InvalidInputError: there is no such method or tuning.
     """
+    require_one_of(tuning, Tuning, "tuning")
     names = list(METHODS) if methods is None else methods
     entries: list[tuple[str, Structure | None]] = []
     for name in names:
         entries += [(name, s) for s in STRUCTURES] if name == FULL_RANK else [(name, None)]
-    rows = tuple(_row(spec, name, structure) for name, structure in entries)
-    return Comparison(rows, _claim(rows))
+    rows = tuple(_row(spec, name, structure, tuning) for name, structure in entries)
+    own = any(METHODS[row.method].integrates and row.report for row in rows)
+    # without PI loops to keep, they are as placed
+    told: Tuning = "placed" if tuning == "kept" and spec.outer.outer == "none" else tuning
+    rule = f"{RULES[told]} {OWN_LOOPS}" if own else RULES[told]
+    return Comparison(rows, _claim(rows), tuning, rule)
 
 
 def compare_splits(spec: Spec) -> tuple[Split, ...]:
@@ -126,12 +163,20 @@ def compare_splits(spec: Spec) -> tuple[Split, ...]:
     return tuple(found)
 
 
-def _row(spec: Spec, name: str, structure: Structure | None) -> Row:
+def _row(spec: Spec, name: str, structure: Structure | None, tuning: Tuning) -> Row:
     changed = replace(spec, method=name, structure=structure or spec.structure)
+    outer = spec.outer if tuning == "kept" else replace(spec.outer, outer="none")
     try:
-        return Row(name, structure, evaluate(changed, each_axis=True), None)
+        if tuning == "tuned" and not METHODS[name].integrates:
+            placed = place(changed)
+            try:
+                outer = suggest_pi(placed, spec.outer).outer
+            except Heli2DofError as error:  # the rule finds no loops for it
+                return Row(name, structure, None, error)
+        report = evaluate(replace(changed, outer=outer), each_axis=True)
     except (MethodUnavailableError, StructureUnavailableError) as error:
         return Row(name, structure, None, error)
+    return Row(name, structure, report, None, outer)
 
 
 def _claim(rows: Sequence[Row]) -> str:

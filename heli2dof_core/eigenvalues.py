@@ -86,3 +86,21 @@ def _solved(A: Floats, *, vectors: bool) -> tuple[list[float], list[float], Floa
     if info or not isfinite(np.vdot(A, A)):  # geev itself gives some answer to NaN
         raise np.linalg.LinAlgError(f"the eigenvalues of a matrix of {len(A)} rows were not found")
     return real.tolist(), imaginary.tolist(), right
+
+
+def courses(stack: Complexes) -> Complexes:
+    """The spectra of matrices that change little by little, in an order in which each column follows one eigenvalue.
+
+    The last row keeps its order. Neighbours are matched by the least sum of distances: the least largest one would
+    leave all but the fastest pole at will.
+
+    Args:
+        stack: (steps, n), each row a spectrum in any order.
+    """
+    from scipy.optimize import linear_sum_assignment
+
+    ordered = stack.copy()
+    for k in range(len(ordered) - 1, 0, -1):
+        _, nearest = linear_sum_assignment(np.abs(ordered[k][:, None] - ordered[k - 1]))
+        ordered[k - 1] = ordered[k - 1][nearest]
+    return ordered

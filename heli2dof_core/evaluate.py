@@ -20,6 +20,7 @@ from .lazily import computed
 from .loop import Loop, close_loop
 from .margins import margin_figures, margin_table, margins_in
 from .metrics import StepMetrics, metrics_in, step_metrics
+from .placement.method import Weights
 from .placement.registry import method
 from .plant import plant
 from .read_block import CALM, design_of, exists, experiments_in, judged_in, loop_in, placed_in, size_in
@@ -220,10 +221,20 @@ class Report(Shown):
 
 def place(spec: Spec) -> Design:
     """The design alone."""
-    weights = spec.weights or bryson_weights(spec.limits) if method(spec.method).weighted else None
+    weights = weights_of(spec) if method(spec.method).weighted else None
     rig, rotors = plant(spec.parameters, spec.theta_0), spec.rotor_poles if spec.place_rotors else None
     task = (rig, spec.poles, spec.structure, spec.method, weights)
     return design(*task, actuators=spec.actuators, rotor_poles=rotors)
+
+
+def quadratic(spec: Spec) -> Spec:
+    """The spec by a quadratic method: its own, or LQR in place of one that has no weights."""
+    return spec if method(spec.method).weighted else replace(spec, method="lqr")
+
+
+def weights_of(spec: Spec) -> Weights:
+    """Those of a quadratic method: the spec's own, or Bryson's rule for its limits."""
+    return spec.weights or bryson_weights(spec.limits)
 
 
 def loop_of(spec: Spec, placed: Design | None = None) -> Loop:

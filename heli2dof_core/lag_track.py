@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .augmentation import augmented_loop
+from .eigenvalues import courses
 from .frozen import Frozen
 from .loop import Loop
 from .rotors import USUAL_LAG, Actuators
@@ -34,8 +35,6 @@ class LagTrack(Frozen):
 
 def lag_track(loop: Loop, steps: int = STEPS) -> LagTrack:
     """The track of each pole of the loop; gains and estimator stay as they are."""
-    from scipy.optimize import linear_sum_assignment
-
     own, design = loop.actuators or Actuators.none(loop.design.plant), loop.design
     assumed = not own.lags
     tau = fixed(np.full(2, USUAL_LAG)) if assumed else own.tau
@@ -47,12 +46,7 @@ def lag_track(loop: Loop, steps: int = STEPS) -> LagTrack:
     share = np.linspace(0.0, 1.0, steps + 1)[1:] ** 2
     stack = np.repeat(A[None], steps, axis=0)
     stack[:, rotors] /= share[:, None, None]  # their rows are divided by τ
-    poles = np.linalg.eigvals(stack).astype(np.complex128)
-    for k in range(steps - 1, 0, -1):  # back from the end, whose order is that of the loop
-        # the least sum of distances: the least largest one would leave all but the fastest pole at will
-        _, nearest = linear_sum_assignment(np.abs(poles[k][:, None] - poles[k - 1]))
-        poles[k - 1] = poles[k - 1][nearest]
-    return LagTrack(tau, assumed, share, poles)
+    return LagTrack(tau, assumed, share, courses(np.linalg.eigvals(stack).astype(np.complex128)))
 
 
 def _apart(loop: Loop) -> set[int]:

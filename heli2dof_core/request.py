@@ -7,7 +7,7 @@ line's options, the page's module of quantities and the field that an error name
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import MISSING, dataclass, field, replace
 from functools import cache, cached_property
 from typing import Any, TypeVar
 
@@ -98,7 +98,7 @@ class Place:
     def proposal(self, instance: object) -> dict[str, Any]:
         """What a preset's own instance proposes there, by the names in the object; what is absent is left out."""
         own = {
-            name: getattr(instance, known.name) for name, known in self.fields.items() if self.proposed(name)
+            name: _value(instance, self.names.get(name, name)) for name in self.fields if self.proposed(name)
         }
         return {name: value for name, value in own.items() if value is not None}
 
@@ -133,10 +133,23 @@ ENCODERS = Place(
 )
 DISTURBANCE = Place("scenario.disturbance", "scenario.disturbance", Disturbance)
 MACHINE = (*ROTOR.values(), *FRICTION.values())
-DESIGN = (POINT, PARAMETERS, LIMITS, STRUCTURE, OUTER, *LOOP.values(), *MACHINE, ROTORS, OBSERVER)
-EXPERIMENT = (SCENARIO, REFERENCE, INITIAL, NOISE, DIGITAL, ENCODERS, DISTURBANCE)
 WEIGHTED: dict[str, tuple[Signal, ...]] = {"states": STATES, "inputs": INPUTS, "integrals": OUTPUTS}
 """Per kind of weights the signals that they belong to."""
+WEIGHTS = {
+    kind: Place(
+        f"weights.{kind}",
+        "weights",
+        Weights,
+        {signal.name: f"{kind}.{signal.name}" for signal in signals},
+        by_preset=None,
+    )
+    for kind, signals in WEIGHTED.items()
+}
+DESIGN = (
+    *(POINT, PARAMETERS, LIMITS, STRUCTURE, OUTER, *LOOP.values(), *MACHINE, ROTORS, OBSERVER),
+    *WEIGHTS.values(),
+)
+EXPERIMENT = (SCENARIO, REFERENCE, INITIAL, NOISE, DIGITAL, ENCODERS, DISTURBANCE)
 _WHOLES = {"outer": "loops", "spread": "uncertainty"}
 """What no quantity of its own stands for: in the core → in a request."""
 _ALL = (*DESIGN, *EXPERIMENT)
@@ -180,7 +193,15 @@ def _part(known: Mapping[str, Field], own: str) -> Field:
     if not part:
         return found
     at = [*found.quantity.parts].index(part)
-    return replace(found, default=found.default[at], quantity=found.quantity.parts[part])
+    default = found.default[at] if isinstance(found.default, tuple) and found.default else MISSING
+    return replace(found, default=default, quantity=found.quantity.parts[part])
+
+
+def _value(instance: object, own: str) -> Any:
+    """Of a field, or of one part of it."""
+    name, _, part = own.partition(".")
+    value = getattr(instance, name)
+    return value[[*quantities_of(type(instance))[name].quantity.parts].index(part)] if part else value
 
 
 def spec_of(body: Mapping[str, Any]) -> Spec:
@@ -257,10 +278,9 @@ def _require_known(values: Mapping[str, Any], tree: Mapping[str, Any], above: st
 @cache
 def _tree() -> dict[str, Any]:
     """The names of a body's fields, below one another."""
-    weights = (f"weights.{kind}.{signal.name}" for kind, signals in WEIGHTED.items() for signal in signals)
     whole = ("preset", "method", "poles", "split", "rotor_poles", "observer.poles", "scenario.model")
     tree: dict[str, Any] = {}
-    for path in (*whole, *weights, *(path for path, _, _ in quantities())):
+    for path in (*whole, *(path for path, _, _ in quantities())):
         level = tree
         for name in path.split("."):
             level = level.setdefault(name, {})

@@ -65,6 +65,9 @@ class Spec(Shown):
 
     def __post_init__(self) -> None:
         require_valid(self)
+        if self.weights is not None:
+            with within_field("weights"):
+                require_valid(self.weights)
         object.__setattr__(self, "rotor_poles", _rotor_poles(self.rotor_poles))
 
     @classmethod
@@ -105,6 +108,7 @@ class Spec(Shown):
         rotor_poles: tuple[float, float] | None = None,
         observer: Observer | None = None,
         measured: Measured | None = None,
+        weights: Weights | None = None,
     ) -> Spec:
         """The same with some things changed; what is left out stays.
 
@@ -132,6 +136,7 @@ class Spec(Shown):
             rotor_poles: rad/s, of pitch's rotor and of yaw's.
             observer: as in `Spec`.
             measured: as in `Scenario`.
+            weights: of the quadratic methods.
 
         Raises:
             Heli2DofError: a value is out of its range; its field says which.
@@ -182,6 +187,7 @@ class Spec(Shown):
                 place_rotors=place_rotors,
                 rotor_poles=rotor_poles,
                 observer=observer,
+                weights=weights,
             ),
         )
 

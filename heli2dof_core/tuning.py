@@ -1,9 +1,9 @@
-"""PI values that suit the placed poles."""
+"""PI values that suit the poles of the inner loop, by one rule for all methods."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import product
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from .design import Design
 from .eigenvalues import eigenvalues
 from .errors import InvalidInputError
 from .loop import Loop, close_loop
+from .placement.groups import splits
 from .placement.with_rotors import require_slopes
 from .scenario import OuterLoop, PIGains
 from .signals import AXES, Complexes
@@ -59,7 +60,8 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
 
     With T_i at the slower pole p_s, the loop of one axis is kp ĝ(0) p_s p_f / (s (s − p_f)), whose
     damping is ζ for kp ĝ(0) = p_f / (4 ζ² p_s). The coupling between the axes is not in that
-    formula, so both gains are scaled over a grid, and the poles of the whole loop decide.
+    formula, so both gains are scaled over a grid, and the poles of the whole loop decide. The pairs are those that
+    were placed; of a method that chooses its own poles, those that `axis_poles` finds.
 
     Raises:
         InvalidInputError: a placed pole is not stable, or no gain complies.
@@ -74,8 +76,8 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
         )
     columns = (0, 1) if outer.pairing == "diagonal" else (1, 0)
     gains = []
-    for axis, pair in enumerate((design.poles.values[:2], design.poles.values[2:])):
-        slow, fast = sorted(pair, key=lambda p: abs(p.real))
+    for axis, own in enumerate(axis_poles(design)):
+        slow, fast = sorted(own, key=lambda p: abs(p.real))[:2]
         static = float(G_0[axis, columns[axis]])
         if static == 0:
             raise InvalidInputError(
@@ -93,15 +95,68 @@ def suggest_pi(design: Design, outer: OuterLoop = OuterLoop()) -> Suggestion:
     target = min(DAMPING, EASED * _least_damping(_inner_poles(design)))
     best: Loop | None = None
     for factors in (FACTORS, GENTLE):
-        pairs = product(*([_scaled(f, *g) for f in factors] for g in gains))
-        tried = (close_loop(design, replace(outer, outer="pi", pitch=p, yaw=y)) for p, y in pairs)
-        stable = [loop for loop in tried if loop.stable] + ([best] if best else [])
-        best = max(stable, key=lambda loop: _merit(loop, target), default=None)
+        pitch, yaw = ([_scaled(f, *own) for f in factors] for own in gains)
+        found = _best_of(design, replace(outer, outer="pi"), pitch, yaw, target)
+        best = max(filter(None, (found, best)), key=lambda loop: _merit(loop, target), default=None)
         if best and _merit(best, target)[0] >= round(target, 3):
             break
     if best is None:
         raise _nothing_found(design)
     return Suggestion(best.outer, best)
+
+
+def _best_of(
+    design: Design, outer: OuterLoop, pitch: Sequence[PIGains], yaw: Sequence[PIGains], target: float
+) -> Loop | None:
+    """The loop of most merit over a grid of gains, integral times alike; None where none is stable.
+
+    The loop's matrix is affine in the gains: three corners give them all, and one call their poles.
+    """
+
+    def closed(p: PIGains, y: PIGains) -> Loop:
+        return close_loop(design, replace(outer, pitch=p, yaw=y))
+
+    corner = closed(pitch[0], yaw[0])
+    kept = np.ix_(corner.connected, corner.connected)
+    A = corner.A[kept]
+    over = [(np.array([pi.kp for pi in own]) - own[0].kp) / (own[-1].kp - own[0].kp) for own in (pitch, yaw)]
+    by_pitch, by_yaw = closed(pitch[-1], yaw[0]).A[kept] - A, closed(pitch[0], yaw[-1]).A[kept] - A
+    stack = A + over[0][:, None, None, None] * by_pitch + over[1][:, None, None] * by_yaw
+    poles = np.linalg.eigvals(stack.reshape(-1, *A.shape))
+    decay = -np.max(poles.real, axis=1)
+    size = np.maximum(np.abs(poles), np.finfo(float).tiny)
+    damping = np.round(np.minimum(np.min(-poles.real / size, axis=1), target), 3)
+    alike = np.round(decay / np.max(np.abs(decay)), 9)  # of those alike but for rounding, the smaller gains
+    for k in np.lexsort((-alike, -damping)):
+        if decay[k] <= 0.0:
+            continue
+        loop = closed(pitch[k // len(yaw)], yaw[k % len(yaw)])
+        if loop.stable:
+            return loop
+    return None
+
+
+def axis_poles(design: Design) -> tuple[Sequence[complex], Sequence[complex]]:
+    """The inner loop's poles of pitch and of yaw, rad/s: the pairs that were placed.
+
+    Where the method chooses its own, they are dealt, conjugates together, so that pitch's poles take part most in
+    pitch's states, and yaw's in yaw's. What a pole takes part in says |v_ki w_ik| of its right and left eigenvectors
+    (Pérez-Arriaga, Verghese and Schweppe, IEEE Trans. Power App. Syst. 101 (1982) 3117–3125).
+    """
+    if design.aims:
+        return design.poles.values[:2], design.poles.values[2:]
+    values, right = np.linalg.eig(design.A_closed)
+    shares = np.abs(right * np.linalg.pinv(right).T)  # states by poles
+    shares /= np.sum(shares, axis=0)
+    n = len(values)
+    owned = shares[0::2].sum(axis=0) - shares[1::2].sum(axis=0)  # the states take turns: pitch's, yaw's
+    deals = splits(values.astype(np.complex128), (n // 2, n - n // 2))
+    best = max(deals, key=lambda deal: sum(owned[list(deal[0])]), default=None)
+    if best is None:  # three conjugate pairs of six cannot be dealt into two threes
+        order = np.argsort(-owned, kind="stable")
+        best = tuple(order[: n // 2]), tuple(order[n // 2 :])
+    pitch, yaw = ([complex(values[i]) for i in own] for own in best)
+    return pitch, yaw
 
 
 def _inner_poles(design: Design) -> Complexes:

@@ -85,12 +85,20 @@ export interface CompareRequest extends StepRequest {
   methods?:
     | ('full-rank' | 'tits-yang' | 'knv0' | 'varga' | 'ackermann' | 'bass-gura' | 'lqr' | 'lqr-integral')[]
     | null;
+  /**
+   * of the outer loops: kept, the request's own for all; placed, none; tuned, each method's own by one rule, that of
+   * POST /api/v1/suggest
+   */
+  tuning?: 'kept' | 'placed' | 'tuned';
 }
 
 /** All methods side by side, and what becomes of the paper's claim of lower gains. */
 export interface Comparison {
   rows: ComparisonRow[];
   claim: string;
+  tuning: 'kept' | 'placed' | 'tuned';
+  /** under which outer loops the methods are compared, in words */
+  rule: string;
 }
 
 /** One method's result, or why there is none; structures are full-rank's alone. */
@@ -125,6 +133,8 @@ export interface ComparisonRow {
   /** asked for where the rotors are placed, rad/s */
   rotor_poles?: Complex[];
   closed_loop_poles?: Complex[];
+  /** of a quadratic method: its own, those of its integrators among them, rad/s */
+  optimal_poles?: Complex[];
   /** where the request has one, or measures by it */
   observer?: ObserverGains;
   findings?: Finding[];
@@ -146,6 +156,10 @@ export interface ComparisonRow {
   sensitivity?: Sensitivity;
   loop_poles?: Complex[];
   stable?: boolean;
+  /** pi, or none */
+  outer?: 'pi' | 'none';
+  /** the PI values around this method, where there are any */
+  loops?: Loops;
 }
 
 /** A complex number. */
@@ -460,6 +474,8 @@ export interface Gains {
   /** asked for where the rotors are placed, rad/s */
   rotor_poles?: Complex[];
   closed_loop_poles: Complex[];
+  /** of a quadratic method: its own, those of its integrators among them, rad/s */
+  optimal_poles?: Complex[];
   /** one per input */
   controllability_indices: number[];
   /** where the request has one, or measures by it */
@@ -544,17 +560,19 @@ export interface InputDisturbance {
   time?: number;
 }
 
+/** The diagonal of R. */
 export interface InputWeights {
-  /** on R's diagonal */
+  /** on R's diagonal, 1/V² */
   V_p?: number | null;
-  /** on R's diagonal */
+  /** on R's diagonal, 1/V² */
   V_y?: number | null;
 }
 
+/** The diagonal of Q_z, where the method brings integral action. */
 export interface IntegralWeights {
-  /** on the integral of this error */
+  /** on the integral of this error, 1/(rad·s)² */
   theta?: number | null;
-  /** on the integral of this error */
+  /** on the integral of this error, 1/(rad·s)² */
   psi?: number | null;
 }
 
@@ -679,6 +697,8 @@ export interface Method {
   source: string;
   /** whether it takes the poles given, rather than choose its own */
   places_poles: boolean;
+  /** whether it minimizes a quadratic cost, by weights */
+  weighted: boolean;
   /** whether it brings integral action, in place of the PI loops */
   integrates: boolean;
   available: boolean;
@@ -979,6 +999,7 @@ export interface Preset {
   rotors: RotorPair;
   friction: FrictionPair;
   rotor_poles: Complex[];
+  weights: Weights;
   scenario: Scenario;
 }
 
@@ -1054,6 +1075,34 @@ export interface Proof {
   labels: string[];
 }
 
+/** The diagonal of Q. */
+export interface ProposedQ {
+  /** on Q's diagonal, 1/rad² */
+  theta: number;
+  /** on Q's diagonal, 1/rad² */
+  psi: number;
+  /** on Q's diagonal, s²/rad² */
+  theta_dot: number;
+  /** on Q's diagonal, s²/rad² */
+  psi_dot: number;
+}
+
+/** The diagonal of Q_z. */
+export interface ProposedQz {
+  /** on the integral of this error, 1/(rad·s)² */
+  theta: number;
+  /** on the integral of this error, 1/(rad·s)² */
+  psi: number;
+}
+
+/** The diagonal of R. */
+export interface ProposedR {
+  /** on R's diagonal, 1/V² */
+  V_p: number;
+  /** on R's diagonal, 1/V² */
+  V_y: number;
+}
+
 /** Reference angles after t = 0, absolute. */
 export interface Reference {
   /** pitch reference, rad; at rest at the operating point (θ₀, 0) where left out */
@@ -1120,6 +1169,14 @@ export interface RobustnessRequest extends StepRequest {
   seed?: number;
   /** relative, per parameter and per rotor's lag; by default 0.1 for all parameters but g */
   uncertainty?: Record<string, number> | null;
+}
+
+/** The poles of a quadratic method as R is multiplied by ρ; LQR's where the request's method has no weights. */
+export interface RootLocus {
+  /** factor on R, from large to small; 1 in the middle */
+  rho: number[];
+  /** per pole its course over `rho`, rad/s */
+  poles: Complex[][];
 }
 
 /** One motor's rotor. */
@@ -1303,14 +1360,15 @@ export interface Split {
   rga?: number[][];
 }
 
+/** The diagonal of Q. */
 export interface StateWeights {
-  /** on Q's diagonal */
+  /** on Q's diagonal, 1/rad² */
   theta?: number | null;
-  /** on Q's diagonal */
+  /** on Q's diagonal, 1/rad² */
   psi?: number | null;
-  /** on Q's diagonal */
+  /** on Q's diagonal, s²/rad² */
   theta_dot?: number | null;
-  /** on Q's diagonal */
+  /** on Q's diagonal, s²/rad² */
   psi_dot?: number | null;
 }
 
@@ -1596,4 +1654,11 @@ export interface WeightChanges {
   states?: StateWeights;
   inputs?: InputWeights;
   integrals?: IntegralWeights;
+}
+
+/** Weights of the quadratic methods by Bryson's rule for this rig's limits. */
+export interface Weights {
+  states: ProposedQ;
+  inputs: ProposedR;
+  integrals: ProposedQz;
 }

@@ -225,8 +225,13 @@ async function computeHere() {
 
 /** Panels that the first view does not need, fetched when it is there. */
 async function furtherDown() {
-  const [{ LagPaths, MeasuredPart, RotorPoles }, { Clouds }] = await fetched(() =>
-    Promise.all([import('./machine/index.js'), import('./clouds/index.js')]),
+  const [{ LagPaths, MeasuredPart, RotorPoles }, { Clouds }, { Optimal }] = await fetched(() =>
+    Promise.all([
+      import('./machine/index.js'),
+      import('./clouds/index.js'),
+      import('./optimal/index.js'),
+      styles('optimal'),
+    ]),
   );
   clouds = new Clouds(plane, store);
   drawClouds = drawn([clouds]);
@@ -234,6 +239,7 @@ async function furtherDown() {
     drawn([new RotorPoles(byId('poles'), store), byId('poles')]),
     drawn([new MeasuredPart(experiment.body, store), byId('scenario')]),
     drawn([new LagPaths(plane, store)]),
+    drawn([new Optimal(plane, byId('poles'), store)]),
   );
   schedule();
   computeHere().catch(console.warn);

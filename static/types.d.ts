@@ -85,10 +85,15 @@ export interface Design extends Choices {
   rotor_poles: [number, number];
   /** absent: the server's own */
   observer?: Observer;
+  /** of the quadratic methods; absent: Bryson's rule for the preset's limits */
+  weights?: Weights;
 }
 
 /** How the states are estimated. */
 export type Observer = Said<Except<contract.ObserverChanges, 'poles'>> & { poles: Poles };
+
+/** Of Q, R and Q_z, what differs from the preset's. */
+export type Weights = Said<contract.WeightChanges>;
 
 export type Preset = Except<contract.Preset, 'encoders'> & { encoders: Encoders };
 

@@ -32,6 +32,12 @@ def _parameter_names() -> Iterator[str]:
 
 
 _METHODS = Option("--methods", "methods", _Methods(_method_names), "Which, with commas; all by default.")
+_TUNING = Option(
+    "--tuning",
+    "tuning",
+    Name(lambda: ("kept", "placed", "tuned")),
+    "Of the outer loops: kept as given; placed, none; tuned, each method's own by one rule.",
+)
 _SPREAD = Option(
     "--uncertainty",
     "uncertainty",
@@ -47,7 +53,7 @@ _CLOUD = (
 
 
 @click.command()
-@takes(*DESIGN, *LOOPS, *SCENARIO, _METHODS)
+@takes(*DESIGN, *LOOPS, *SCENARIO, _METHODS, _TUNING)
 def compare(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     """Print the same poles through several methods, side by side."""
     from heli2dof_core import compare as compare_methods
@@ -58,10 +64,11 @@ def compare(as_json: bool, base: IO[str] | None, **values: Any) -> None:
         request = CompareRequest.model_validate(body(base, values))
         spec = request.to_spec()
         load_kernels()
-        result = compare_methods(spec, request.methods)
+        result = compare_methods(spec, request.methods, request.tuning)
         if as_json:
             return print_json(comparison_reply(result))
         show(result.tables())
+        click.echo(result.rule)
         click.echo(result.claim)
     return None
 

@@ -25,6 +25,7 @@ from heli2dof_core.request import (
     ROTOR,
     ROTORS,
     STRUCTURE,
+    WEIGHTS,
     Place,
 )
 from heli2dof_core.request import SCENARIO as SCENARIO_PLACE
@@ -106,6 +107,18 @@ def _kind(known: Field) -> click.ParamType | None:
     return {bool: None, int: click.INT, float: click.FLOAT}[known.kind]
 
 
+def _weights() -> Iterator[Option]:
+    """The weights of the quadratic methods, one option per matrix."""
+    for kind, about in (("states", "state, Q"), ("inputs", "motor, R"), ("integrals", "integral, Q_z")):
+        known = WEIGHTS[kind].fields
+        yield Option(
+            f"--weight-{kind}",
+            f"weights.{kind}",
+            Assignment(lambda known=known: known),
+            f"LQR: weight of a {about}, SI: {next(iter(known))}=40; repeatable. Bryson's rule by default.",
+        )
+
+
 def _by_axis(places: Mapping[str, Place], what: str) -> Iterator[Option]:
     """The options of a motor or an axis: --rotor-tau-pitch."""
     for axis, place in places.items():
@@ -128,6 +141,7 @@ DESIGN = (
     Option("--poles", "poles", Poles(), "Pitch's pair, then yaw's, rad/s: -12,-10,-3±4j."),
     Option("--method", "method", Name(_methods), "Placement method."),
     *_of(STRUCTURE),
+    *_weights(),
     Option("--split", "split", Split(), "Poles of pitch's and of yaw's pair: 1,3/2,4."),
     *_by_axis(ROTOR, "rotor"),
     *_by_axis(FRICTION, "friction"),

@@ -7,12 +7,13 @@ from typing import Annotated
 from pydantic import Field
 
 from heli2dof_core.comparison import Comparison as CoreComparison
-from heli2dof_core.comparison import Row
+from heli2dof_core.comparison import Row, Tuning
 from heli2dof_core.comparison import Split as CoreSplit
 from heli2dof_core.figures import DESIGN
 from heli2dof_core.placement.registry import METHODS
+from heli2dof_core.scenario import Outer
 
-from .design import Gains, gains_reply
+from .design import Gains, Loops, gains_reply, loops_reply
 from .experiment import Metrics, StepRequest
 from .frequency import LoopMargins, Rga, Sensitivity, margins_reply, relative_gains_reply, sensitivity_reply
 from .model import Complex, Model, Reply, findings_reply, parts_of, poles_reply, reply_of
@@ -24,6 +25,11 @@ class CompareRequest(StepRequest):
 
     methods: list[Annotated[str, Field(json_schema_extra={"enum": [*METHODS]})]] | None = Field(
         default=None, max_length=len(METHODS), description="all by default"
+    )
+    tuning: Tuning = Field(
+        default="kept",
+        description="of the outer loops: kept, the request's own for all; placed, none; tuned, each method's own by "
+        "one rule, that of POST /api/v1/suggest",
     )
 
 
@@ -60,6 +66,8 @@ class ComparisonRow(parts_of(Gains, Rga, without=_LEFT_OUT)):
     sensitivity: Sensitivity | None = None
     loop_poles: list[Complex] | None = None
     stable: bool | None = None
+    outer: Outer | None = Field(None, description="pi, or none")
+    loops: Loops | None = Field(None, description="the PI values around this method, where there are any")
 
 
 class Comparison(Model):
@@ -67,6 +75,8 @@ class Comparison(Model):
 
     rows: list[ComparisonRow]
     claim: str
+    tuning: Tuning
+    rule: str = Field(description="under which outer loops the methods are compared, in words")
 
 
 class Split(Model):
@@ -82,7 +92,12 @@ class Split(Model):
 
 def comparison_reply(comparison: CoreComparison) -> Reply:
     """One row per method and structure, and what becomes of the paper's claim."""
-    return {"rows": [_row(row) for row in comparison.rows], "claim": comparison.claim}
+    return {
+        "rows": [_row(row) for row in comparison.rows],
+        "claim": comparison.claim,
+        "tuning": comparison.tuning,
+        "rule": comparison.rule,
+    }
 
 
 def _row(row: Row) -> Reply:
@@ -92,9 +107,12 @@ def _row(row: Row) -> Reply:
     if row.unavailable is not None:
         refused = problem_of(row.unavailable)
         reply["unavailable"] = {key: refused[key] for key in ("code", "detail", "hint") if key in refused}
-    report = row.report
-    if report is None:
+    report, outer = row.report, row.outer
+    if report is None or outer is None:
         return reply
+    reply["outer"] = outer.outer
+    if outer.outer == "pi" and not METHODS[row.method].integrates:
+        reply["loops"] = loops_reply(outer)
     rga = relative_gains_reply(report.placed_findings, report.interaction)
     gains = gains_reply(report.judged, report.size, {}, report.placed_findings)
     scenario, *alone = report.experiments

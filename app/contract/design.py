@@ -7,9 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import lru_cache
-from typing import Any
 
-from pydantic import Field, create_model
+from pydantic import Field
 
 from heli2dof_core import (
     Design,
@@ -43,14 +42,15 @@ from heli2dof_core.request import (
     ROTOR,
     ROTORS,
     STRUCTURE,
+    WEIGHTS,
     judged_spec,
 )
+from heli2dof_core.root_locus import optimal_poles
 from heli2dof_core.rotors import Actuators
 from heli2dof_core.scenario import OuterLoop
-from heli2dof_core.signals import INPUTS, OUTPUTS, STATES, Signal
 from heli2dof_core.tuning import Suggestion as CoreSuggestion
 
-from .fields import Pole, PositiveWeight, PresetName, Split, Strict, Weight, asked
+from .fields import Pole, PresetName, Split, Strict, asked
 from .model import (
     OF_GAINS,
     Complex,
@@ -121,24 +121,24 @@ class ObserverChanges(asked(OBSERVER)):
     )
 
 
-def _weights_of(name: str, signals: Iterable[Signal], kind: Any, meaning: str) -> type[Strict]:
-    fields: dict[str, Any] = {
-        s.name: (kind | None, Field(default=None, description=meaning)) for s in signals
-    }
-    return create_model(name, __base__=Strict, **fields)
+class StateWeights(asked(WEIGHTS["states"])):
+    """The diagonal of Q."""
 
 
-StateWeights = _weights_of("StateWeights", STATES, Weight, "on Q's diagonal")
-InputWeights = _weights_of("InputWeights", INPUTS, PositiveWeight, "on R's diagonal")
-IntegralWeights = _weights_of("IntegralWeights", OUTPUTS, PositiveWeight, "on the integral of this error")
+class InputWeights(asked(WEIGHTS["inputs"])):
+    """The diagonal of R."""
+
+
+class IntegralWeights(asked(WEIGHTS["integrals"])):
+    """The diagonal of Q_z, where the method brings integral action."""
 
 
 class WeightChanges(Strict):
     """Weights of the quadratic methods that differ from Bryson's rule for the preset's limits."""
 
-    states: StateWeights = StateWeights()  # pyright: ignore[reportInvalidTypeForm]
-    inputs: InputWeights = InputWeights()  # pyright: ignore[reportInvalidTypeForm]
-    integrals: IntegralWeights = IntegralWeights()  # pyright: ignore[reportInvalidTypeForm]
+    states: StateWeights = StateWeights()
+    inputs: InputWeights = InputWeights()
+    integrals: IntegralWeights = IntegralWeights()
 
 
 class DesignRequest(asked(STRUCTURE, OUTER, ROTORS)):
@@ -216,6 +216,9 @@ class Gains(told_by({**OF_GAINS, **FIGURES_OF_LOOP})):
         None, description="asked for where the rotors are placed, rad/s"
     )
     closed_loop_poles: list[Complex]
+    optimal_poles: list[Complex] | None = Field(
+        None, description="of a quadratic method: its own, those of its integrators among them, rad/s"
+    )
     controllability_indices: list[int] = Field(description="one per input")
     observer: ObserverGains | None = Field(None, description="where the request has one, or measures by it")
     findings: list[Finding]
@@ -308,6 +311,8 @@ def gains_reply(
     }
     if placed.aims:
         reply["pole_error"], reply["pole_error_bound"] = placed.error, placed.bound
+    if not placed.aims:
+        reply["optimal_poles"] = poles_reply(optimal_poles(placed, loop.actuators))
     if placed.integral is not None:
         reply["integral"] = placed.integral
     if rotors is not None:

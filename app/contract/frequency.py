@@ -19,6 +19,7 @@ from heli2dof_core.figures import MARGINS, SENSITIVITY
 from heli2dof_core.interaction import dominance_over_frequency
 from heli2dof_core.lag_track import LagTrack
 from heli2dof_core.margins import loop_margins, open_loop_response
+from heli2dof_core.root_locus import RootLocus as CoreLocus
 from heli2dof_core.sensitivity import Sensitivity as CoreSensitivity
 from heli2dof_core.signals import AXES
 
@@ -55,6 +56,18 @@ class Lag(Model):
 def lag_reply(track: LagTrack) -> Reply:
     """The track, pole by pole."""
     return reply_of(Lag, track, poles=[poles_reply(course) for course in track.poles.T])
+
+
+class RootLocus(Model):
+    """The poles of a quadratic method as R is multiplied by ρ; LQR's where the request's method has no weights."""
+
+    rho: list[float] = Field(description="factor on R, from large to small; 1 in the middle")
+    poles: list[list[Complex]] = Field(description="per pole its course over `rho`, rad/s")
+
+
+def locus_reply(locus: CoreLocus) -> Reply:
+    """The locus, pole by pole."""
+    return reply_of(RootLocus, locus, poles=[poles_reply(course) for course in locus.poles.T])
 
 
 class Dominance(Model):

@@ -135,6 +135,7 @@ class Method(Model):
     title: str
     source: str
     places_poles: bool = Field(description="whether it takes the poles given, rather than choose its own")
+    weighted: bool = Field(description="whether it minimizes a quadratic cost, by weights")
     integrates: bool = Field(description="whether it brings integral action, in place of the PI loops")
     available: bool
     couplings: list[str]

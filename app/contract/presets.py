@@ -21,7 +21,9 @@ from heli2dof_core.request import (
     ROTORS,
     SCENARIO,
     STRUCTURE,
+    WEIGHTS,
 )
+from heli2dof_core.weights import bryson_weights
 
 from .design import Loops, loops_reply
 from .model import Angles, Complex, Model, Reply, proposed, reply_of
@@ -76,6 +78,26 @@ class FrictionPair(Model):
     yaw: Friction
 
 
+class ProposedQ(proposed(WEIGHTS["states"])):
+    """The diagonal of Q."""
+
+
+class ProposedR(proposed(WEIGHTS["inputs"])):
+    """The diagonal of R."""
+
+
+class ProposedQz(proposed(WEIGHTS["integrals"])):
+    """The diagonal of Q_z."""
+
+
+class Weights(Model):
+    """Weights of the quadratic methods by Bryson's rule for this rig's limits."""
+
+    states: ProposedQ
+    inputs: ProposedR
+    integrals: ProposedQz
+
+
 class Preset(proposed(STRUCTURE, OUTER, ROTORS)):
     """A rig with its source and everything that a design may change."""
 
@@ -96,6 +118,7 @@ class Preset(proposed(STRUCTURE, OUTER, ROTORS)):
     rotors: RotorPair
     friction: FrictionPair
     rotor_poles: list[Complex]
+    weights: Weights
     scenario: Scenario
 
 
@@ -108,7 +131,7 @@ def _ranges(quantities: Mapping[str, Quantity]) -> Reply:
 
 def preset_reply(preset: CorePreset) -> Reply:
     """A preset with everything that a design may change."""
-    scenario = preset.scenario
+    scenario, weights = preset.scenario, bryson_weights(preset.limits)
     return reply_of(
         Preset,
         preset,
@@ -131,5 +154,6 @@ def preset_reply(preset: CorePreset) -> Reply:
         rotors={axis: place.proposal(getattr(preset.rotors, axis)) for axis, place in ROTOR.items()},
         friction={axis: place.proposal(getattr(preset.friction, axis)) for axis, place in FRICTION.items()},
         rotor_poles=tuple(map(complex, preset.rotor_poles)),
+        weights={kind: place.proposal(weights) for kind, place in WEIGHTS.items()},
         scenario={"reference": REFERENCE.proposal(scenario), **SCENARIO.proposal(scenario)},
     )

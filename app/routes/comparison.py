@@ -29,7 +29,7 @@ def build_router(compute: Compute) -> APIRouter:
     @router.post("/compare", **described(Comparison, "The same poles through several methods"))
     async def compare_(request: CompareRequest) -> Response:
         def work() -> Reply:
-            return comparison_reply(compare(request.to_spec(), request.methods))
+            return comparison_reply(compare(request.to_spec(), request.methods, request.tuning))
 
         return json_response(await compute.run_slow(work))
 

@@ -5,8 +5,11 @@ from __future__ import annotations
 from fastapi import APIRouter, Response
 
 from heli2dof_core import interaction, loop_of, place
+from heli2dof_core.evaluate import quadratic, weights_of
 from heli2dof_core.lag_track import lag_track
+from heli2dof_core.root_locus import symmetric_root_locus
 
+from ..contract.design import DesignRequest
 from ..contract.encoding import json_response
 from ..contract.experiment import StepRequest
 from ..contract.frequency import (
@@ -15,7 +18,9 @@ from ..contract.frequency import (
     OpenLoops,
     Rga,
     RgaRequest,
+    RootLocus,
     lag_reply,
+    locus_reply,
     open_loops_reply,
     rga_reply,
 )
@@ -24,7 +29,7 @@ from ..jobs.compute import Compute
 
 
 def build_router(compute: Compute) -> APIRouter:
-    """The routes rga, loops and lag under /api/v1."""
+    """The routes rga, loops, lag and locus under /api/v1."""
     router = APIRouter(prefix="/api/v1", tags=["design"])
 
     @router.post("/rga", **described(Rga, "Relative gain array, pairing and Niederlinski index"))
@@ -51,6 +56,14 @@ def build_router(compute: Compute) -> APIRouter:
     async def lag(request: StepRequest) -> Response:
         def work() -> Reply:
             return lag_reply(lag_track(loop_of(request.to_spec())))
+
+        return json_response(await compute.run(work))
+
+    @router.post("/locus", **described(RootLocus, "The symmetric root locus of a quadratic method"))
+    async def locus(request: DesignRequest) -> Response:
+        def work() -> Reply:
+            spec = quadratic(request.to_spec())
+            return locus_reply(symmetric_root_locus(place(spec), weights_of(spec)))
 
         return json_response(await compute.run(work))
 

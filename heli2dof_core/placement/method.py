@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Annotated, Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InvalidInputError
 from ..frozen import Frozen, read_only
+from ..quantities import Quantity
 from ..rank import numeric_rank
 from ..signals import Complexes, Floats
 
@@ -17,9 +18,27 @@ MOST_STATES = 12
 """Systems with more states are refused: exact placement takes 0.1 s with 12, and 10 s with 20."""
 
 
+HEAVIEST, LIGHTEST = 1e12, 1e-12
+"""The largest weight, and the smallest of those that must not be 0."""
+
+
+def _on_states(unit: str) -> Quantity:
+    return Quantity("on Q's diagonal", unit, 0.0, HEAVIEST)
+
+
+def _on_input() -> Quantity:
+    return Quantity("on R's diagonal", "1/V²", LIGHTEST, HEAVIEST)
+
+
+def _on_integral() -> Quantity:
+    return Quantity("on the integral of this error", "1/(rad·s)²", LIGHTEST, HEAVIEST)
+
+
 @dataclass(frozen=True)
 class Weights:
     """Diagonals of the quadratic cost ∫ (xᵀQx + zᵀQ_z z + uᵀRu) dt, z = ∫ (r − y) dt.
+
+    The quantities are the rig's; other systems have as many as states, inputs and outputs.
 
     Attributes:
         states: n, ≥ 0, diagonal of Q.
@@ -27,9 +46,25 @@ class Weights:
         integrals: as many as outputs, > 0, diagonal of Q_z; integral action alone uses it.
     """
 
-    states: tuple[float, ...]
-    inputs: tuple[float, ...]
-    integrals: tuple[float, ...] = ()
+    states: Annotated[
+        tuple[float, ...],
+        Quantity(
+            "diagonal of Q",
+            parts={
+                "theta": _on_states("1/rad²"),
+                "psi": _on_states("1/rad²"),
+                "theta_dot": _on_states("s²/rad²"),
+                "psi_dot": _on_states("s²/rad²"),
+            },
+        ),
+    ]
+    inputs: Annotated[
+        tuple[float, ...], Quantity("diagonal of R", parts={"V_p": _on_input(), "V_y": _on_input()})
+    ]
+    integrals: Annotated[
+        tuple[float, ...],
+        Quantity("diagonal of Q_z", parts={"theta": _on_integral(), "psi": _on_integral()}),
+    ] = ()
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ export class ComparePanel {
   constructor(root, store) {
     const card = (/** @type {string} */ title, /** @type {string} */ testid, /** @type {string} */ kind) =>
       h('section', { class: `card ${kind}`, 'data-testid': testid, 'aria-label': title }, h('h3', {}, title));
-    const methods = card('The same poles, loops and steps through each method', 'compare', 'wide');
+    const methods = card('The same poles and steps through each method', 'compare', 'wide');
     const splits = card('Splits of these poles', 'splits', 'splits');
     const interaction = card('Interaction over frequency', 'interaction', 'interaction');
     const loops = card('Bode plots and margins', 'open-loops', 'wide');

@@ -22,12 +22,13 @@ import {
   worseMargins,
 } from '../model/index.js';
 import { compareMethods } from '../net/index.js';
-import { button, groupedHead, h, keepingFocus, Lazy, printed, setAttr, setText, wide } from '../ui/index.js';
+import { button, Choice, groupedHead, h, keepingFocus, Lazy, printed, setAttr, setText, wide } from '../ui/index.js';
 import { motorText } from '../panels/index.js';
 import { rowDetail } from './detail.js';
 
 /**
  * @typedef {import('../types.js').Axis} Axis
+ * @typedef {import('../types.js').Design} Design
  * @typedef {import('../types.js').Motor} Motor
  * @typedef {import('../contract.js').ComparisonRow} Row
  */
@@ -133,6 +134,25 @@ const COLUMNS = [
   },
 ];
 
+/**
+ * The loops that a row was computed with, in a design; a method with its own integrators asks for none.
+ * @param {Design} design @param {Row} row
+ * @returns {Partial<Design>}
+ */
+function loopsOf(design, { outer, loops, integral }) {
+  if (!outer || integral) return {};
+  const same =
+    loops &&
+    AXES_OF.every((axis) => loops[axis].kp === design.loops[axis].kp && loops[axis].ti === design.loops[axis].ti);
+  return { outer, ...(loops && !same && { loops }) };
+}
+const AXES_OF = /** @type {const} */ (['pitch', 'yaw']);
+
+/** Whether a row shows the design's own method and loops. @param {Design} design @param {Row} row */
+const isIn = (design, row) =>
+  keyOf(design) === keyOf(row) &&
+  Object.entries(loopsOf(design, row)).every(([name, value]) => design[/** @type {keyof Design} */ (name)] === value);
+
 /** @param {Row} row */
 const marginTitle = (row) =>
   Object.entries(row.margins ?? {})
@@ -143,8 +163,20 @@ const marginTitle = (row) =>
     )
     .join('\n');
 
+/**
+ * Under which outer loops the methods are compared.
+ * @typedef {import('../contract.js').Comparison['tuning']} Tuning
+ * @type {[Tuning, string, string][]}
+ */
+const TUNINGS = [
+  ['placed', 'as placed', 'the inner loop alone, behind the static prefilter'],
+  ['tuned', 'loops tuned by one rule', 'PI values of its own for each method, by one rule with the same target'],
+  ['kept', 'present PI values', 'the same PI values for all, whatever poles they were tuned for'],
+];
+
 export class CompareTable {
-  /** @type {Map<string, {row: HTMLElement, use: HTMLButtonElement|null}>} */ #rows = new Map();
+  /** @type {Tuning} */ #tuning = 'placed';
+  /** @type {Map<string, {row: HTMLElement, use: HTMLButtonElement|null, of: Row}>} */ #rows = new Map();
   /** @type {Set<string>} */ #open = new Set();
 
   /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
@@ -152,6 +184,18 @@ export class CompareTable {
     this.store = store;
     this.rows = h('tbody');
     this.claim = h('p', { class: 'claim', 'data-testid': 'claim' });
+    this.choice = new Choice({
+      label: 'Outer loops of all methods',
+      testid: 'tuning',
+      options: TUNINGS,
+      onChange: (tuning) => {
+        this.#tuning = tuning;
+        this.lazy.render(store.state);
+      },
+    });
+    this.choice.set(this.#tuning);
+    this.rule = h('p', { class: 'rule', 'data-testid': 'tuning-rule', role: 'status' });
+    root.append(h('div', { class: 'tuning' }, this.choice.node, this.rule));
     const content = h(
       'div',
       {},
@@ -175,6 +219,7 @@ export class CompareTable {
       body: (d) => ({
         ...bodyOf(d),
         method: FULL_RANK,
+        tuning: this.#tuning,
         coupling: /** @type {const} */ ('triangular'),
         lead: /** @type {const} */ ('pitch'),
         scenario: scenarioOf(d),
@@ -183,7 +228,9 @@ export class CompareTable {
   }
 
   /** @param {import('../contract.js').Comparison} answer */
-  #show({ rows, claim }) {
+  #show({ rows, claim, rule, tuning }) {
+    setText(this.rule, rule);
+    this.rule.classList.toggle('warning', tuning === 'kept' && rows.some((r) => r.outer === 'pi'));
     const cross = this.store.state.design?.pairing === 'cross';
     const able = rows.filter((r) => !r.unavailable);
     const marks = COLUMNS.map((c) => {
@@ -223,10 +270,19 @@ export class CompareTable {
         h(
           'td',
           { colspan: COLUMNS.length + 1, title: detail },
-          h('div', { class: 'why' }, h('b', {}, 'Not available for this rig. '), why),
+          h(
+            'div',
+            { class: 'why' },
+            h(
+              'b',
+              {},
+              row.unavailable.code === 'invalid_input' ? 'No loops by this rule. ' : 'Not available for this rig. ',
+            ),
+            why,
+          ),
         ),
       );
-      this.#rows.set(key, { row: line, use: null });
+      this.#rows.set(key, { row: line, use: null, of: row });
       return [line];
     }
     const cells = COLUMNS.map((c, i) =>
@@ -243,7 +299,7 @@ export class CompareTable {
     const use = button(
       {
         'data-testid': `use-${key}`,
-        onclick: () => this.store.edit((d) => (keyOf(d) === key ? d : { ...d, ...partOf(key) })),
+        onclick: () => this.store.edit((d) => (isIn(d, row) ? d : { ...d, ...partOf(key), ...loopsOf(d, row) })),
       },
       'Use',
     );
@@ -276,7 +332,7 @@ export class CompareTable {
       cells,
       h('td', {}, use),
     );
-    this.#rows.set(key, { row: line, use });
+    this.#rows.set(key, { row: line, use, of: row });
     return [line, detail];
   }
 
@@ -290,9 +346,9 @@ export class CompareTable {
     this.lazy.render(state);
     if (!state.design) return;
     const present = keyOf(state.design);
-    for (const [key, { row, use }] of this.#rows) {
-      const own = key === present;
-      row.classList.toggle('current', own);
+    for (const [key, { row, use, of }] of this.#rows) {
+      const own = isIn(state.design, of); // with these loops, too
+      row.classList.toggle('current', key === present);
       if (!use) continue;
       setAttr(use, 'aria-pressed', String(own));
       setText(use, own ? 'In use' : 'Use');

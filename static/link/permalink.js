@@ -41,7 +41,7 @@ const VERSION = 1;
 export const MOST = 2000;
 const LIMITS = ['V_p', 'V_y', 'theta'];
 const MOTIONS = ['both', 'theta', 'psi'];
-const MACHINE = ['rotors', 'friction', 'observer'];
+const MACHINE = ['rotors', 'friction', 'observer', 'weights'];
 const OUTER = ['loops.pitch.kp', 'loops.pitch.ti', 'loops.yaw.kp', 'loops.yaw.ti'];
 const SHORT = /** @type {const} */ ([
   ['scenario.reference.', 'step.'],

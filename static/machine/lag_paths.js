@@ -9,12 +9,11 @@ import { bodyOf, lags, pairAlone, presetOf } from '../model/index.js';
 import { lagTrack } from '../net/index.js';
 import { button, h, setAttr, setText, svg } from '../ui/index.js';
 import { toPixel } from '../splane/index.js';
-import { clipped } from './clipped.js';
 import { crossings } from './crossings.js';
+import { trackOf } from './track.js';
 
 const REST_MS = 150;
 const AERO = 0.16;
-const ARROW = 'M -4 -3.5 L 4 0 L -4 3.5';
 
 export class LagPaths {
   /** @type {Lag|null} */ #lag = null;
@@ -105,37 +104,15 @@ export class LagPaths {
   /** @param {import('../types.js').Complex[]} path */
   #path(path) {
     const { view } = this.plane;
-    const pixels = path.map((p) => toPixel(view, p));
-    const parts = clipped(pixels, view);
     const bad = path[path.length - 1].re >= 0 ? ' bad' : '';
     return [
-      svg('path', {
-        class: `lag-path${bad}`,
-        d: parts.map((at) => `M ${at.map((p) => p.map((v) => v.toFixed(1)).join(' ')).join(' L ')}`).join(' '),
-      }),
-      ...arrowOf(parts, bad),
+      ...trackOf(view, path, { line: `lag-path${bad}`, arrow: `lag-arrow${bad}` }),
       ...crossings(path).map((p) => {
         const [cx, cy] = toPixel(view, p);
         return svg('circle', { class: 'lag-crossing', 'data-testid': 'lag-crossing', cx, cy, r: 4.5 });
       }),
     ];
   }
-}
-
-/**
- * Where it goes, two thirds along what is drawn.
- * @param {[number, number][][]} parts @param {string} bad
- */
-function arrowOf(parts, bad) {
-  const steps = parts.flatMap((at) => at.slice(1).map(([x, y], i) => ({ x, y, dx: x - at[i][0], dy: y - at[i][1] })));
-  const lengths = steps.map(({ dx, dy }) => Math.hypot(dx, dy));
-  const whole = lengths.reduce((sum, l) => sum + l, 0);
-  if (whole <= 18) return [];
-  let i = 0;
-  for (let gone = lengths[0]; i < steps.length - 1 && gone < 0.67 * whole; gone += lengths[++i]);
-  const { x, y, dx, dy } = steps[i];
-  const transform = `translate(${x} ${y}) rotate(${((Math.atan2(dy, dx) * 180) / Math.PI).toFixed(0)})`;
-  return [svg('path', { class: `lag-arrow${bad}`, d: ARROW, transform })];
 }
 
 /** What the track depends on. @param {import('../types.js').Design} design */

@@ -2,7 +2,7 @@
  * What the feedback acts on: the true states, rates from filters, or an observer's estimate, and how noisy the angles
  * are. A part of the experiment's options.
  */
-import { DEGREE, say, significant, t } from '../text/index.js';
+import { DEGREE, polesText, say, significant, t } from '../text/index.js';
 import {
   allowed,
   lags,
@@ -26,6 +26,8 @@ import { PairEditor } from '../panels/index.js';
 
 const AXES = /** @type {const} */ (['theta', 'psi']);
 const STATES = ['θ', 'ψ', 'θ̇', 'ψ̇'];
+/** How far a density's slider goes from the usual one, either way. */
+const DECADES = 1e3;
 const standard = (/** @type {string} */ name) => QUANTITIES[`observer.${name}`]?.standard;
 const coupled = STRUCTURES.map(([key, name]) => /** @type {const} */ ([key.replace('full-rank/', ''), name]));
 
@@ -106,17 +108,22 @@ export class MeasuredPart {
       },
       coupled.map(([value, name]) => h('option', { value }, name)),
     );
-    const density = (/** @type {'voltage_noise'|'angle_noise'} */ name, /** @type {string} */ text) =>
+    const density = (
+      /** @type {'voltage_noise'|'angle_noise'} */ name,
+      /** @type {string} */ text,
+      /** @type {string} */ mark,
+    ) =>
       designField(store, `observer-${name}`, (d, v) => withObserver(d, { [name]: v }), {
         label: `${text}, ${QUANTITIES[`observer.${name}`]?.unit}`,
-        mark: text,
+        mark,
+        slider: { min: Number(standard(name)) / DECADES, max: Number(standard(name)) * DECADES, log: true },
         unit: QUANTITIES[`observer.${name}`]?.unit,
         field: `observer.${name}`,
         ...allowed(`observer.${name}`),
       });
     this.densities = {
-      voltage_noise: density('voltage_noise', 'voltages'),
-      angle_noise: density('angle_noise', 'angles'),
+      voltage_noise: density('voltage_noise', 'process noise, on the voltages', 'process (voltages)'),
+      angle_noise: density('angle_noise', 'measurement noise, on the angles', 'measurement (angles)'),
     };
     this.placed = h(
       'div',
@@ -124,11 +131,13 @@ export class MeasuredPart {
       this.pairs.map((pair) => pair.node),
       h('label', { class: 'select' }, 'errors of the estimate', this.coupling),
     );
+    this.ratio = h('p', { class: 'aside', 'data-testid': 'kalman-words' });
     this.kalman = h(
       'div',
-      { class: 'row' },
-      h('span', { class: 'caption' }, 'White noise on'),
+      { class: 'kalman' },
+      h('span', { class: 'caption' }, 'White noise that the filter expects'),
       Object.values(this.densities).map((field) => field.node),
+      this.ratio,
     );
     this.gain = new Matrix(
       'l-matrix',
@@ -186,6 +195,11 @@ export class MeasuredPart {
     this.coupling.value = coupling === 'triangular' ? `${coupling}/${lead ?? 'pitch'}` : String(coupling);
     for (const name of /** @type {const} */ (['voltage_noise', 'angle_noise']))
       this.densities[name].set(Number(design.observer?.[name] ?? standard(name)));
+    const own = this.kalman.hidden ? undefined : reply?.observer?.poles;
+    setText(
+      this.ratio,
+      own ? say`Its poles: ${polesText(own)} rad/s. More process noise, or less on the angles, makes it faster.` : '',
+    );
     this.gain.render(reply?.observer?.L, (v) => significant(v, 4));
     const margin = textOf(SENSITIVITY.disk, reply?.sensitivity?.disk_margin);
     const unknown = lags(design, presetOf({ presets, design })) && !design.place_rotors;

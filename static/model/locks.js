@@ -31,6 +31,7 @@ export const LOCKS = {
       '#loops [data-testid^=outer-], #loops .pis input, [data-field=pairing], [data-field=decoupler], ' +
       '[data-testid=suggest-pi], [data-testid=pair-advised]',
   },
+  weights: { name: 'weights', keys: ['weights'], controls: '[data-field^=weights]' },
   observer: { name: 'observer', keys: ['observer'], controls: '.pole.observer, [data-field^=observer]' },
   scenario: { name: 'steps', keys: ['scenario'], controls: '#scenario [data-field^=scenario]' },
 };

@@ -105,6 +105,7 @@ export function bodyOf(design) {
     poles: design.poles,
     rotor_poles: design.rotor_poles,
     ...(design.observer && { observer: design.observer }),
+    ...(design.weights && { weights: design.weights }),
     method: design.method,
     ...plainOf(design),
     loops: design.loops,

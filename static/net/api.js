@@ -161,6 +161,12 @@ export const joinRecordings = (recordings) =>
  * @returns {Promise<import('../contract.js').Lag>}
  */
 export const lagTrack = (design) => call('api/v1/lag', design);
+/**
+ * The symmetric root locus of a quadratic method.
+ * @param {Asked<import('../contract.js').DesignRequest>} design
+ * @returns {Promise<import('../contract.js').RootLocus>}
+ */
+export const rootLocus = (design) => call('api/v1/locus', design);
 /** A recording of a design's digital rig. @param {Asked<import('../contract.js').SampleRequest>} design */
 export const sampleRecording = (design) => fileOf('api/v1/recordings/sample', design);
 /**

@@ -14,6 +14,7 @@ export {
   identifyAddress,
   joinRecordings,
   lagTrack,
+  rootLocus,
   Live,
   liveSocket,
   motionFile,

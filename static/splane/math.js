@@ -99,6 +99,13 @@ export function fit(placed, others, { width, height }) {
   return { cx: (left + right) / 2, cy: 0, scale, width, height };
 }
 
+/** Without those that are far faster than the rest. @param {readonly Complex[]} poles @param {number} times */
+export function slower(poles, times) {
+  const sizes = poles.map((p) => Math.hypot(p.re, p.im));
+  const second = sizes.toSorted((a, b) => a - b)[1] ?? Infinity;
+  return poles.filter((_p, i) => sizes[i] <= times * Math.max(second, 0.1));
+}
+
 /**
  * Whether the poles need another view: one is out of sight, or all are huddled in a corner.
  * @param {View} v

@@ -11,7 +11,7 @@ import { loopPaths } from './loop_paths.js';
 import { Gestures } from './gestures.js';
 import { drawGrid } from './grid.js';
 import { Marks, sample } from './marks.js';
-import { fit, outgrown, zoom } from './math.js';
+import { fit, outgrown, slower, zoom } from './math.js';
 import { drawPins } from './pins.js';
 import { Readout } from './readout.js';
 import { drawForbidden, hatchings, RequirementsBar } from './requirements.js';
@@ -136,11 +136,22 @@ export class SPlane {
     const { design, reply } = state;
     if (!design || !this.view.width) return;
     this.#manual = false;
-    const own = handlesOf(design, pairAlone(state)).filter((p) => p !== undefined);
+    const own = this.#own(state);
     const room = pairAlone(state) === null ? [] : own.map((p) => ({ re: p.re, im: p.re })); // to swing
     this.view = fit([...own, ...room], [...(reply?.loop_poles ?? []), ...(reply?.open_loop_poles ?? [])], this.view);
     this.#draw(state);
   };
+
+  /** What the view is to show: what is dragged; of a method that chooses its own poles, these. @param {State} state */
+  #own(state) {
+    const { design, reply, answered } = state;
+    const own = placesPoles(state) || answered?.method !== design?.method ? undefined : reply?.gains.optimal_poles;
+    const placed =
+      own ??
+      handlesOf(/** @type {import('../types.js').Design} */ (design), pairAlone(state)).filter((p) => p !== undefined);
+    const kalman = design?.observer?.method === 'kalman' && design.scenario.measured === 'observer';
+    return slower([...placed, ...((kalman && reply?.observer?.poles) || [])], own || kalman ? 20 : Infinity);
+  }
 
   /** @param {number} width @param {number} height CSS pixels */
   #resize(width, height) {
@@ -164,8 +175,7 @@ export class SPlane {
     const fresh = design.preset !== this.#preset || pairAlone(state) !== this.#alone;
     this.#preset = design.preset;
     this.#alone = pairAlone(state);
-    const own = handlesOf(design, pairAlone(state)).filter((p) => p !== undefined);
-    const watched = [...own, ...(reply?.loop_poles ?? []).filter((p) => p.re >= 0)];
+    const watched = [...this.#own(state), ...(reply?.loop_poles ?? []).filter((p) => p.re >= 0)];
     if (!dragging && (fresh || (!this.#manual && outgrown(this.view, watched)))) this.fit(state);
     else this.#draw(state);
   }

@@ -95,8 +95,11 @@ def test_every_option_stands_for_a_field_and_completes_its_words(option: Option)
 
 
 def test_every_quantity_outside_the_nested_experiment_has_an_option():
-    nested = ("scenario.digital.", "scenario.initial.", "scenario.disturbance.", "parameters.", "limits.")
+    nested = ("scenario.digital.", "scenario.initial.", "scenario.disturbance.")
     paths = {option.path for option in ALL}
+    assigned = ("parameters", "limits", "weights.states", "weights.inputs", "weights.integrals")
+    assert paths.issuperset(assigned)  # name=value
+    nested += tuple(f"{path}." for path in assigned)
     assert [path for path in QUANTITIES if path not in paths and not path.startswith(nested)] == []
 
 

@@ -60,7 +60,7 @@ RULES: dict[str, dict[str, str]] = {
         "invalid_input loops.*": "there may be none in the range of gains that keep the whole loop stable",
     },
     **dict.fromkeys(
-        [f"POST /api/v1/{name}" for name in ("gains", "rga", "splits", "walkthrough")],
+        [f"POST /api/v1/{name}" for name in ("gains", "rga", "splits", "walkthrough", "locus")],
         DESIGN,
     ),
     **dict.fromkeys(

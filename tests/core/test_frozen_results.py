@@ -32,10 +32,12 @@ from heli2dof_core.paper.figures import figures
 from heli2dof_core.placement.method import Task
 from heli2dof_core.recordings.recording import Recording
 from heli2dof_core.recordings.samples import sample_recording
+from heli2dof_core.root_locus import symmetric_root_locus
 from heli2dof_core.symbolic.linearization import linear_model
 from heli2dof_core.symbolic.mechanics import mechanics
 from heli2dof_core.walkthrough import walk_through
 from heli2dof_core.walkthrough_beyond import observer_steps, rotor_steps
+from heli2dof_core.weights import bryson_weights
 from tests.core.recorded_run import RUN
 
 SPEC = Spec.from_preset(heli.preset())
@@ -121,6 +123,7 @@ def everything_else() -> Iterator[Any]:
     yield heli.suggest_pi(heli.place(SPEC))
     lagged = SPEC.changed(rotors=heli.Rotors(heli.Rotor(0.1), heli.Rotor(0.1)), measured="observer")
     yield lag_track(heli.loop_of(lagged.changed(place_rotors=True))), heli.loop_of(lagged).padded
+    yield symmetric_root_locus(heli.place(SPEC.changed(method="lqr")), bryson_weights(SPEC.limits))
     for name in heli.METHODS:
         C = np.eye(1, 4) if name == "lqr-integral" else None
         yield heli.place_poles(A, B, [-4, -5, -6, -7], name, C=C)

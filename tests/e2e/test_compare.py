@@ -47,7 +47,8 @@ def key(row: dict) -> str:
 
 def test_the_table_shows_what_the_server_compares(page: Page, app: App):
     seen(page, "compare")
-    answer = page.request.post(app.url + "api/v1/compare", data={"poles": POLES}).json()
+    asked = {"poles": POLES, "tuning": "placed"}
+    answer = page.request.post(app.url + "api/v1/compare", data=asked).json()
     assert len(answer["rows"]) == METHODS
     assert page.locator('[data-testid^="compare-row-"]').count() == METHODS
     for row in answer["rows"]:
@@ -55,6 +56,27 @@ def test_the_table_shows_what_the_server_compares(page: Page, app: App):
             assert figure(page, f"compare-{key(row)}-norm") == pytest.approx(row["norm"], rel=1e-3)
     expect(page.get_by_test_id("claim")).to_have_text(answer["claim"])
     assert page.get_by_test_id("compare-lqr-error").inner_text() == "own poles"
+
+
+def test_methods_are_compared_as_placed_or_with_loops_of_their_own(page: Page, app: App):
+    seen(page, "compare")
+    rule = page.get_by_test_id("tuning-rule")
+    expect(rule).to_contain_text("Each method as placed")
+    placed = page.get_by_test_id("compare-tits-yang-rise-theta").inner_text()
+    page.get_by_test_id("use-tits-yang").click()
+    until_state(page, "s.settled && s.method === 'tits-yang' && s.outer === 'none'")
+    page.get_by_test_id("tuning-tuned").check(force=True)
+    expect(rule).to_contain_text("by one rule, with the same target")
+    expect(page.get_by_test_id("compare-tits-yang-rise-theta")).not_to_have_text(placed)
+    expect(page.get_by_test_id("use-tits-yang")).to_have_text("Use")
+    page.get_by_test_id("use-tits-yang").click()
+    until_state(page, "s.settled && s.outer === 'pi'")
+    own = page.request.post(app.url + "api/v1/suggest", data={"poles": POLES, "method": "tits-yang"}).json()
+    assert state(page)["loops"] == own["loops"]
+    expect(page.get_by_test_id("use-tits-yang")).to_have_text("In use")
+    page.get_by_test_id("tuning-kept").check(force=True)
+    expect(rule).to_have_class("rule warning")
+    expect(rule).to_contain_text("chosen for other poles")
 
 
 def test_a_row_opens_to_its_gain(page: Page, app: App):
@@ -94,7 +116,7 @@ def test_using_a_method_changes_the_gain_and_undo_brings_it_back(page: Page, app
     until_state(page, "s.method === 'full-rank'")
     assert state(page)["K"] == before
     expect(use).to_have_text("Use")
-    expect(page.get_by_test_id("use-full-rank/triangular/pitch")).to_have_text("In use")
+    expect(page.get_by_test_id("compare-row-full-rank/triangular/pitch")).to_have_class("current")
 
 
 def test_another_split_of_the_same_poles_is_one_step(page: Page):

@@ -9,7 +9,13 @@ export const MACHINE = {
   friction: { pitch: { coulomb: 0 }, yaw: { coulomb: 0 } },
   rotor_poles: real(-15, -16),
 };
+const weights = {
+  states: { theta: 1 / 0.17453292519943295 ** 2, psi: 1 / 0.17453292519943295 ** 2, theta_dot: 1, psi_dot: 1 },
+  inputs: { V_p: 1 / 24 ** 2, V_y: 1 / 15 ** 2 },
+  integrals: { theta: 1 / 0.08726646259971647 ** 2, psi: 1 / 0.08726646259971647 ** 2 },
+};
 const usual = {
+  weights,
   coupling: 'triangular',
   lead: 'pitch',
   outer: 'pi',

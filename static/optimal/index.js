@@ -1,0 +1,2 @@
+/** What other rooms may import of optimal/. */
+export { Optimal } from './optimal.js';
