@@ -20,20 +20,17 @@ from heli2dof_core.recordings.samples import deviating_rig, named_columns, sampl
 from heli2dof_core.scenario import Digital
 
 from ..contract.encoding import described_files, json_response, json_text
+from ..contract.identification import IdentifyRequest, identification_reply, identified, progress_reply
 from ..contract.model import Reply, described
 from ..contract.recordings import (
-    IdentifyRequest,
     JoinRequest,
     OverlayReply,
     OverlayRequest,
     Preview,
     SampleRequest,
-    identification_reply,
-    identified,
     overlaid,
     overlay_reply,
     preview_reply,
-    progress_reply,
 )
 from ..edge.messages import Mailbox
 from ..jobs.compute import Compute, check_cancelled, current_caller
@@ -156,7 +153,7 @@ async def _identify(
 
     def work() -> Reply:
         recording = recording_of(table, request.columns.to_columns())
-        return identification_reply(identified(request, spec, recording, report, check_cancelled))
+        return identification_reply(identified(request, spec, recording, report, check_cancelled), recording)
 
     running = asyncio.ensure_future(compute.run_slow(work))
     running.add_done_callback(lambda _: news.put(None))

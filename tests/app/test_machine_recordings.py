@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from app.contract.recordings import IdentificationReply
+from app.contract.identification import IdentificationReply
 from heli2dof_core.recordings.identification import FREE
 from tests.app.test_cli import run
 from tests.app.test_recordings_api import COLUMNS, FOUR, rows, upload

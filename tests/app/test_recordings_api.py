@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.contract.recordings import IdentificationReply, OverlayReply, Preview
+from app.contract.identification import IdentificationReply
+from app.contract.recordings import OverlayReply, Preview
 from app.jobs.recording_store import RecordingStore
 from heli2dof_core.errors import RecordingError
 from heli2dof_core.recordings.recording import Table
