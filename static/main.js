@@ -238,7 +238,7 @@ async function furtherDown() {
   );
   const further = [
     new ComparePanel(byId('compare'), store),
-    new RecordingsPanel(byId('recordings'), store),
+    new RecordingsPanel(byId('recordings'), store, plots),
     new FormulasPanel(byId('formulas'), store),
     new PaperPanel(byId('paper'), store),
   ];

@@ -160,6 +160,16 @@ export interface Recorded {
   foundFor: Design | null;
 }
 
+/** A stretch of a recording beside the design, in its time; rad and V. */
+export interface Beside extends Record<'t' | Axis | Motor, Float64Array> {
+  /** of the recording, s */
+  from: number;
+  /** rad */
+  shift: Record<Axis, number>;
+  plotted: boolean;
+  ghost: boolean;
+}
+
 /** Uncertain rigs under one controller. */
 export interface Cloud {
   /** rigs whose poles are known */
@@ -208,6 +218,8 @@ export interface State {
   /** names in locks.js */
   locks: string[];
   recorded: Recorded;
+  /** null: no recording is shown beside the design */
+  beside: Beside | null;
   /** what is to be said of the link that was opened, or of this design's numbers */
   notice: string | null;
   /** that a part of the page could not be drawn */

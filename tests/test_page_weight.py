@@ -16,7 +16,10 @@ SIZE = 15_000
 LINKED = re.compile(r"""<(?:link|script|img)\b[^>]*?\b(?:href|src)="([^"]+)\"""")
 COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)  # types are imported in comments, which loads nothing
 AT_FIRST = re.compile(r"""(?:\bfrom|\bimport)\s*["'](\.[^"']+)["']""")
-IMPORTED = re.compile(r"""(?:\bfrom|\bimport|\bnew Worker\(new URL)\s*\(?\s*["'](\.[^"']+)["']""")
+IMPORTED = re.compile(
+    r"""(?:\bfrom|\bimport|\bnew Worker\(new URL)\s*\(?\s*["'](\.[^"']+)["']|\bnew URL\(["'](\.[^"']+\.css)["']"""
+)
+"""Modules, workers and style sheets."""
 
 
 def loaded(imported: re.Pattern[str] = IMPORTED) -> set[Path]:
@@ -29,9 +32,11 @@ def loaded(imported: re.Pattern[str] = IMPORTED) -> set[Path]:
             continue
         found.add(file)
         if file.suffix == ".js" and "vendor" not in file.parts:
-            waiting += [
-                file.parent / name for name in imported.findall(COMMENT.sub("", file.read_text("utf-8")))
-            ]
+            names = (
+                match[match.lastindex]
+                for match in imported.finditer(COMMENT.sub("", file.read_text("utf-8")))
+            )
+            waiting += [file.parent / name for name in names]
     return found
 
 

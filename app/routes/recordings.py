@@ -13,7 +13,7 @@ from heli2dof_core import Spec, loop_of, preset
 from heli2dof_core.engine import engine
 from heli2dof_core.export.machine import machine_lines
 from heli2dof_core.recordings.files import Dialect, joined_tables, read_table, write_csv
-from heli2dof_core.recordings.files.text import Decimal, Separator
+from heli2dof_core.recordings.files.text import SYNTHETIC, Decimal, Separator
 from heli2dof_core.recordings.identification import Progress
 from heli2dof_core.recordings.recording import Table, recording_of
 from heli2dof_core.recordings.samples import deviating_rig, named_columns, sample_recording
@@ -128,7 +128,7 @@ def _sample(request: SampleRequest) -> bytes:
     changed = {name: v for name, v in rig.as_dict().items() if v != getattr(spec.parameters, name)}
     truth = ", ".join(f"{name} = {value:.6g}" for name, value in changed.items())
     comments = (
-        "A digital rig of heli2dof: angles in rad, voltages in V",
+        f"{SYNTHETIC}: angles in rad, voltages in V",
         f"Its true parameters, SI: {truth}" if truth else "Its parameters are the design's",
         *machine_lines(spec),
     )
