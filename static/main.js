@@ -233,14 +233,20 @@ async function furtherDown() {
   );
   schedule();
   computeHere().catch(console.warn);
-  const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await fetched(() =>
-    Promise.all([import('./compare/index.js'), import('./recordings/index.js'), import('./paper/index.js')]),
+  const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }, { OwnRigs }] = await fetched(() =>
+    Promise.all([
+      import('./compare/index.js'),
+      import('./recordings/index.js'),
+      import('./paper/index.js'),
+      import('./rigs/index.js'),
+    ]),
   );
   const further = [
     new ComparePanel(byId('compare'), store),
     new RecordingsPanel(byId('recordings'), store, plots),
     new FormulasPanel(byId('formulas'), store),
     new PaperPanel(byId('paper'), store),
+    new OwnRigs(byId('header'), store),
   ];
   views.figures.unshift(...further.map(viewOf));
   schedule();

@@ -67,6 +67,8 @@ export interface Scenario extends Said<
 /** What the user chose, and all of it: everything else on the page follows from this. */
 export interface Design extends Choices {
   preset: string;
+  /** the name of the rig of one's own that it stands for */
+  rig?: string;
   /** overrides of the preset's values */
   parameters: Record<string, number>;
   limits: Limits;
@@ -84,6 +86,17 @@ export interface Design extends Choices {
   rotor_poles: [number, number];
   /** absent: the server's own */
   observer?: Observer;
+}
+
+/** A rig of one's own: all its values, in SI units, and the preset from which it stems. */
+export interface OwnRig {
+  name: string;
+  preset: string;
+  parameters: Record<string, number>;
+  limits: Limits;
+  rotors: contract.RotorsChanges;
+  friction: contract.AxisFrictionChanges;
+  operating_point: { theta: number };
 }
 
 /** How the states are estimated. */

@@ -28,8 +28,8 @@ LOOPBACK = "127.0.0.1"
 Point = tuple[float, float, float]
 Color = tuple[int, int, int]
 ORIGIN: Point = (0.0, 0.0, 0.0)
-GHOSTS = ("linear", *(str(k) for k in range(6)), "recorded")
-"""Ghosts beside the reference: the linear model, pinned designs, as many as have a colour, and a recording."""
+GHOSTS = ("linear", "recorded", *(str(k) for k in range(6)))
+"""Ghosts beside the reference: the linear model, a recording, and pinned designs, as many as have a colour."""
 
 # First colours; the page sets those of its theme.
 _SCALE: Color = (78, 86, 96)

@@ -24,7 +24,7 @@ from .segments import RUN_UP, bridged, cut, divergence_told, segment_length
 from .told import correlated, nothing_held, remarks, require_excited, scaled_together
 from .unknowns import ACTUATORS, FREE, IDENTIFIABLE, INERTIAS, Unknowns, checked, default_free, info
 from .validated import validated
-from .validation import HELD_OUT, MOST_HELD_OUT, fitted_part, split_at
+from .validation import HELD_OUT, MOST_HELD_OUT, fitted_part, split_at, until
 from .whiteness import whiteness
 
 QUANTILE = 1.959964
@@ -90,11 +90,11 @@ def identify(
     began = perf_counter()
     names = checked(default_free(p) if free is None else free)
     unknowns = Unknowns.of(p, acting_of(p, rotors, friction, theta_0, limits), names)
-    length = segment_length(p, recording) if segment is None else segment
-    require_within(length, "segment", "s", 0.1, 1e4)
     require_within(held_out, "held_out", "", 0.0, MOST_HELD_OUT)
     recording = bridged(recording)
     row = split_at(recording, held_out)
+    length = segment_length(p, until(recording, row)) if segment is None else segment
+    require_within(length, "segment", "s", 0.1, 1e4)
 
     def bounded(length: float, values: Floats) -> NDArray[np.int64]:
         return cut(recording, length, travel, RUN_UP * unknowns.run_up(values), row)

@@ -125,7 +125,8 @@ def _between(
     ):
         return np.zeros(flat.shape[1])
     step = np.linalg.lstsq(flat, r.ravel(), rcond=None)[0]
-    own = grouped_covariance(J, r, groups_of(held), after.basis, power)
+    left = r - J @ step  # what is left there once the estimates have moved
+    own = grouped_covariance(J, left, groups_of(held), after.basis, power)
     beyond = step**2 - np.diag(own) - np.diag(covariance)
     return np.asarray(np.maximum(beyond, 0.0) / 2.0)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,6 +70,17 @@ def split_at(recording: Recording, held_out: float) -> int | None:
             hint="Hold less out, or record longer.",
         )
     return row
+
+
+def until(recording: Recording, row: int | None) -> Recording:
+    """The recording before that row: what is held out must not choose the segments either."""
+    if row is None:
+        return recording
+    return replace(
+        recording,
+        **{name: getattr(recording, name)[:row] for name in ("t", "angles", "voltages")},
+        references=None if recording.references is None else recording.references[:row],
+    )
 
 
 def fitted_part(bounds: NDArray[np.int64], row: int | None) -> NDArray[np.int64]:

@@ -91,7 +91,7 @@ def whiteness(bounds: NDArray[np.int64], r: Floats, basis: Floats) -> list[White
     corrected = correlations(bounds, r, lags) + visible * taken / np.maximum(count - freedom, 1.0)
     found = []
     for i in range(outputs):
-        rho = corrected[:, i]
+        rho = corrected[:, i].copy()
         Q = float(np.sum(rho**2 * count**2 / np.maximum(pairs, 1.0)))
         below = np.abs(rho) < 2.0 / np.sqrt(np.maximum(pairs, 1.0))
         span = int(np.argmax(below)) + 1 if np.any(below) else lags

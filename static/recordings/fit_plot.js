@@ -9,6 +9,7 @@ import {
   correlationCurve,
   fittedCurves,
   heldOut,
+  rangeOfCorrelation,
   rangeOfFit,
   rangeOfRest,
   residualCurve,
@@ -21,17 +22,18 @@ import {
 const NAMES = ['measured', 'before', 'found'];
 /** How each is drawn. @type {import('../charts/chart.js').Line[]} */
 const LINES = [
-  { color: 'series-0', width: 1.5 },
+  { color: 'series-0', width: 3 },
   { color: 'muted', width: 1.5, dash: [2, 3] },
-  { color: 'series-1', width: 2, dash: [7, 4] },
+  { color: 'series-1', width: 1.5, dash: [7, 4] },
 ];
-const [WIDE, NARROW] = [46, 46];
+const ROOM = 46;
 
 export class FitPlot {
   /** @type {[number, number]|null} */ #held = null;
   #band = 0;
   /** @type {Shown} */ #fit = { u: null, data: [[]], range: [-1, 1] };
   /** @type {Shown} */ #rest = { u: null, data: [[]], range: [-1, 1] };
+  #heldWords = '';
   /** @type {Shown} */ #correlation = { u: null, data: [[]], range: [-1, 1] };
 
   /** @param {'theta'|'psi'} axis @param {'pitch'|'yaw'} name */
@@ -93,11 +95,9 @@ export class FitPlot {
     u.ctx.font = `${12 * devicePixelRatio}px system-ui, sans-serif`;
     u.ctx.textBaseline = 'top';
     u.ctx.textAlign = 'right';
-    u.ctx.fillText(this.heldWords, to - 4 * devicePixelRatio, top + 3 * devicePixelRatio);
+    u.ctx.fillText(this.#heldWords, to - 4 * devicePixelRatio, top + 3 * devicePixelRatio);
     u.ctx.restore();
   }
-
-  heldWords = '';
 
   /** Where 99 % of the correlations of white residuals lie. @param {uPlot} u */
   #drawBand(u) {
@@ -138,7 +138,7 @@ export class FitPlot {
       lines: LINES,
       data: this.#fit.data,
       scales: y(this.#fit),
-      axes: [{ gap: 6, size: 24 }, { size: WIDE }],
+      axes: [{ gap: 6, size: 24 }, { size: ROOM }],
       font,
       cursor,
       hooks: { drawAxes: [(u) => this.#shade(u)], setCursor: [(u) => this.#read(u, this.#fit, this.values, '°')] },
@@ -147,7 +147,7 @@ export class FitPlot {
       lines: [{ color: 'series-1', width: 1 }],
       data: this.#rest.data,
       scales: y(this.#rest),
-      axes: [{ gap: 6, size: 24 }, { size: NARROW }],
+      axes: [{ gap: 6, size: 24 }, { size: ROOM }],
       font,
       cursor,
       hooks: { drawAxes: [(u) => this.#shade(u)], setCursor: [(u) => this.#read(u, this.#rest, [this.left], '°')] },
@@ -156,7 +156,7 @@ export class FitPlot {
       lines: [{ color: 'series-1', width: 0 }],
       data: this.#correlation.data,
       scales: y(this.#correlation),
-      axes: [{ gap: 6, size: 24 }, { size: NARROW }],
+      axes: [{ gap: 6, size: 24 }, { size: ROOM }],
       font,
       hooks: {
         drawAxes: [(u) => this.#drawBand(u)],
@@ -179,15 +179,14 @@ export class FitPlot {
   show(found, heldWords) {
     const { axis } = this;
     this.#held = heldOut(found);
-    this.heldWords = heldWords;
+    this.#heldWords = heldWords;
     this.#band = found.whiteness[axis].band;
-    Object.assign(this.#fit, { data: fittedCurves(found, axis) });
+    this.#fit.data = fittedCurves(found, axis);
     this.#fit.range = rangeOfFit(this.#fit.data);
     this.#rest.data = residualCurve(found, axis);
     this.#rest.range = rangeOfRest(this.#rest.data);
     this.#correlation.data = correlationCurve(found, axis);
-    const low = Math.min(-2 * this.#band, ...this.#correlation.data[1].map((v) => 1.1 * (v ?? 0)));
-    this.#correlation.range = [low, 1.08];
+    this.#correlation.range = rangeOfCorrelation(found, axis);
     if (!this.#fit.u) this.#build();
     for (const { u, data } of [this.#fit, this.#rest, this.#correlation]) u?.setData(data);
     setText(this.words, whitenessWords(found, axis));

@@ -23,10 +23,22 @@ export const fittedCurves = ({ courses }, axis) => [
 /** @param {IdentificationReply} found @param {Axis} axis @returns {Curves} t and what is left, in degrees */
 export const residualCurve = ({ courses }, axis) => [courses.t, inDegrees(courses.residuals[axis])];
 
-/** @param {IdentificationReply} found @param {Axis} axis @returns {Curves} time lags, ms, and correlations; 1 at 0 */
+/** @param {IdentificationReply} found @param {Axis} axis @returns {Curves} time lags, ms, from one sample on; shares */
 export function correlationCurve({ whiteness, sample_time }, axis) {
-  const values = [1, ...whiteness[axis].correlations];
-  return [values.map((_v, k) => 1e3 * k * sample_time), values];
+  const { correlations } = whiteness[axis];
+  return [correlations.map((_v, k) => 1e3 * (k + 1) * sample_time), correlations];
+}
+
+/**
+ * Room for correlations, and for twice the band of white residuals.
+ * @param {IdentificationReply} found
+ * @param {Axis} axis
+ * @returns {[number, number]}
+ */
+export function rangeOfCorrelation({ whiteness }, axis) {
+  const { correlations, band } = whiteness[axis];
+  const size = 1.15 * Math.max(2 * band, ...correlations.map(Math.abs));
+  return [-size, size];
 }
 
 /**
@@ -80,7 +92,7 @@ export const partRows = ({ parts }) =>
     AXES.map(([axis, name]) => {
       const pair = (/** @type {'fit'|'variance'|'rms'} */ key) => [part.before?.[key][axis], part.after[key][axis]];
       const rest = (/** @type {number|null|undefined} */ v) =>
-        typeof v === 'number' ? `${significant(v * DEGREE, 2)}°` : '–';
+        typeof v === 'number' ? `${significant(v * DEGREE, 3)}°` : '–';
       const when = `${fixed(part.first, 1)} … ${fixed(part.end, 1)} s`;
       return {
         id: `${part.held_out ? 'held' : 'fitted'}-${axis}`,
@@ -97,7 +109,7 @@ export const partRows = ({ parts }) =>
 export function whitenessWords({ whiteness }, axis) {
   const { white, probability, span } = whiteness[axis];
   if (white)
-    return say`White: white residuals would be correlated as much with a probability of ${significant(probability, 2)}.`;
+    return say`White: white residuals would be correlated as much with a probability of ${significant(probability, 3)}.`;
   const over = significant(1e3 * span, 2);
   return say`Not white: correlated over some ${over} ms. The model leaves something out, or the noise is correlated.`;
 }
@@ -125,6 +137,6 @@ export const estimateRows = (found) =>
     before: inField(e.before),
     value: as(e.value, e),
     width: `± ${as((e.high - e.low) / 2, e)}`,
-    noise: `± ${significant(e.noise, 2)}`,
+    noise: `± ${significant(e.noise, 3)}`,
     interval: `${as(e.low, e)} … ${as(e.high, e)}`,
   }));

@@ -1,5 +1,7 @@
 /** Which parameters are free, the search for them, and what it found: both fits, curves, residuals, intervals. */
 import { say, significant, t } from '../text/index.js';
+import { presetOf } from '../model/index.js';
+import { freeName, rigOf, shelf } from '../rigs/index.js';
 import { button, check, h, head, setText, symbol, wide } from '../ui/index.js';
 import { estimateRows, partRows } from './found.js';
 import { FitPlot } from './fit_plot.js';
@@ -38,6 +40,13 @@ export class IdentificationCard {
     const table = (/** @type {string} */ id, /** @type {string[]} */ cells, /** @type {Node} */ rows) =>
       h('table', { class: 'compare-table', 'data-testid': `recording-${id}` }, head(cells), rows);
     this.adopt = tool('adopt', 'Adopt', () => this.#adopt(), "Make these the rig's parameters; Undo takes them back");
+    this.keep = tool(
+      'keep',
+      'Adopt and keep as an own rig',
+      () => this.#keep(),
+      'Keeps it in this browser, in the menu of rigs under “Own rigs”',
+    );
+    this.kept = h('span', { role: 'status', 'data-testid': 'recording-kept' });
     this.remarks = h('ul', { class: 'recording-remarks' });
     this.result = h(
       'div',
@@ -73,7 +82,7 @@ export class IdentificationCard {
           'units, columns, m or l. Noise alone: the interval of a model that leaves nothing out.',
       ),
       this.remarks,
-      this.adopt,
+      h('div', { class: 'row' }, this.adopt, this.keep, this.kept),
     );
     this.node = h(
       'div',
@@ -100,11 +109,23 @@ export class IdentificationCard {
     this.scaled.hidden = !this.#free().some((name) => name in INERTIAS);
   }
 
-  #adopt() {
+  /** @param {string} [rig] its name, where it is kept */
+  #adopt(rig) {
     const { found } = this.store.state.recorded;
     if (!found) return;
-    this.store.edit((d) => adopted(d, found));
+    this.store.edit((d) => ({ ...adopted(d, found), ...(rig !== undefined && { rig }) }));
     this.feed.overlay();
+  }
+
+  #keep() {
+    const { recorded, design } = this.store.state;
+    const preset = presetOf(this.store.state);
+    if (!recorded.found || !design || !preset) return;
+    const own = shelf();
+    const name = freeName(own.rigs, recorded.preview?.name.replace(/\.\w+$/, '') || t('identified rig'));
+    own.keep(rigOf(adopted(design, recorded.found), preset, name));
+    this.#adopt(name);
+    setText(this.kept, own.refused || say`${name} is kept. Rename it under Parameters.`);
   }
 
   /** @param {import('../types.js').State} state @param {boolean} mapped whether the columns are known */
@@ -119,7 +140,7 @@ export class IdentificationCard {
     const spent = found && say`${found.evaluations} simulations in ${significant(found.seconds, 2)} s`;
     setText(this.progress, searching ? progressWords(progress) : (spent ?? ''));
     this.result.hidden = !found;
-    this.adopt.disabled = Boolean(found) && foundFor?.preset !== design.preset;
+    this.adopt.disabled = this.keep.disabled = Boolean(found) && foundFor?.preset !== design.preset;
     if (found && found !== this.#shown) this.#show(found);
     this.#shown = found;
   }

@@ -9,7 +9,6 @@ import { IdentificationCard } from './identification.js';
 import { curves, DRIVERS, fitText, isMapped, missingWords, overlayWords, previewWords } from './recordings.js';
 import { RecordingMapping } from './mapping.js';
 import { RecordingPlot } from './plot.js';
-import { styled } from './styles.js';
 
 const AXES = /** @type {const} */ (['theta', 'psi']);
 
@@ -23,7 +22,8 @@ export class RecordingsPanel {
    * @param {import('../plots/plots.js').Plots} plots in which the recording is shown beside the design
    */
   constructor(root, store, plots) {
-    styled();
+    const sheet = new URL('../css/recordings.css', import.meta.url).href;
+    document.head.append(h('link', { rel: 'stylesheet', href: sheet }));
     this.store = store;
     this.feed = new RecordingFeed(store);
     const tool = (/** @type {string} */ id, /** @type {string} */ text, /** @type {() => void} */ act, title = '') =>

@@ -9,7 +9,7 @@ import { colorOf, COLORS, letterOf, motionOf } from '../model/index.js';
  *   trajectory: Pick<import("./pose.js").Trajectory, "t" | "theta" | "psi">}} Flight
  */
 
-export const SLOTS = ['linear', ...Array.from({ length: COLORS }, (_, k) => String(k)), 'recorded'];
+export const SLOTS = ['linear', 'recorded', ...Array.from({ length: COLORS }, (_, k) => String(k))];
 
 /**
  * @param {string} text "#rrggbb", as the style sheets name colours
