@@ -106,6 +106,15 @@ export class FitPlot {
     u.ctx.save();
     u.ctx.fillStyle = ink('sunk');
     u.ctx.fillRect(left, high, width, low - high);
+    u.ctx.strokeStyle = ink('muted');
+    u.ctx.lineWidth = devicePixelRatio;
+    u.ctx.setLineDash([4, 3].map((v) => v * devicePixelRatio));
+    for (const y of [high, low]) {
+      u.ctx.beginPath();
+      u.ctx.moveTo(left, y);
+      u.ctx.lineTo(left + width, y);
+      u.ctx.stroke();
+    }
     u.ctx.restore();
   }
 

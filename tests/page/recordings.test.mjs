@@ -52,7 +52,19 @@ const found = {
   findings: [],
   rotors: { pitch: { tau: 0, curve: 'linear', dead_zone: 0 }, yaw: { tau: 0, curve: 'linear', dead_zone: 0 } },
   friction: { pitch: { coulomb: 0 }, yaw: { coulomb: 0 } },
-  estimates: [{ name: 'K_pp', unit: 'N·m/V', before: 1, value: 1.25, low: 1.2, high: 1.3, noise: 0.03, plain: 0.02, adopted: 1.25 }],
+  estimates: [
+    {
+      name: 'K_pp',
+      unit: 'N·m/V',
+      before: 1,
+      value: 1.25,
+      low: 1.2,
+      high: 1.3,
+      noise: 0.03,
+      plain: 0.02,
+      adopted: 1.25,
+    },
+  ],
 };
 
 test('columns are asked for as the server takes them', () => {
