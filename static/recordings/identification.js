@@ -91,7 +91,8 @@ export class IdentificationCard {
       h(
         'p',
         { class: 'caption' },
-        'Least squares on the nonlinear model under the recorded voltages. What is not free is held; m and l always are.',
+        'Least squares on the nonlinear model under the recorded voltages. What is not free is held; m and l always ' +
+          'are.',
       ),
       h('div', { class: 'row', role: 'group', 'aria-label': 'Free parameters' }, h('span', {}, 'Free'), this.free),
       this.scaled,
