@@ -67,8 +67,8 @@ export class IdentificationCard {
       h(
         'p',
         { class: 'caption' },
-        'Fit: 100 (1 − ‖y − ŷ‖/‖y − ȳ‖). Variance accounted for: 100 (1 − var(y − ŷ)/var y). Each segment starts from ' +
-          'the state that fits it best, before and found alike.',
+        'Fit: 100 (1 − ‖y − ŷ‖/‖y − ȳ‖). Variance accounted for: 100 (1 − var(y − ŷ)/var y). Each segment starts ' +
+          'from the state that fits it best, before and found alike.',
       ),
       wide(
         'Identified parameters',
@@ -77,9 +77,9 @@ export class IdentificationCard {
       h(
         'p',
         { class: 'caption' },
-        '95 % allows for correlated residuals, for lag, dry friction, dead bands, offsets and curved thrust as far as ' +
-          'the residuals bound them, and for what the part that is held out would change. It does not allow for wrong ' +
-          'units, columns, m or l. Noise alone: the interval of a model that leaves nothing out.',
+        '95 % allows for correlated residuals, for lag, dry friction, dead bands, offsets and curved thrust as far ' +
+          'as the residuals bound them, and for what the part that is held out would change. It does not allow for ' +
+          'wrong units, columns, m or l. Noise alone: the interval of a model that leaves nothing out.',
       ),
       this.remarks,
       h('div', { class: 'row' }, this.adopt, this.keep, this.kept),
