@@ -108,8 +108,8 @@ export const partRows = ({ parts }) =>
 /** Whether residuals are white, in words. @param {IdentificationReply} found @param {Axis} axis */
 export function whitenessWords({ whiteness }, axis) {
   const { white, probability, span } = whiteness[axis];
-  if (white)
-    return say`White: white residuals would be correlated as much with a probability of ${significant(probability, 3)}.`;
+  const chance = significant(probability, 3);
+  if (white) return say`White: white residuals would be correlated as much with a probability of ${chance}.`;
   const over = significant(1e3 * span, 2);
   return say`Not white: correlated over some ${over} ms. The model leaves something out, or the noise is correlated.`;
 }
