@@ -130,7 +130,7 @@ def unmodelled(
     steady = np.abs(np.sum(parts, axis=0)) >= SPREAD * np.where(spread > 0, spread, np.inf)
     scores = np.where((steady | (scores >= CERTAIN)) & np.isfinite(scores), scores, 0.0)
     likely = [_likely(shape, names) for shape in shapes]
-    bias, spread = _bias(J, columns[2:], likely, responses=responses, residuals=residuals, noise=noise)
+    bias, spread = bias_of(J, columns[2:], likely, responses=responses, residuals=residuals, noise=noise)
     best = int(np.argmax(scores))
     if scores[best] >= SURE:
         words = (
@@ -162,7 +162,7 @@ def unmodelled(
     return Missed(found, bias, spread)
 
 
-def _bias(
+def bias_of(
     J: Floats,
     shapes: Sequence[Floats],
     likely: Sequence[float],

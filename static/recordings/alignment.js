@@ -63,7 +63,7 @@ export function alignedTrace({ t, measured, references, voltages }, { from, dura
 export function alignmentWords({ from, shift }) {
   const by = (/** @type {number} */ v) => `${v < 0 ? '' : '+'}${fixed(v * DEGREE, 2)}°`;
   const start = say`The recording’s ${fixed(from, 2)} s are the plots’ 0 s.`;
-  return shift.theta === 0 && shift.psi === 0
-    ? say`${start} Its angles are as measured.`
-    : say`${start} Pitch is shifted by ${by(shift.theta)}, yaw by ${by(shift.psi)}, so that it begins where the design does.`;
+  if (shift.theta === 0 && shift.psi === 0) return say`${start} Its angles are as measured.`;
+  const moved = say`Pitch is shifted by ${by(shift.theta)}, yaw by ${by(shift.psi)}`;
+  return say`${start} ${moved}, so that it begins where the design does.`;
 }

@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 from heli2dof_core.errors import InvalidInputError, RecordingError
 from heli2dof_core.recordings.identification import HELD_OUT, IDENTIFIABLE, identify
 from heli2dof_core.recordings.inertias import by_inertias
-from heli2dof_core.recordings.model_errors import _bias
+from heli2dof_core.recordings.model_errors import bias_of
 from heli2dof_core.recordings.recording import Recording
 from heli2dof_core.recordings.validation import agreement, nrmse_fit, split_at, variance_accounted
 from heli2dof_core.recordings.whiteness import BAND, LAGS, whiteness
@@ -131,7 +131,7 @@ def test_bias_is_that_of_a_normal_law_given_the_residuals():
     J = rng.standard_normal((rows, 2, 2))
     shapes = [rng.standard_normal((rows, 2)) for _ in likely]
     responses, residuals = rng.standard_normal((rows, 3)), rng.standard_normal(rows)
-    bias, spread = _bias(J, shapes, likely, responses=responses, residuals=residuals, noise=noise)
+    bias, spread = bias_of(J, shapes, likely, responses=responses, residuals=residuals, noise=noise)
     kept = [0, 2]
     prior, x = np.diag(np.array(likely)[kept] ** 2), responses[:, kept]
     gain = prior @ x.T @ np.linalg.inv(x @ prior @ x.T + noise**2 * np.eye(rows))
@@ -220,7 +220,7 @@ def test_an_inertia_that_scales_with_all_that_is_free_is_refused(noisy):
     """Pitch rests at level: of yaw the motion shows K/(J_y + m l²) and B_y/(J_y + m l²) alone."""
     spec, _, _, _ = noisy
     rig = spec.parameters.replaced({"K_py": 0.0, "K_yp": 0.02})
-    t = 0.01 * np.arange(800)
+    t = np.arange(800, dtype=np.float64) / 100
     volts = np.column_stack([np.full(800, rig.m * rig.g * rig.l / rig.K_pp), 3 * np.sign(np.sin(2 * t))])
     states = run_held(rig, np.zeros(4), t, volts, None)
     assert np.max(np.abs(states[:, 0])) < 1e-9
