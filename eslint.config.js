@@ -8,6 +8,7 @@ const FLOORS = [
   ['model', 'net'],
   ['ui', 'link', 'kernel'],
   ['charts'],
+  ['rigs'],
   ['plots', 'splane', 'scene', 'recordings', 'explore', 'panels'],
   ['paper', 'compare', 'rig', 'machine', 'clouds'],
   ['optimal'],

@@ -3,6 +3,16 @@
  * not to be changed by hand.
  */
 
+/** How near a rig comes to what was measured. */
+export interface AgreementReply {
+  /** 100 (1 − ‖y − ŷ‖/‖y − ȳ‖), % */
+  fit: PerAxis;
+  /** accounted for, 100 (1 − var(y − ŷ)/var y), % */
+  variance: PerAxis;
+  /** of the residuals, rad */
+  rms: PerAxis;
+}
+
 /** White noise on the measured angles, rad, one value per sample. */
 export interface AngleNoise {
   /** of the noise on measured pitch, rad */
@@ -323,7 +333,7 @@ export interface Erratum {
   proof: Proof;
 }
 
-/** A parameter in SI units with its 95 % interval; `plain` is the half width if residuals were white. */
+/** A parameter in SI units with its 95 % interval, which allows for what the model leaves out. */
 export interface EstimateReply {
   /** of the rig's parameter, or its place in a request: rotors.pitch.tau */
   name: string;
@@ -332,6 +342,9 @@ export interface EstimateReply {
   value: number;
   low: number;
   high: number;
+  /** half width of the interval of a model that leaves nothing out */
+  noise: number;
+  /** likewise, if residuals were white */
   plain: number;
   adopted: number;
 }
@@ -388,6 +401,19 @@ export interface Finding {
   code: string;
   severity: 'info' | 'warning' | 'error';
   message: string;
+}
+
+/** Angles, and what is left of them, at no more than 1500 of the recording's times; null between segments. */
+export interface FittedCourses {
+  /** s */
+  t: number[];
+  measured: Courses;
+  /** of the rig as it was */
+  before: Courses;
+  /** of the rig as it was found */
+  after: Courses;
+  /** measured minus found */
+  residuals: Courses;
 }
 
 /** One expression in three notations. */
@@ -516,6 +542,12 @@ export interface IdentificationReply {
   friction: FrictionPair;
   rms_before: PerAxis | null;
   rms: PerAxis;
+  /** what was fitted, then what was held out where something was */
+  parts: PartReply[];
+  courses: FittedCourses;
+  whiteness: WhitenessPair;
+  /** of the recording, s */
+  sample_time: number;
   segments: number;
   lags: number;
   evaluations: number;
@@ -529,13 +561,15 @@ export interface IdentifyRequest extends DesignRequest {
   columns: Mapping;
   /**
    * thrust constants, damping and stiffness by default, K_s only where it is not 0; names with dots are those of a
-   * request: time constants of rotors, and friction
+   * request: time constants of rotors, and friction; J_p and J_y scale with thrust and damping of their axis
    */
   free?:
-    | ('K_pp' | 'K_py' | 'K_yp' | 'K_yy' | 'B_p' | 'B_y' | 'K_s' | 'rotors.pitch.tau' | 'rotors.yaw.tau' | 'friction.pitch.coulomb' | 'friction.yaw.coulomb')[]
+    | ('K_pp' | 'K_py' | 'K_yp' | 'K_yy' | 'B_p' | 'B_y' | 'K_s' | 'rotors.pitch.tau' | 'rotors.yaw.tau' | 'friction.pitch.coulomb' | 'friction.yaw.coulomb' | 'J_p' | 'J_y')[]
     | null;
   /** s; by default by the rig's stability */
   segment?: number | null;
+  /** share of the recording's time, its end, that is not fitted but held against the result */
+  held_out?: number;
 }
 
 /** State at t = 0; angles are absolute. */
@@ -889,6 +923,22 @@ export interface ParameterInfo {
   minimum: number;
   /** highest value allowed, in `unit` */
   maximum: number;
+}
+
+/** A part of the recording. */
+export interface PartReply {
+  /** whether it was not fitted, but held against the result */
+  held_out: boolean;
+  /** where it begins, s */
+  first: number;
+  /** s */
+  end: number;
+  /** that were simulated in it */
+  segments: number;
+  /** of the rig as it was; null where it runs away */
+  before: AgreementReply | null;
+  /** of the rig as it was found */
+  after: AgreementReply;
 }
 
 /** A number per axis; null where it is not defined. */
@@ -1661,4 +1711,24 @@ export interface Weights {
   states: ProposedQ;
   inputs: ProposedR;
   integrals: ProposedQz;
+}
+
+/** Of both axes. */
+export interface WhitenessPair {
+  theta: WhitenessReply;
+  psi: WhitenessReply;
+}
+
+/** Correlations of the fitted residuals of one axis, 1, 2, … samples apart, and Ljung and Box's test of them. */
+export interface WhitenessReply {
+  /** whether nothing speaks against it */
+  white: boolean;
+  /** with which white residuals would be correlated as much */
+  probability: number;
+  /** shares of the residuals' power */
+  correlations: number[];
+  /** 99 % of those of white residuals lie within ± so much */
+  band: number;
+  /** over which they are correlated visibly, s */
+  span: number;
 }

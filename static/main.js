@@ -243,24 +243,27 @@ async function furtherDown() {
   );
   schedule();
   computeHere().catch(console.warn);
-  const [{ ComparePanel, PinsPanel }, { RigPanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await fetched(
-    () =>
+  const [{ ComparePanel, PinsPanel }, { RigPanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }, { OwnRigs }] =
+    await fetched(() =>
       Promise.all([
         import('./compare/index.js'),
         import('./rig/index.js'),
         import('./recordings/index.js'),
         import('./paper/index.js'),
+        import('./rigs/index.js'),
         styles('recordings'),
+        styles('rigs'),
         styles('paper'),
       ]),
-  );
+    );
   views.figures.unshift(
     drawn([new PinsPanel(byId('pins'), store), byId('pins')]),
     drawn([new ComparePanel(byId('compare'), store), byId('compare')]),
     drawn([new RigPanel(byId('rig'), store), byId('rig')]),
-    drawn([new RecordingsPanel(byId('recordings'), store), byId('recordings')]),
+    drawn([new RecordingsPanel(byId('recordings'), store, plots), byId('recordings')]),
     drawn([new FormulasPanel(byId('formulas'), store), byId('formulas')]),
     drawn([new PaperPanel(byId('paper'), store), byId('paper')]),
+    drawn([new OwnRigs(byId('own-rigs'), store)]),
   );
   schedule();
 }

@@ -68,6 +68,8 @@ export interface Scenario extends Said<
 /** What the user chose, and all of it: everything else on the page follows from this. */
 export interface Design extends Choices {
   preset: string;
+  /** the name of the rig of one's own that it stands for */
+  rig?: string;
   /** overrides of the preset's values */
   parameters: Record<string, number>;
   limits: Limits;
@@ -87,6 +89,17 @@ export interface Design extends Choices {
   observer?: Observer;
   /** of the quadratic methods; absent: Bryson's rule for the preset's limits */
   weights?: Weights;
+}
+
+/** A rig of one's own: all its values, in SI units, and the preset from which it stems. */
+export interface OwnRig {
+  name: string;
+  preset: string;
+  parameters: Record<string, number>;
+  limits: Limits;
+  rotors: contract.RotorsChanges;
+  friction: contract.AxisFrictionChanges;
+  operating_point: { theta: number };
 }
 
 /** How the states are estimated. */
@@ -166,6 +179,16 @@ export interface Recorded {
   foundFor: Design | null;
 }
 
+/** A stretch of a recording beside the design, in its time; rad and V. */
+export interface Beside extends Record<'t' | Axis | Motor, Float64Array> {
+  /** of the recording, s */
+  from: number;
+  /** rad */
+  shift: Record<Axis, number>;
+  plotted: boolean;
+  ghost: boolean;
+}
+
 /** Uncertain rigs under one controller. */
 export interface Cloud {
   /** rigs whose poles are known */
@@ -216,6 +239,8 @@ export interface State {
   /** names in locks.js */
   locks: string[];
   recorded: Recorded;
+  /** null: no recording is shown beside the design */
+  beside: Beside | null;
   /** what is to be said of the link that was opened, or of this design's numbers */
   notice: string | null;
   /** that a part of the page could not be drawn */

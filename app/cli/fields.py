@@ -201,7 +201,14 @@ DRIVER = Option(
 )
 SEGMENT = Option("--segment", "segment", click.FLOAT, "Length of a segment, s; by the rig by default.")
 FREE = Option("--free", "free", Words(), "What is to be found, with commas: K_pp,B_p,rotors.pitch.tau.")
-ALL = (*DESIGN, *LOOPS, *SCENARIO, MODEL, FREQUENCIES, *COLUMNS, SEPARATOR, DECIMAL, DRIVER, SEGMENT, FREE)
+HELD_OUT = Option(
+    "--held-out",
+    "held_out",
+    click.FLOAT,
+    "Share of the time, its end, that is left for validation; 0: nothing.",
+)
+RECORDED = (*COLUMNS, SEPARATOR, DECIMAL, DRIVER, SEGMENT, FREE, HELD_OUT)
+ALL = (*DESIGN, *LOOPS, *SCENARIO, MODEL, FREQUENCIES, *RECORDED)
 
 
 def takes(*options: Option) -> Callable[[F], F]:

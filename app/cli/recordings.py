@@ -7,7 +7,20 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
-from .fields import COLUMNS, DECIMAL, DESIGN, DRIVER, FREE, LOOPS, SCENARIO, SEGMENT, SEPARATOR, body, takes
+from .fields import (
+    COLUMNS,
+    DECIMAL,
+    DESIGN,
+    DRIVER,
+    FREE,
+    HELD_OUT,
+    LOOPS,
+    SCENARIO,
+    SEGMENT,
+    SEPARATOR,
+    body,
+    takes,
+)
 from .output import load_kernels, print_json, refusals, show
 
 if TYPE_CHECKING:
@@ -82,15 +95,16 @@ def overlay(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **valu
 
 @click.command("identify")
 @_FILES
-@takes(*DESIGN, *COLUMNS, *_TEXT, SEGMENT, FREE)
+@takes(*DESIGN, *COLUMNS, *_TEXT, SEGMENT, FREE, HELD_OUT)
 def identify(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **values: Any) -> None:
     """Find the rig's damping, stiffness and thrust constants from FILES, with 95 % intervals.
 
-    And, where they are among those to be found, time constants of its rotors and friction of its axes.
+    And, where they are among those to be found, time constants of its rotors, friction of its axes and its moments of
+    inertia. The last third of the time is not fitted, but held against what was found.
     """
     from heli2dof_core.recordings.recording import recording_of
 
-    from ..contract.recordings import IdentifyRequest, identification_reply, identified
+    from ..contract.identification import IdentifyRequest, identification_reply, identified
 
     with refusals(as_json):
         table, columns, request = _opened(files, base, values)
@@ -99,8 +113,8 @@ def identify(files: tuple[Path, ...], as_json: bool, base: IO[str] | None, **val
         load_kernels()
         found = identified(asked, spec, recording)
         if as_json:
-            return print_json(identification_reply(found))
-        show([_estimates(found)], _about(recording), findings=found.findings)
+            return print_json(identification_reply(found, recording))
+        show([_estimates(found), _parts(found)], _about(recording), findings=found.findings)
     return None
 
 
@@ -142,6 +156,25 @@ def _unit(columns: Columns, role: str) -> str:
 def _about(recording: Recording) -> str:
     rate = f"{1e3 * recording.sample_time:.4g} ms apart"
     return f"{len(recording.t)} rows, {rate}, {recording.t[-1]:.4g} s."
+
+
+def _parts(found: Identification) -> Any:
+    from heli2dof_core.tables import Table as Shown
+    from heli2dof_core.tables import number
+
+    def cells(values: tuple[float | None, float | None]) -> tuple[str, ...]:
+        return tuple("–" if v is None else number(v) for v in values)
+
+    rows = [
+        (
+            f"{('fitted', 'held out')[i]}, {number(part.first)} to {number(part.end)} s",
+            *(cells(part.before.fit) if part.before else ("–", "–")),
+            *cells(part.after.fit),
+        )
+        for i, part in enumerate(found.parts)
+    ]
+    head = ("part", "pitch before (%)", "yaw before (%)", "pitch found (%)", "yaw found (%)")
+    return Shown.of("fit 100 (1 − ‖y − ŷ‖/‖y − ȳ‖)", head, rows)
 
 
 def _estimates(found: Identification) -> Any:

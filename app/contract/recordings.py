@@ -6,13 +6,13 @@ from collections.abc import Callable
 from typing import Annotated, Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from heli2dof_core import Spec, loop_of
 from heli2dof_core.errors import within_field
 from heli2dof_core.recordings.files import MOST_FILES
 from heli2dof_core.recordings.guess import guess_columns
-from heli2dof_core.recordings.identification import FREE, Identification, Progress, identify
 from heli2dof_core.recordings.overlay import (
     Overlay,
     driven_by_references,
@@ -22,15 +22,12 @@ from heli2dof_core.recordings.overlay import (
 from heli2dof_core.recordings.recording import ROLES, AngleUnit, Columns, Recording, Table
 from heli2dof_core.recordings.time_axis import likely_unit
 from heli2dof_core.recordings.units import SECONDS
-from heli2dof_core.request import FRICTION, ROTOR
 from heli2dof_core.signals import Floats
 
-from .design import DesignRequest
 from .experiment import StepRequest
 from .fields import Strict, Whole, asked
 from .model import Finding, Model, Reply
 from .places import COLUMNS
-from .presets import FrictionPair, RotorPair
 
 PREVIEWED = 5
 
@@ -125,22 +122,6 @@ class OverlayRequest(StepRequest):
     )
 
 
-class IdentifyRequest(DesignRequest):
-    """A rig as it is thought to be, its rotors and friction too, and what of it is free."""
-
-    recording: str = Field(max_length=64)
-    columns: Mapping
-    free: list[Annotated[str, Field(json_schema_extra={"enum": [*FREE]})]] | None = Field(
-        default=None,
-        max_length=len(FREE),
-        description="thrust constants, damping and stiffness by default, K_s only where it is not 0; names with "
-        "dots are those of a request: time constants of rotors, and friction",
-    )
-    segment: float | None = Field(
-        default=None, ge=0.1, le=1e4, description="s; by default by the rig's stability"
-    )
-
-
 class Guess(Model):
     """What the columns probably are."""
 
@@ -224,37 +205,6 @@ class OverlayReply(Model):
     findings: list[Finding]
 
 
-class EstimateReply(Model):
-    """A parameter in SI units with its 95 % interval; `plain` is the half width if residuals were white."""
-
-    name: str = Field(description="of the rig's parameter, or its place in a request: rotors.pitch.tau")
-    unit: str
-    before: float
-    value: float
-    low: float
-    high: float
-    plain: float
-    adopted: float
-
-
-class IdentificationReply(Model):
-    """The result over the socket; before it come `{"evaluations", "rms"}`."""
-
-    done: bool
-    estimates: list[EstimateReply]
-    rotors: RotorPair = Field(
-        description="with what was found, as a request takes them; quadratic curves say where they are matched"
-    )
-    friction: FrictionPair = Field(description="likewise")
-    rms_before: PerAxis | None = None
-    rms: PerAxis
-    segments: int
-    lags: float
-    evaluations: int
-    seconds: float
-    findings: list[Finding]
-
-
 def overlaid(
     request: OverlayRequest, recording: Recording, wanted: Callable[[], None] = lambda: None
 ) -> Overlay:
@@ -264,7 +214,7 @@ def overlaid(
         RecordingError: the rig runs away, or what drives it was not recorded.
     """
     spec = request.to_spec()
-    rig, machine = (spec.parameters, recording), _machine(spec)
+    rig, machine = (spec.parameters, recording), machine_of(spec)
     if request.driver == "voltages":
         return driven_by_voltages(*rig, spec.limits.theta, wanted, **machine)
     if request.driver == "segments":
@@ -273,32 +223,7 @@ def overlaid(
     return driven_by_references(loop, spec.limits, recording, spec.scenario.digital, wanted)
 
 
-def identified(
-    request: IdentifyRequest,
-    spec: Spec,
-    recording: Recording,
-    report: Callable[[Progress], None] = lambda progress: None,
-    wanted: Callable[[], None] = lambda: None,
-) -> Identification:
-    """What the recording says about the rig of `spec`, which is the request's.
-
-    Raises:
-        InvalidInputError: what shall be free cannot be.
-        RecordingError: the recording does not say what is asked of it.
-    """
-    return identify(
-        spec.parameters,
-        recording,
-        request.free,
-        segment=request.segment,
-        travel=spec.limits.theta,
-        report=report,
-        wanted=wanted,
-        **_machine(spec),
-    )
-
-
-def _machine(spec: Spec) -> dict[str, Any]:
+def machine_of(spec: Spec) -> dict[str, Any]:
     """Rotors and friction, and what matches thrust curves that do not say it themselves."""
     limits = spec.limits.V_p, spec.limits.V_y
     return {"rotors": spec.rotors, "friction": spec.friction, "theta_0": spec.theta_0, "limits": limits}
@@ -338,58 +263,49 @@ def _sample_time(table: Table, guess: Columns) -> float | None:
 
 def overlay_reply(driver: Driver, recording: Recording, overlay: Overlay) -> Reply:
     """Both courses, thinned out."""
-    n = len(recording.t)
-    kept = np.unique(np.linspace(0, n - 1, min(n, MOST_POINTS)).round().astype(int))
-    references, simulated = recording.references, overlay.angles[kept]
-    part = np.searchsorted(overlay.segments[:, 0], kept, side="right")
-    simulated[1:][np.diff(part) > 0] = np.nan  # a gap in the curve where a segment begins
+    n, kept = len(recording.t), kept_rows(recording)
+    references, simulated = recording.references, gapped(overlay.angles, overlay.segments, kept)
     return {
         "driver": driver,
         "samples": n,
         "sample_time": recording.sample_time,
         "duration": float(recording.t[-1]),
-        "fit": _axes(overlay.fit),
-        "rms": _axes(overlay.rms),
+        "fit": per_axis(overlay.fit),
+        "rms": per_axis(overlay.rms),
         "segments": len(overlay.segments),
         "t": recording.t[kept],
-        "measured": _courses(recording.angles[kept]),
-        "simulated": _courses(simulated),
-        "residuals": _courses((recording.angles - overlay.angles)[kept]),
-        **({} if references is None else {"references": _courses(references[kept])}),
+        "measured": courses(recording.angles[kept]),
+        "simulated": courses(simulated),
+        "residuals": courses((recording.angles - overlay.angles)[kept]),
+        **({} if references is None else {"references": courses(references[kept])}),
         "voltages": _volts(recording.voltages[kept]),
         "driving": _volts(overlay.voltages[kept]),
         "findings": [vars(finding) for finding in (*recording.findings, *overlay.findings)],
     }
 
 
-def progress_reply(progress: Progress) -> Reply:
-    """How far the search is."""
-    return {"done": False, "evaluations": progress.evaluations, "rms": _axes(progress.rms)}
+def kept_rows(recording: Recording) -> NDArray[np.int64]:
+    """Rows that are sent."""
+    n = len(recording.t)
+    return np.unique(np.linspace(0, n - 1, min(n, MOST_POINTS)).round().astype(np.int64))
 
 
-def identification_reply(found: Identification) -> Reply:
-    """What was found."""
-    return {
-        "done": True,
-        "estimates": [{**vars(e), "adopted": e.allowed} for e in found.estimates],
-        "rotors": {axis: place.proposal(getattr(found.rotors, axis)) for axis, place in ROTOR.items()},
-        "friction": {axis: place.proposal(getattr(found.friction, axis)) for axis, place in FRICTION.items()},
-        "rms_before": None if found.rms_before is None else _axes(found.rms_before),
-        "rms": _axes(found.rms),
-        "segments": len(found.segments),
-        "lags": found.lags,
-        "evaluations": found.evaluations,
-        "seconds": found.seconds,
-        "findings": [vars(finding) for finding in found.findings],
-    }
+def gapped(angles: Floats, segments: NDArray[np.int64], kept: NDArray[np.int64]) -> Floats:
+    """Simulated angles at these rows, with a gap in the curve where a segment begins."""
+    shown = angles[kept]
+    part = np.searchsorted(segments[:, 0], kept, side="right")
+    shown[1:][np.diff(part) > 0] = np.nan
+    return shown
 
 
-def _axes(values: tuple[float | None, float | None]) -> Reply:
+def per_axis(values: tuple[float | None, float | None]) -> Reply:
+    """Pitch's and yaw's; None where they are no numbers."""
     theta, psi = (v if v is not None and np.isfinite(v) else None for v in values)
     return {"theta": theta, "psi": psi}
 
 
-def _courses(angles: Floats) -> Reply:
+def courses(angles: Floats) -> Reply:
+    """Angles (n, 2), an array per axis."""
     return {name: np.ascontiguousarray(angles[:, i]) for i, name in enumerate(("theta", "psi"))}
 
 

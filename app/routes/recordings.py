@@ -13,27 +13,24 @@ from heli2dof_core import Spec, loop_of, preset
 from heli2dof_core.engine import engine
 from heli2dof_core.export.machine import machine_lines
 from heli2dof_core.recordings.files import Dialect, joined_tables, read_table, write_csv
-from heli2dof_core.recordings.files.text import Decimal, Separator
+from heli2dof_core.recordings.files.text import SYNTHETIC, Decimal, Separator
 from heli2dof_core.recordings.identification import Progress
 from heli2dof_core.recordings.recording import Table, recording_of
 from heli2dof_core.recordings.samples import deviating_rig, named_columns, sample_recording
 from heli2dof_core.scenario import Digital
 
 from ..contract.encoding import described_files, json_response, json_text
+from ..contract.identification import IdentifyRequest, identification_reply, identified, progress_reply
 from ..contract.model import Reply, described
 from ..contract.recordings import (
-    IdentifyRequest,
     JoinRequest,
     OverlayReply,
     OverlayRequest,
     Preview,
     SampleRequest,
-    identification_reply,
-    identified,
     overlaid,
     overlay_reply,
     preview_reply,
-    progress_reply,
 )
 from ..edge.messages import Mailbox
 from ..jobs.compute import Compute, check_cancelled, current_caller
@@ -131,7 +128,7 @@ def _sample(request: SampleRequest) -> bytes:
     changed = {name: v for name, v in rig.as_dict().items() if v != getattr(spec.parameters, name)}
     truth = ", ".join(f"{name} = {value:.6g}" for name, value in changed.items())
     comments = (
-        "A digital rig of heli2dof: angles in rad, voltages in V",
+        f"{SYNTHETIC}: angles in rad, voltages in V",
         f"Its true parameters, SI: {truth}" if truth else "Its parameters are the design's",
         *machine_lines(spec),
     )
@@ -156,7 +153,7 @@ async def _identify(
 
     def work() -> Reply:
         recording = recording_of(table, request.columns.to_columns())
-        return identification_reply(identified(request, spec, recording, report, check_cancelled))
+        return identification_reply(identified(request, spec, recording, report, check_cancelled), recording)
 
     running = asyncio.ensure_future(compute.run_slow(work))
     running.add_done_callback(lambda _: news.put(None))

@@ -1,8 +1,9 @@
 """The rig as nodes of a viser server. Imported only when the first session is made: viser is slow.
 
 Nodes that the page moves: /rig/yoke (ψ), /rig/yoke/body (θ), its rotors and blurs (spin) and thrust
-arrows; /rig/yoke's two stops; /ghost (the reference), /ghosts/linear and /ghosts/0 to 5 (pinned
-designs), each with a yoke and a body. static/scene/pose.js and scene/ghosts.js name the same nodes.
+arrows; /rig/yoke's two stops; /ghost (the reference), /ghosts/linear, /ghosts/0 to 5 (pinned
+designs) and /ghosts/recorded, each with a yoke and a body. static/scene/pose.js and scene/ghosts.js
+name the same nodes.
 """
 
 from __future__ import annotations
@@ -27,8 +28,8 @@ LOOPBACK = "127.0.0.1"
 Point = tuple[float, float, float]
 Color = tuple[int, int, int]
 ORIGIN: Point = (0.0, 0.0, 0.0)
-GHOSTS = ("linear", *(str(k) for k in range(6)))
-"""Ghosts beside the reference: the linear model and pinned designs, as many as have a colour."""
+GHOSTS = ("linear", "recorded", *(str(k) for k in range(6)))
+"""Ghosts beside the reference: the linear model, a recording, and pinned designs, as many as have a colour."""
 
 # First colours; the page sets those of its theme.
 _SCALE: Color = (78, 86, 96)

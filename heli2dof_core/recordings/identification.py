@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..checks import require_within
 from ..errors import Wanted, nobody_leaves
@@ -19,8 +21,10 @@ from .model_errors import unmodelled
 from .recording import Recording
 from .search import Search, pair
 from .segments import RUN_UP, bridged, cut, divergence_told, segment_length
-from .told import correlated, remarks, require_excited
-from .unknowns import ACTUATORS, FREE, IDENTIFIABLE, Unknowns, checked, default_free, info
+from .told import correlated, nothing_held, remarks, require_excited, scaled_together
+from .unknowns import ACTUATORS, FREE, IDENTIFIABLE, INERTIAS, Unknowns, checked, default_free, info
+from .validated import validated
+from .validation import HELD_OUT, MOST_HELD_OUT, fitted_part, split_at, until
 from .whiteness import whiteness
 
 QUANTILE = 1.959964
@@ -43,6 +47,7 @@ def identify(
     limits: tuple[float, float] | None = None,
     segment: float | None = None,
     travel: float | None = None,
+    held_out: float = 0.0,
     report: Callable[[Progress], None] = lambda progress: None,
     wanted: Wanted = nobody_leaves,
 ) -> Identification:
@@ -52,8 +57,14 @@ def identify(
     recorded voltages in segments whose starting states are unknown too, is fitted by SciPy's trust-region
     Gauss–Newton method, starting states eliminated within each step (Golub & Pereyra, SIAM J. Numer. Anal. 10
     (1973) 413–432). Short segments bring a wrong rig near; then both axes are weighted alike, then by their
-    residuals. Intervals are those of `grouped_covariance`, of the kind for correlated residuals unless a test finds
-    them white, and never narrower than for white ones.
+    residuals.
+
+    An interval of noise alone is that of `grouped_covariance`, of the kind for correlated residuals unless a test
+    finds them white, and never narrower than for white ones. The interval that is told allows for the model, too:
+    |b| + √(w² + z²(s² + τ²)) on both sides, with w that of noise, b and s the bias that usual effects make and its
+    spread, as far as the residuals tell it (`unmodelled`), and τ by how much more the part that is held out would
+    have it moved than noise moves it (`validated`). It holds the truth where these effects are what the model leaves
+    out and are small enough that their sum is; not where units, signs, m, l or the columns are wrong.
 
     Where rotors take time or an axis rubs, or that is to be found, thrust follows the rotors' speeds, which depend on
     their time constants and the recorded voltages alone: a run-up without segments lets them forget how they began.
@@ -61,13 +72,14 @@ def identify(
     Args:
         p: the rig as it is thought to be; what is not free stays.
         recording: at least as long as the rig's slowest motion.
-        free: of `IDENTIFIABLE` and `ACTUATORS`.
+        free: of `IDENTIFIABLE`, `ACTUATORS` and `INERTIAS`.
         rotors: as they are thought to be; what is not free of them stays, dead zones and curves always.
         friction: likewise, of the axes.
         theta_0: operating point, rad, at whose trim a thrust curve is matched that does not say it itself.
         limits: of both voltages, V, for a motor that rests at the trim.
         segment: length, s; by default as long as no error grows much (`segment_length`).
         travel: pitch stops at ±travel, rad; what happens there is left out.
+        held_out: share of the recording's time, its end, that is not fitted, but held against what was found.
         report: called after each simulation; what it raises ends the search.
         wanted: called more often, within a simulation; what it raises ends the search.
 
@@ -78,24 +90,35 @@ def identify(
     began = perf_counter()
     names = checked(default_free(p) if free is None else free)
     unknowns = Unknowns.of(p, acting_of(p, rotors, friction, theta_0, limits), names)
-    length = segment_length(p, recording) if segment is None else segment
-    require_within(length, "segment", "s", 0.1, 1e4)
+    require_within(held_out, "held_out", "", 0.0, MOST_HELD_OUT)
     recording = bridged(recording)
+    row = split_at(recording, held_out)
+    length = segment_length(p, until(recording, row)) if segment is None else segment
+    require_within(length, "segment", "s", 0.1, 1e4)
+
+    def bounded(length: float, values: Floats) -> NDArray[np.int64]:
+        return cut(recording, length, travel, RUN_UP * unknowns.run_up(values), row)
 
     def segmented(length: float, values: Floats, spent: int = 0) -> Search:
-        bounds = cut(recording, length, travel, RUN_UP * unknowns.run_up(values))
+        bounds = fitted_part(bounded(length, values), row)
         return Search(unknowns, recording, bounds, report=report, wanted=wanted, evaluations=spent)
 
     with divergence_told():
         search, before, values = _found(segmented, unknowns, length)
-        return _concluded(search, before, values, (rotors, friction), began)
+        held = bounded(length, search.deviations)
+        held = held[held[:, 0] >= (len(recording.t) if row is None else row)]
+        bounds = np.concatenate([search.bounds, held])
+        found = _concluded(search, before, values, thought=(rotors, friction), bounds=bounds, began=began)
+        return replace(found, findings=(*found.findings, *nothing_held(held_out, len(held))))
 
 
 def _concluded(
     search: Search,
     before: tuple[float, float] | None,
     values: Floats,
+    *,
     thought: tuple[Rotors, AxisFriction],
+    bounds: NDArray[np.int64],
     began: float,
 ) -> Identification:
     """The estimates with their intervals, and what is to be said of them."""
@@ -109,10 +132,8 @@ def _concluded(
     power = 0.5 if all(axis.white for axis in tested) else 1.0
     covariance = grouped_covariance(J, r, groups, after.basis, power)
     own = student_quantile(len(groups) - len(names)) * np.sqrt(np.diag(covariance))
-    plain = QUANTILE * search.scales * np.sqrt(np.diag(plain_covariance(J[inside], r[inside], count)))
-    widths = np.maximum(
-        search.scales * own, plain
-    )  # few groups may underrate what white noise does by itself
+    white = QUANTILE * np.sqrt(np.diag(plain_covariance(J[inside], r[inside], count)))
+    widths = np.maximum(own, white)  # few groups may underrate what white noise does by itself
     missed = unmodelled(
         unknowns.rig(values),
         recording,
@@ -120,18 +141,26 @@ def _concluded(
         after.starts,
         J=J,
         r=r,
-        widths=widths / search.scales,
+        widths=widths,
         names=names,
         weights=search.weights,
         step=search.step,
         acting=unknowns.acted(values),
         wanted=search.wanted,
     )
+    checked_on = validated(search, values, bounds, covariance, power)
+    more = np.diag(missed.spread) + checked_on.spread
+    whole = np.abs(missed.bias) + np.sqrt(widths**2 + QUANTILE**2 * more)
     estimates = []
     for i, name in enumerate(names):
-        own, value = unknowns.value(i, unknowns.before), unknowns.value(i, values)
-        unit, width = info(name).unit, float(widths[i])
-        estimates.append(Estimate(name, unit, own, value, value - width, value + width, float(plain[i])))
+        thought_of, value, scale = (
+            unknowns.value(i, unknowns.before),
+            unknowns.value(i, values),
+            search.scales[i],
+        )
+        unit, half = info(name).unit, float(scale * whole[i])
+        sizes = float(scale * widths[i]), float(scale * white[i])
+        estimates.append(Estimate(name, unit, thought_of, value, value - half, value + half, *sizes))
     adopted = unknowns.adopted({e.name: e.allowed for e in estimates}, *thought)
     return Identification(
         estimates=tuple(estimates),
@@ -142,13 +171,20 @@ def _concluded(
         rms=pair(search.rms(after)),
         residuals=after.residuals,
         segments=search.bounds,
+        parts=checked_on.parts,
+        before=checked_on.before,
+        after=checked_on.after,
+        bounds=bounds,
+        whiteness=(tested[0], tested[1]),
         lags=float(np.median(np.diff(groups, axis=1))),
         evaluations=search.evaluations,
         seconds=perf_counter() - began,
         findings=(
             *recording.findings,
-            *missed,
+            *checked_on.findings,
+            *missed.findings,
             *correlated(tested, recording.sample_time),
+            *scaled_together(unknowns.p, estimates, covariance * np.outer(search.scales, search.scales)),
             *remarks(estimates, J[inside], names, search),
         ),
     )
@@ -182,7 +218,10 @@ def _found(
 __all__ = [
     "ACTUATORS",
     "FREE",
+    "HELD_OUT",
     "IDENTIFIABLE",
+    "INERTIAS",
+    "MOST_HELD_OUT",
     "Estimate",
     "Identification",
     "Progress",

@@ -13,6 +13,8 @@ from ..parameters import Parameters
 from ..rotors import AxisFriction, Rotors
 from ..signals import Floats
 from .unknowns import info
+from .validation import Part
+from .whiteness import Whiteness
 
 
 @dataclass(frozen=True)
@@ -22,8 +24,9 @@ class Estimate:
     Attributes:
         name, unit: of the parameter; of rotors and friction its place in a design (``rotors.pitch.tau``).
         before, value: as it was, and as found.
-        low, high: its 95 % interval, correlated residuals considered.
-        plain: half width of the interval that takes the residuals for white.
+        low, high: its 95 % interval, with what the model leaves out (`identify`).
+        noise: half width of the interval of a model that leaves nothing out, correlated residuals considered.
+        plain: likewise, where the residuals are taken for white.
     """
 
     name: str
@@ -32,6 +35,7 @@ class Estimate:
     value: float
     low: float
     high: float
+    noise: float
     plain: float
 
     @property
@@ -58,8 +62,13 @@ class Identification(Frozen):
         rotors, friction: likewise; quadratic curves say where they are matched, as the rig's trim may have moved.
         rms_before, rms: of the residuals of θ and ψ, rad; starting states are fitted in both. Before: None where
             the rig as it was thought to be runs away.
-        residuals: measured minus simulated, (n, 2), rad; 0 where nothing was simulated.
-        segments: (count, 2), first sample and last + 1.
+        residuals: measured minus simulated, (n, 2), rad, of what was fitted; 0 elsewhere.
+        segments: (count, 2), first sample and last + 1, of what was fitted.
+        parts: what was fitted, then what was held out where something was.
+        before, after: angles of the rig as it was thought to be and as it was found, (n, 2), rad, in segments of both
+            parts; NaN elsewhere, and where the rig as it was thought to be runs away.
+        bounds: of these segments, (count, 2).
+        whiteness: of the fitted residuals of pitch and yaw, weighted.
         lags: over which the residuals' correlation was taken into account, samples.
         evaluations: simulations of the recording.
         seconds: that it took.
@@ -74,6 +83,11 @@ class Identification(Frozen):
     rms: tuple[float, float]
     residuals: Floats
     segments: NDArray[np.int64]
+    parts: tuple[Part, ...]
+    before: Floats
+    after: Floats
+    bounds: NDArray[np.int64]
+    whiteness: tuple[Whiteness, Whiteness]
     lags: float
     evaluations: int
     seconds: float

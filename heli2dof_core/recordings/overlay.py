@@ -21,6 +21,7 @@ from .beginnings import beginnings
 from .recording import Recording
 from .segments import SHORTEST, bridged, cut, divergence_told, fit_of, segment_length
 from .time_axis import stretches
+from .validation import nrmse_fit
 
 USUAL_SAMPLE_TIME = 0.002
 """Of the controller where none is given, s; a recording that is finer decides."""
@@ -47,15 +48,6 @@ class Overlay(Frozen):
     rms: tuple[float, float]
     segments: NDArray[np.int64]
     findings: tuple[Finding, ...] = ()
-
-
-def nrmse_fit(measured: Floats, simulated: Floats) -> float | None:
-    """100 (1 − ‖y − ŷ‖/‖y − ȳ‖), % (as MATLAB's compare and goodnessOfFit); None where y never changes.
-
-    100 is perfect, 0 as good as the mean, and there is no lowest value.
-    """
-    spread = float(np.linalg.norm(measured - np.mean(measured)))
-    return 100.0 * (1.0 - float(np.linalg.norm(measured - simulated)) / spread) if spread > 0 else None
 
 
 def driven_by_voltages(
@@ -198,3 +190,6 @@ def _overlay(recording: Recording, angles: Floats, voltages: Floats, bounds: NDA
     fit = [nrmse_fit(measured[:, axis], simulated[:, axis]) for axis in (0, 1)]
     rms = np.sqrt(np.mean((measured - simulated) ** 2, axis=0))
     return Overlay(angles, voltages, (fit[0], fit[1]), (float(rms[0]), float(rms[1])), bounds, findings)
+
+
+__all__ = ["Overlay", "driven_by_references", "driven_by_voltages", "driven_in_segments", "nrmse_fit"]

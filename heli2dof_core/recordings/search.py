@@ -14,7 +14,7 @@ from ..simulation.recorded import longest_step
 from .identified import Progress
 from .recording import Recording
 from .segments import Fitted, fit_starts, rough_starts
-from .unknowns import FREE, Unknowns
+from .unknowns import FREE, INERTIAS, Unknowns
 
 MOST_EVALUATIONS = 60
 TOLERANCE = 1e-6
@@ -38,7 +38,6 @@ class Search:
         self.unknowns, self.recording, self.bounds, self.report = unknowns, recording, bounds, report
         self.names, self.scales = unknowns.names, unknowns.scales
         self.weights, self.evaluations, self.ended = np.ones(2), evaluations, True
-        self._columns = [FREE.index(name) for name in self.names]
         self._starts = rough_starts(recording, bounds)
         self._last: tuple[Floats, float, Any] = np.full(len(self.names), np.nan), 0.0, None
         self.step = longest_step(unknowns.p) / 2
@@ -75,6 +74,7 @@ class Search:
             weights=self.weights,
             step=self.step,
             acting=self.unknowns.acted(deviations),
+            inertias=self.unknowns.inertias,
             wanted=self.wanted,
         )
         self._starts, self._last = answer.starts, (deviations.copy(), key, answer)
@@ -88,7 +88,12 @@ class Search:
 
     def slopes(self, fitted: Fitted) -> Floats:
         """Derivatives of the simulated angles by the free parameters in their scales, (n, 2, free)."""
-        return fitted.slopes[:, :, self._columns] * self.scales
+        known = fitted.slopes.shape[2] - len(self.unknowns.inertias)
+        columns = [
+            FREE.index(name) if name not in INERTIAS else known + self.unknowns.inertias.index(name)
+            for name in self.names
+        ]
+        return fitted.slopes[:, :, columns] * self.scales
 
     def minimum(self, start: Floats, tolerance: float = TOLERANCE) -> Floats:
         """Deviations at the least sum of weighted squares."""

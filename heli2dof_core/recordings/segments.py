@@ -8,7 +8,7 @@ pp. 102–125; Ljung, System Identification, 1999, section 13.4 on closed loops)
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -22,6 +22,7 @@ from ..frozen import Frozen
 from ..parameters import Parameters
 from ..signals import Floats
 from ..simulation.recorded import Turning, longest_step, run_segments, turning
+from .inertias import by_inertias
 from .recording import Recording
 from .time_axis import missing_rows, stretches
 
@@ -95,8 +96,8 @@ class Fitted(Frozen):
     Attributes:
         starts: (segments, 4).
         residuals: measured minus simulated angles, (n, 2), rad; 0 outside the segments.
-        slopes: derivatives of the simulated angles by the seven parameters, (n, 2, 7), with rotors by four more,
-            with whatever the starting states can make up for taken out; 0 outside.
+        slopes: derivatives of the simulated angles by the seven parameters, (n, 2, 7), with rotors by four more, then
+            by the inertias that were asked for; what the starting states can make up for is taken out; 0 outside.
         basis: of what its starting state can do, weighted, orthonormal in each segment, (n, 2, 4); 0 outside.
     """
 
@@ -116,11 +117,13 @@ def segment_length(p: Parameters, recording: Recording) -> float:
     return whole if growth <= 0 else min(whole, max(SHORTEST, GROWTH / growth))
 
 
-def cut(recording: Recording, length: float, travel: float | None, run_up: float = 0.0) -> NDArray[np.int64]:
+def cut(
+    recording: Recording, length: float, travel: float | None, run_up: float = 0.0, edge: int | None = None
+) -> NDArray[np.int64]:
     """First and last + 1 of each segment, (segments, 2).
 
-    They last at most `length` s; none crosses a gap of the recording, none lies where pitch is on a stop, and none
-    within `run_up` s, but at most `LONGEST_RUN_UP`, from where a stretch begins.
+    They last at most `length` s; none crosses a gap of the recording or the row `edge`, none lies where pitch is on
+    a stop, and none within `run_up` s, but at most `LONGEST_RUN_UP`, from where a stretch begins.
 
     Raises:
         RecordingError: nothing is left.
@@ -133,7 +136,7 @@ def cut(recording: Recording, length: float, travel: float | None, run_up: float
             since = recording.t[first:end] - recording.t[first]
             free[first:end] &= since >= min(run_up, LONGEST_RUN_UP * float(since[-1]))
     bounds, short = [], False
-    for first, end in _runs(free, recording):
+    for first, end in _runs(free, recording, edge):
         if end - first < FEWEST:
             short = True
             continue
@@ -156,9 +159,11 @@ def cut(recording: Recording, length: float, travel: float | None, run_up: float
     return np.array(bounds, dtype=np.int64)
 
 
-def _runs(free: NDArray[np.bool_], recording: Recording) -> Iterator[tuple[int, int]]:
+def _runs(free: NDArray[np.bool_], recording: Recording, edge: int | None) -> Iterator[tuple[int, int]]:
     """First row and last + 1 wherever the rig is free and its voltages are known."""
     edges = np.union1d(stretches(recording.t).ravel(), _leaps(recording))
+    if edge is not None:
+        edges = np.union1d(edges, [edge])
     for first, end in pairwise(edges.astype(int).tolist()):
         own = np.concatenate([[False], free[first:end], [False]]).astype(int)
         for run in np.flatnonzero(np.diff(own)).reshape(-1, 2).tolist():
@@ -187,6 +192,7 @@ def fit_starts(
     step: float,
     acting: Floats | None = None,
     away: Floats | None = None,
+    inertias: Sequence[str] = (),
     wanted: Wanted = nobody_leaves,
 ) -> Fitted:
     """Gauss and Newton's method on each segment's starting state, from `starts`; p stays.
@@ -204,6 +210,7 @@ def fit_starts(
         acting: rotors and friction, `rotors.Actuators.constants`; None for the paper's rig.
         away: how far rotors are from the first voltages where a stretch begins, (stretches, 2), V; None: they are
             settled.
+        inertias: by which the slopes are wanted, too.
         wanted: called now and then; what it raises ends the fit.
 
     Raises:
@@ -212,8 +219,19 @@ def fit_starts(
     t, angles, volts = recording.t, recording.angles, recording.voltages
     rotors = None if acting is None else turning(acting, stretches(t), t, volts, away)
     starts = starts.copy()
+
+    def concluded(starts: Floats, slopes: Floats, residuals: Floats) -> Fitted:
+        if inertias:
+            more = by_inertias(
+                inertias, p, starts, bounds, t=t, volts=volts, step=step, rotors=rotors, wanted=wanted
+            )
+            slopes = np.concatenate([slopes, more * weights[:, None]], axis=2)
+        return _projected(bounds, weights, starts, slopes, residuals)
+
     if rotors is not None:
-        return _fit_guarded(p, recording, bounds, starts, rotors, weights=weights, step=step, wanted=wanted)
+        return concluded(
+            *_fit_guarded(p, recording, bounds, starts, rotors, weights=weights, step=step, wanted=wanted)
+        )
     last = starts, np.empty(0), np.empty(0)
     for _ in range(_MOST_STEPS):
         outputs, slopes = run_segments(p, starts, bounds, t, volts, step=step, wanted=wanted)
@@ -226,7 +244,7 @@ def fit_starts(
             largest = max(largest, share)
         if largest < _TOLERANCE:  # the last step is below what the residuals show
             break
-    return _projected(bounds, weights, *last)
+    return concluded(*last)
 
 
 def _change(residuals: Floats, slopes: Floats) -> tuple[Floats, float]:
@@ -254,8 +272,8 @@ def _fit_guarded(
     weights: Floats,
     step: float,
     wanted: Wanted,
-) -> Fitted:
-    """The same where no step may make a segment's residuals larger; each segment keeps its best."""
+) -> tuple[Floats, Floats, Floats]:
+    """Starts, slopes, residuals; no step may make a segment's residuals larger, each keeps its best."""
     t, angles, volts = recording.t, recording.angles, recording.voltages
     best, squares = starts.copy(), np.full(len(bounds), np.inf)
     changes, shares = np.zeros_like(starts), np.ones(len(bounds))
@@ -277,7 +295,7 @@ def _fit_guarded(
         if np.max(shares) < _TOLERANCE:
             break
         starts = best + changes
-    return _projected(bounds, weights, best, slopes, residuals)
+    return best, slopes, residuals
 
 
 def _projected(

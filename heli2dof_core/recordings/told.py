@@ -6,12 +6,13 @@ import numpy as np
 
 from ..errors import RecordingError
 from ..findings import Finding
+from ..parameters import Parameters
 from ..signals import Floats
 from .identified import Estimate
 from .search import MOST_EVALUATIONS, Search
 from .segments import LONGEST_RUN_UP, RUN_UP
 from .time_axis import stretches
-from .unknowns import ACTUATORS
+from .unknowns import ACTUATORS, INERTIAS, SCALED
 from .whiteness import Whiteness
 
 COARSE_ENCODER = 0.45
@@ -19,6 +20,8 @@ COARSE_ENCODER = 0.45
 and biases what is found. Then intervals that take it for white held the truth in 43 % of the bench's cases."""
 RESOLVED = 2.0
 """Time constants, in sample times, below which a rotor's lag may be a delay of the controller's."""
+LOOSE = 0.25
+"""Relative half width of an inertia's interval from which it is said that only ratios are known."""
 _POOR_CONDITION = 1e6
 
 
@@ -35,12 +38,66 @@ def require_excited(J: Floats, names: tuple[str, ...]) -> None:
         which = (
             "nothing about " + ", ".join(silent) if silent else "too little to tell these parameters apart"
         )
+        hint = "Leave some out, or record steps of both references, one after the other."
+        inertias = [] if silent else [name for name in INERTIAS if name in names]
+        if inertias:
+            pairs = " and ".join(
+                ", ".join(_ratio(own, name) for own in SCALED[name] if own in names) for name in inertias
+            )
+            hint = (
+                f"The motion shows {pairs} only: hold one of them at a value that you know otherwise (swing it, "
+                "weigh it, pull with a spring)."
+            )
         raise RecordingError(
-            f"the recording says {which}",
-            field="free",
-            value=list(silent or names),
-            hint="Leave some out, or record steps of both references, one after the other.",
+            f"the recording says {which}", field="free", value=list(silent or names), hint=hint
         )
+
+
+def _ratio(name: str, inertia: str) -> str:
+    return f"{name}/({inertia} + m l²)"
+
+
+def scaled_together(p: Parameters, estimates: list[Estimate], covariance: Floats) -> list[Finding]:
+    """That an inertia is hardly known, though its ratios to thrust and damping are.
+
+    Args:
+        p: the rig as it is thought to be.
+        estimates: of the unknowns.
+        covariance: theirs by noise, (k, k), in their own units.
+    """
+    names, more = [e.name for e in estimates], p.m * p.l**2
+    found = []
+    for inertia in (name for name in INERTIAS if name in names):
+        i = names.index(inertia)
+        own = estimates[i]
+        half = (own.high - own.low) / 2 / abs(own.value)
+        partners = [names.index(name) for name in SCALED[inertia] if name in names]
+        partners = [j for j in partners if estimates[j].value != 0]
+        if half < LOOSE or not partners:
+            continue
+        told = []
+        for j in partners:
+            by = np.zeros(len(names))
+            by[i], by[j] = -1.0 / (own.value + more), 1.0 / estimates[j].value
+            width = 196 * float(np.sqrt(max(by @ covariance @ by, 0.0)))
+            told.append(f"{_ratio(names[j], inertia)} ± {width:.2g} %")
+        words = (
+            f"{inertia} is known to ± {100 * half:.0f} % only: thrust, damping and inertia of an axis that grow "
+            f"together leave its motion nearly as it is. Known, by noise alone: {', '.join(told)}. Hold {inertia} or "
+            "one of these at a value that you know otherwise."
+        )
+        found.append(Finding("only_ratios", "warning", words))
+    return found
+
+
+def nothing_held(held_out: float, segments: int) -> list[Finding]:
+    """That nothing could be held out though it was asked for."""
+    if held_out <= 0.0 or segments:
+        return []
+    words = (
+        "The end of the recording is too short, or at a stop: nothing is held out, and nothing is validated."
+    )
+    return [Finding("nothing_held_out", "info", words)]
 
 
 def correlated(tested: list[Whiteness], sample_time: float) -> list[Finding]:

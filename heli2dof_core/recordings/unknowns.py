@@ -18,13 +18,22 @@ from ..signals import Floats, fixed
 from .acting import COULOMB, matched
 
 IDENTIFIABLE = ("K_pp", "K_py", "K_yp", "K_yy", "B_p", "B_y", "K_s")
-"""Parameters that can be found, in the order of the sensitivities; J, m and l only scale them and stay."""
+"""Parameters that can be found, in the order of the sensitivities; m and l stay: gravity's torque sets the scale."""
 ACTUATORS = ("rotors.pitch.tau", "rotors.yaw.tau", "friction.pitch.coulomb", "friction.yaw.coulomb")
 """What can be found of rotors and friction, likewise, by its place in a design."""
-FREE = (*IDENTIFIABLE, *ACTUATORS)
+INERTIAS = ("J_p", "J_y")
+"""Moments of inertia, which scale with thrust, damping and stiffness of their axis as far as only motion is seen."""
+SCALED = {
+    "J_p": ("K_pp", "K_py", "B_p", "K_s", "friction.pitch.coulomb"),
+    "J_y": ("K_yp", "K_yy", "B_y", "friction.yaw.coulomb"),
+}
+"""What scales with each."""
+FREE = (*IDENTIFIABLE, *ACTUATORS, *INERTIAS)
 _AT = {"rotors.pitch.tau": 0, "rotors.yaw.tau": 1}
 _AT |= {"friction.pitch.coulomb": COULOMB, "friction.yaw.coulomb": COULOMB + 1}
 """Where in `rotors.Actuators.constants`."""
+LEAST_SHARE = 0.1
+"""Of an inertia as it is thought to be, below which the search does not go."""
 LIKELY_TAU, LEAST_TAU = 0.05, 1e-3
 """Time constants with which the search begins where rotors were thought to follow at once, and the least, s."""
 
@@ -97,6 +106,8 @@ class Unknowns(Frozen):
                 scale = max(begin, LIKELY_TAU)
             elif name in free:
                 scale, least = max(own, scale), 0.0
+            elif name in INERTIAS:
+                least = LEAST_SHARE * own
             given.append(own)
             first.append(begin)
             scales.append(scale)
@@ -104,6 +115,11 @@ class Unknowns(Frozen):
         values = [fixed(each) for each in (given, first, lowest, scales)]
         before = fixed((values[0] - values[1]) / values[3])
         return cls(p, fixed(known) if free else acting, names, values[1], before, values[2], values[3])
+
+    @property
+    def inertias(self) -> tuple[str, ...]:
+        """Those that are free."""
+        return tuple(name for name in self.names if name in INERTIAS)
 
     @property
     def bounded(self) -> bool:
@@ -120,6 +136,7 @@ class Unknowns(Frozen):
         for i, name in enumerate(self.names):
             if name not in _AT:
                 setattr(values, name, self.value(i, deviations))
+        values.alpha = values.J_p + values.m * values.l**2
         return values
 
     def acted(self, deviations: Floats) -> Floats | None:
@@ -165,4 +182,6 @@ def _scale(p: Parameters, name: str) -> float:
     if name in _AT:
         return max(0.5 * like["K"], 1e-9)  # half a volt's thrust
     own = abs(getattr(p, name))
+    if name in INERTIAS:
+        return own
     return max(own, 0.1 * p.alpha if name == "K_s" else 0.05 * like[name[0]], 1e-9)

@@ -12,6 +12,8 @@ from ..signals import Floats
 
 LAGS = 25
 """Lags that are looked at, as MATLAB's `resid` does."""
+BAND = 2.575829
+"""Quantile of the normal distribution for 99 %, two-sided."""
 FALSE_ALARMS = 1e-3
 """How often white residuals of an axis are said to be correlated."""
 
@@ -23,11 +25,13 @@ class Whiteness(Frozen):
     Attributes:
         correlations: of residuals 1 … `LAGS` samples apart.
         probability: with which white residuals would be correlated as much.
+        band: 99 % of the correlations of white residuals lie within ± so much, as MATLAB's `resid` draws it.
         span: the first of the lags from 1 on over which they are not correlated visibly, in samples.
     """
 
     correlations: Floats
     probability: float
+    band: float
     span: int
 
     @property
@@ -87,9 +91,9 @@ def whiteness(bounds: NDArray[np.int64], r: Floats, basis: Floats) -> list[White
     corrected = correlations(bounds, r, lags) + visible * taken / np.maximum(count - freedom, 1.0)
     found = []
     for i in range(outputs):
-        rho = corrected[:, i]
+        rho = corrected[:, i].copy()
         Q = float(np.sum(rho**2 * count**2 / np.maximum(pairs, 1.0)))
         below = np.abs(rho) < 2.0 / np.sqrt(np.maximum(pairs, 1.0))
         span = int(np.argmax(below)) + 1 if np.any(below) else lags
-        found.append(Whiteness(rho, float(chdtrc(lags, Q)), span))
+        found.append(Whiteness(rho, float(chdtrc(lags, Q)), BAND / np.sqrt(max(count, 1)), span))
     return found

@@ -3,7 +3,7 @@
  * `#v1&preset=quanser-aero&p=-5,-4,-3+2j,-3-2j&step.theta=5deg`. Pure.
  *
  * Written is what differs from the preset's proposal. `p`: the four poles, `q`: the observer's. `pi`: k_p, T_i of
- * pitch, k_p, T_i of yaw. `set.…`: parameters; `limits.…`; `step.…`: references;
+ * pitch, k_p, T_i of yaw. `rig`: the name of a rig of one's own; `set.…`: parameters; `limits.…`; `step.…`: references;
  * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`,
  * `lag`, `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`.
  * `view`: the view, `at`: the place on the page. A part that cannot be read is named and left out; the rest is
@@ -125,6 +125,7 @@ function objection(path, leaf, base, { methods }, preset) {
   if (quantity?.words && (machine || !path.includes('.')))
     // the scenario's are the server's to judge
     return quantity.words.some((word) => word === leaf) ? '' : `neither ${quantity.words.join(' nor ')}`;
+  if (path === 'rig') return typeof leaf === 'string' && leaf && leaf.length <= 60 ? '' : 'no name of a rig';
   if (path === 'rotor_poles')
     return Array.isArray(leaf) && leaf.length === 2 && leaf.every(Number.isFinite) ? '' : 'not two real poles';
   if (machine && quantity && leaf !== undefined) return inRange(leaf, quantity) ? '' : 'not a number in its range';

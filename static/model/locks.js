@@ -10,7 +10,7 @@ import { OUTER, ROTORS, STRUCTURE } from './quantities.js';
 export const LOCKS = {
   preset: {
     name: 'rig',
-    keys: ['preset', 'parameters', 'limits', 'rotors', 'friction'],
+    keys: ['preset', 'rig', 'parameters', 'limits', 'rotors', 'friction'],
     controls: '[data-testid=preset], #rig :is([data-field], [data-testid^=rig-reset])',
   },
   point: { name: 'operating point', keys: ['theta0'], controls: '[data-field^="operating_point"]' },

@@ -172,7 +172,13 @@ export function without(design, q) {
 }
 
 /** The preset's rig. @param {Design} design @returns {Design} */
-export const asProposed = (design) => ({ ...design, parameters: {}, limits: {}, rotors: {}, friction: {} });
+export const asProposed = ({ rig: _own, ...design }) => ({
+  ...design,
+  parameters: {},
+  limits: {},
+  rotors: {},
+  friction: {},
+});
 
 /** How many differ, in words; empty where none does. @param {Design} design */
 export function changedWords({ parameters, limits, rotors, friction }) {

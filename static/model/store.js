@@ -62,6 +62,7 @@ export const initialState = () => ({
     found: null,
     foundFor: null,
   },
+  beside: null,
 });
 
 /** The contract's fields of a design that are one value. @type {Set<string>} */

@@ -38,7 +38,9 @@ function scaled(values, factor, offset) {
 /**
  * One trace in the plots' units. Linear voltages are deviations from trim; with the trim added, both models share one
  * absolute scale.
- * @param {Step|undefined} step @param {Signal} signal @param {boolean} linear
+ * @param {(Pick<Step, Signal> & Partial<Pick<Step, 'trim'>>)|undefined} step
+ * @param {Signal} signal
+ * @param {boolean} linear
  */
 export function trace(step, signal, linear) {
   if (!step) return undefined;

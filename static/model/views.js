@@ -13,7 +13,12 @@ export const VIEWS = {
   explore: { title: 'Explore', key: 'E', about: 'The first minute: six things to try', places: [] },
   design: { title: 'Design', key: 'D', about: 'The whole instrument', places: [] },
   compare: { title: 'Compare', key: 'C', about: 'Methods and pinned designs side by side', places: ['pins'] },
-  rig: { title: 'Rig', key: 'R', about: 'Parameters, rotors, recordings of a real rig', places: ['recordings'] },
+  rig: {
+    title: 'Rig',
+    key: 'R',
+    about: 'Parameters, rotors, recordings of a real rig',
+    places: ['own-rigs', 'recordings'],
+  },
   derivation: {
     title: 'Derivation',
     key: 'M',

@@ -99,9 +99,10 @@ export class HeaderPanel {
     setText(this.rig, changed || 'Parameters');
     this.rig.classList.toggle('changed', Boolean(changed));
     this.rig.classList.toggle('refused', isOfRig(problem?.field));
-    if (this.select.options.length !== presets.length)
-      this.select.replaceChildren(...presets.map((p) => h('option', { value: p.name, title: p.source }, p.title)));
-    if (design) this.select.value = design.preset;
+    if (this.select.querySelectorAll(':scope > option').length !== presets.length)
+      this.select.prepend(...presets.map((p) => h('option', { value: p.name, title: p.source }, p.title)));
+    if (design?.rig) this.select.value = `own:${design.rig}`;
+    if (design && !(design.rig && this.select.value)) this.select.value = design.preset;
     const source = presetOf({ presets, design })?.source ?? '';
     setText(this.source, source);
     this.source.title = source;

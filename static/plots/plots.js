@@ -6,7 +6,7 @@
  */
 import { marksOf } from './characteristics.js';
 import { fixed, say, t as word, typographic } from '../text/index.js';
-import { extent, indexAt, isVoltage, pairAlone, rangeOf, SIGNALS, TRACES, tracesOf } from '../model/index.js';
+import { extent, indexAt, isVoltage, pairAlone, rangeOf, SIGNALS, trace, TRACES, tracesOf } from '../model/index.js';
 import { button, h, pictureScale, setText, symbol } from '../ui/index.js';
 import { chartBody, ink, makeChart, scaled } from '../charts/index.js';
 import { PlotGhosts } from './ghosts.js';
@@ -201,7 +201,7 @@ export class Plots {
       for (const { signal, chart } of this.plots) if (!isVoltage(signal)) chart.redraw(false);
     }
     const alone = pairAlone(state);
-    const seen = [state.reply, state.motion, state.showLinear, state.showMarks, state.pins, alone];
+    const seen = [state.reply, state.motion, state.showLinear, state.showMarks, state.pins, state.beside, alone];
     if (!state.reply || seen.every((v, i) => v === this.#seen[i])) return false;
     this.#seen = seen;
     this.alone = alone !== null;
@@ -212,13 +212,14 @@ export class Plots {
     this.#time = [0, end];
     if (whole && this.#zoom) this.#zoomTo(null);
     const empty = Array(data.t.length).fill(null);
+    const beside = state.beside?.plotted ? state.beside : undefined;
     for (const { signal, chart, ghosts, marks, turning } of this.plots) {
       ghosts.take(state.pins);
       const [played, dashPitch, dashYaw, yaw, pitch, ...rotors] = data.plots[signal];
       turning.hidden = !rotors.some(Boolean);
       this.#ranges[signal] = rangeOf({
         solid: extent([played, yaw, pitch, ...rotors]),
-        dashed: extent([dashPitch, dashYaw, ghosts.extent]),
+        dashed: extent([dashPitch, dashYaw, ghosts.extent, beside && trace(beside, signal, false)]),
         include: [0, referenceOf(state.reply, signal) ?? 0],
         limit: limitOf(state.reply, signal),
         previous: fresh ? undefined : this.#ranges[signal],

@@ -136,8 +136,8 @@ export class RecordingFeed {
     }
   }
 
-  /** @param {string[]} free */
-  identify(free) {
+  /** @param {string[]} free @param {boolean} [all] whether nothing is held out */
+  identify(free, all = false) {
     const { design, recorded } = this.store.state;
     const { preview, columns } = recorded;
     if (!design || !preview || !isMapped(columns)) return;
@@ -145,7 +145,7 @@ export class RecordingFeed {
     const socket = this.open();
     this.#socket = socket;
     this.#set({ busy: 'Identifying…', progress: null, found: null, problem: null });
-    socket.onopen = () => socket.send(JSON.stringify(identifyBody(design, { preview, columns }, free)));
+    socket.onopen = () => socket.send(JSON.stringify(identifyBody(design, { preview, columns }, free, all)));
     socket.onmessage = ({ data }) => {
       if (socket !== this.#socket) return;
       const message = JSON.parse(data);

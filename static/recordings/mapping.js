@@ -76,7 +76,9 @@ export class RecordingMapping {
         (v) => this.feed.change({ decimate: v }),
       ),
     );
-    this.findings.replaceChildren(...preview.findings.map((f) => h('li', {}, f.message)));
+    this.findings.replaceChildren(
+      ...preview.findings.filter((f) => f.code !== 'synthetic').map((f) => h('li', {}, f.message)),
+    );
     this.#rows(preview);
     this.render(columns);
   }

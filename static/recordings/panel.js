@@ -1,41 +1,27 @@
 /**
- * A recording of a real rig: file and columns, the simulation over it with its fit, and the rig's parameters identified
- * from it.
+ * A recording of a rig: file and columns, the simulation over it with its fit, the rig's parameters identified from it,
+ * and itself beside the design.
  */
-import { significant } from '../text/index.js';
-import { button, check, h, head, setText, symbol, wide } from '../ui/index.js';
+import { button, h, setText } from '../ui/index.js';
+import { Beside } from './beside.js';
 import { RecordingFeed } from './feed.js';
-import {
-  ACTUATORS,
-  adopted,
-  curves,
-  DRIVERS,
-  estimateRows,
-  fitText,
-  freeAtFirst,
-  IDENTIFIABLE,
-  isMapped,
-  missingWords,
-  overlayWords,
-  previewWords,
-  progressWords,
-} from './recordings.js';
+import { IdentificationCard } from './identification.js';
+import { curves, DRIVERS, fitText, isMapped, missingWords, overlayWords, previewWords } from './recordings.js';
 import { RecordingMapping } from './mapping.js';
 import { RecordingPlot } from './plot.js';
 
-const sym = (/** @type {string} */ name) => {
-  const [base, sub] = (ACTUATORS[name]?.symbol ?? name).split('_');
-  return symbol(base, sub);
-};
 const AXES = /** @type {const} */ (['theta', 'psi']);
 
 export class RecordingsPanel {
   /** @type {unknown[]} */ #seen = [];
   /** @type {import('../contract.js').Preview|null} */ #preview = null;
-  /** @type {string} */ #preset = '';
 
-  /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
-  constructor(root, store) {
+  /**
+   * @param {HTMLElement} root
+   * @param {import('../model/store.js').Store} store
+   * @param {import('../plots/plots.js').Plots} plots in which the recording is shown beside the design
+   */
+  constructor(root, store, plots) {
     this.store = store;
     this.feed = new RecordingFeed(store);
     const tool = (/** @type {string} */ id, /** @type {string} */ text, /** @type {() => void} */ act, title = '') =>
@@ -74,19 +60,8 @@ export class RecordingsPanel {
     );
     this.again = tool('overlay', 'Simulate again', () => this.feed.overlay(), 'The design has changed since');
     this.about = h('p', { class: 'caption' });
-    this.free = h('div', { class: 'lock-list' });
-    this.run = tool('identify', 'Identify', () => this.feed.identify(this.#free()));
-    this.cancel = tool('cancel', 'Cancel', () => this.feed.cancel());
-    this.progress = h('p', { class: 'caption', role: 'status', 'data-testid': 'recording-progress' });
-    this.rows = h('tbody');
-    this.table = h(
-      'table',
-      { class: 'compare-table', hidden: true, 'data-testid': 'recording-estimates' },
-      head(['Parameter', 'Unit', 'Before', 'Found', '95 %', 'Interval']),
-      this.rows,
-    );
-    this.adopt = tool('adopt', 'Adopt', () => this.#adopt(), "Make these the rig's parameters; Undo takes them back");
-    this.remarks = h('ul', { class: 'recording-remarks' });
+    this.identification = new IdentificationCard(store, this.feed);
+    this.synthetic = h('p', { class: 'synthetic', role: 'note', hidden: true, 'data-testid': 'recording-synthetic' });
     const card = (/** @type {string} */ title, /** @type {string} */ kind, /** @type {Node[]} */ ...content) =>
       h('div', { class: `card ${kind}` }, h('h3', {}, title), content);
     this.overlayCard = card(
@@ -101,28 +76,7 @@ export class RecordingsPanel {
         this.plots.map((p) => p.node),
       ),
     );
-    this.identifyCard = card(
-      'Identification',
-      'wide',
-      h(
-        'p',
-        { class: 'caption' },
-        'Least squares on the nonlinear model under the recorded voltages. Intervals allow for correlated ' +
-          'residuals. J, m and l are held fixed.',
-      ),
-      h(
-        'div',
-        { class: 'row', role: 'group', 'aria-label': 'Free parameters' },
-        h('span', {}, 'Free'),
-        this.free,
-        this.run,
-        this.cancel,
-      ),
-      this.progress,
-      wide('Identified parameters', this.table),
-      this.remarks,
-      this.adopt,
-    );
+    this.beside = new Beside(store, plots);
     root.append(
       h(
         'div',
@@ -131,6 +85,7 @@ export class RecordingsPanel {
         this.sample,
         this.save,
       ),
+      this.synthetic,
       this.status,
       this.problem,
       this.mapping.text,
@@ -139,7 +94,8 @@ export class RecordingsPanel {
         { class: 'recording-body' },
         (this.columnsCard = card('Columns', 'wide', this.mapping.node)),
         this.overlayCard,
-        this.identifyCard,
+        this.identification.node,
+        this.beside.node,
       ),
     );
   }
@@ -159,24 +115,14 @@ export class RecordingsPanel {
     this.save.hidden = false;
   }
 
-  #free() {
-    return [...this.free.querySelectorAll('input:checked')].map((box) => /** @type {HTMLInputElement} */ (box).value);
-  }
-
-  #adopt() {
-    const { found } = this.store.state.recorded;
-    if (!found) return;
-    this.store.edit((d) => adopted(d, found));
-    this.feed.overlay();
-  }
-
   /** @param {import('../types.js').State} state */
-  render({ recorded, design, presets }) {
-    const { preview, columns, driver, busy, problem, overlay, overlaid, progress, found, foundFor } = recorded;
+  render(state) {
+    const { recorded, design } = state;
+    this.beside.render(state);
+    const { preview, columns, driver, busy, problem, overlay, overlaid } = recorded;
     const now = [recorded, design];
     if (!design || now.every((v, i) => v === this.#seen[i])) return;
     this.#seen = now;
-    this.#freeOf(design, presets);
     const mapped = isMapped(columns);
     setText(
       this.status,
@@ -189,7 +135,10 @@ export class RecordingsPanel {
     setText(this.problem, problem ? [problem.detail, problem.hint].filter(Boolean).join(' ') : '');
     this.columnsCard.hidden = !preview;
     this.overlayCard.hidden = !overlay;
-    this.identifyCard.hidden = !mapped;
+    this.identification.render(state, mapped);
+    const made = preview?.findings.find((f) => f.code === 'synthetic');
+    this.synthetic.hidden = !made;
+    setText(this.synthetic, made ? `Synthetic. ${made.message}` : '');
     if (preview && preview !== this.#preview && columns) this.mapping.show(preview, columns);
     this.#preview = preview;
     if (columns) this.mapping.render(columns);
@@ -200,69 +149,10 @@ export class RecordingsPanel {
     this.again.hidden = overlaid === design;
     if (overlay) {
       setText(this.about, overlayWords(overlay));
-      this.noted.replaceChildren(...overlay.findings.map((f) => h('li', {}, f.message)));
+      this.noted.replaceChildren(
+        ...overlay.findings.filter((f) => f.code !== 'synthetic').map((f) => h('li', {}, f.message)),
+      );
       AXES.forEach((axis, i) => this.plots[i].show(curves(overlay, axis), fitText(overlay.fit[axis])));
     }
-    const searching = busy === 'Identifying…';
-    this.run.disabled = searching;
-    this.cancel.hidden = !searching;
-    setText(
-      this.progress,
-      searching
-        ? progressWords(progress)
-        : found
-          ? `${found.evaluations} simulations in ${significant(found.seconds, 2)} s`
-          : '',
-    );
-    this.table.hidden = this.adopt.hidden = this.remarks.hidden = !found;
-    this.adopt.disabled = Boolean(found) && foundFor?.preset !== design.preset;
-    if (found) this.#show(found);
-  }
-
-  /** @param {import('../types.js').Design} design @param {import('../types.js').Preset[]} presets */
-  #freeOf(design, presets) {
-    if (design.preset === this.#preset) return;
-    const preset = presets.find((p) => p.name === design.preset);
-    if (!preset) return;
-    this.#preset = design.preset;
-    const first = freeAtFirst({ ...preset.parameters, .../** @type {Record<string, number>} */ (design.parameters) });
-    const box = (/** @type {string} */ name) =>
-      check(
-        {
-          value: name,
-          checked: first.includes(name),
-          'data-testid': `recording-free-${name}`,
-          title: ACTUATORS[name]?.title,
-        },
-        sym(name),
-      ).node;
-    this.free.replaceChildren(
-      ...IDENTIFIABLE.map(box),
-      h(
-        'div',
-        { class: 'lock-list', role: 'group', 'aria-label': 'Rotors and friction' },
-        h('span', {}, 'Rotors and friction'),
-        Object.keys(ACTUATORS).map(box),
-      ),
-    );
-  }
-
-  /** @param {import('../contract.js').IdentificationReply} found */
-  #show(found) {
-    this.rows.replaceChildren(
-      ...estimateRows(found).map((e) =>
-        h(
-          'tr',
-          { 'data-testid': `recording-estimate-${e.name}` },
-          h('th', { scope: 'row' }, sym(e.name)),
-          h('td', { translate: 'no' }, e.unit),
-          h('td', {}, e.before),
-          h('td', { class: 'best' }, e.value),
-          h('td', {}, e.width),
-          h('td', {}, e.interval),
-        ),
-      ),
-    );
-    this.remarks.replaceChildren(...found.findings.map((f) => h('li', {}, f.message)));
   }
 }

@@ -8,7 +8,7 @@
  * @typedef {[number[], ...(number|null)[][]]} Curves
  * @typedef {import('../contract.js').IdentificationReply} IdentificationReply
  */
-import { count, DEGREE, fixed, inField, say, significant } from '../text/index.js';
+import { count, DEGREE, fixed, say, significant } from '../text/index.js';
 import { bodyOf, initialState } from '../model/index.js';
 
 /** @type {{role: keyof Mapping, base: string, sub?: string, title: string, optional?: boolean}[]} */
@@ -29,6 +29,8 @@ export const ACTUATORS = {
   'friction.pitch.coulomb': { symbol: 'F_p', title: 'Coulomb friction in pitch' },
   'friction.yaw.coulomb': { symbol: 'F_y', title: 'Coulomb friction in yaw' },
 };
+/** Moments of inertia, which scale with thrust and damping of their axis. @type {Record<string, string>} */
+export const INERTIAS = { J_p: 'moment of inertia about the pitch axis', J_y: 'moment of inertia about the yaw axis' };
 export const DRIVERS = {
   segments: 'recorded voltages, in segments',
   voltages: 'recorded voltages, one run',
@@ -103,13 +105,15 @@ export const freeAtFirst = (parameters) => IDENTIFIABLE.filter((name) => name !=
  * @param {import('../types.js').Design} design
  * @param {{preview: Preview, columns: RecordingColumns}} recorded
  * @param {string[]} free
+ * @param {boolean} all whether nothing is held out
  */
-export const identifyBody = (design, { preview, columns }, free) =>
+export const identifyBody = (design, { preview, columns }, free, all = false) =>
   /** @satisfies {import('../types.js').Asked<import('../contract.js').IdentifyRequest>} */ ({
     ...bodyOf(design),
     recording: preview.id,
     columns: columnsBody(columns),
     free: /** @type {NonNullable<import('../contract.js').IdentifyRequest['free']>} */ (free),
+    ...(all && { held_out: 0 }),
   });
 
 /**
@@ -177,32 +181,6 @@ export function progressWords(progress) {
   if (!progress) return 'Identifying…';
   const [pitch, yaw] = [progress.rms.theta, progress.rms.psi].map((v) => significant((v ?? 0) * DEGREE, 3));
   return say`Simulation ${progress.evaluations}: residuals ${pitch}° in pitch, ${yaw}° in yaw`;
-}
-
-/**
- * As many decimals as two digits of the interval's half width need.
- * @param {number} v
- * @param {import('../contract.js').EstimateReply} e
- */
-function as(v, { low, high }) {
-  const half = (high - low) / 2;
-  return fixed(v, half > 0 ? Math.max(0, Math.min(12, 1 - Math.floor(Math.log10(half)))) : 6);
-}
-
-/**
- * One row per parameter.
- * @param {IdentificationReply} found
- * @returns {{name: string, unit: string, before: string, value: string, width: string, interval: string}[]}
- */
-export function estimateRows(found) {
-  return found.estimates.map((e) => ({
-    name: e.name,
-    unit: e.unit,
-    before: inField(e.before),
-    value: as(e.value, e),
-    width: `± ${as((e.high - e.low) / 2, e)}`,
-    interval: `${as(e.low, e)} … ${as(e.high, e)}`,
-  }));
 }
 
 /** As many digits as a link needs. @param {number} v */

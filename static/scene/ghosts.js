@@ -9,7 +9,7 @@ import { colorOf, COLORS, letterOf, motionOf } from '../model/index.js';
  *   trajectory: Pick<import("./pose.js").Trajectory, "t" | "theta" | "psi">}} Flight
  */
 
-export const SLOTS = ['linear', ...Array.from({ length: COLORS }, (_, k) => String(k))];
+export const SLOTS = ['linear', 'recorded', ...Array.from({ length: COLORS }, (_, k) => String(k))];
 
 /**
  * @param {string} text "#rrggbb", as the style sheets name colours
@@ -21,13 +21,13 @@ export function rgb(text) {
 }
 
 /**
- * Returns who flies beside the rig: the linear model, and the first pins that have a reply.
- * @param {Pick<import("../types.js").State, "reply" | "motion" | "pins">} state
+ * Returns who flies beside the rig: the linear model, the first pins that have a reply, a recording.
+ * @param {Pick<import("../types.js").State, "reply" | "motion" | "pins" | "beside">} state
  * @param {{linear: boolean, pins: boolean}} wanted
  * @param {(name: string) => string} color a style sheet's colour, "#rrggbb"
  * @returns {Flight[]}
  */
-export function flightsOf({ reply, motion, pins }, wanted, color) {
+export function flightsOf({ reply, motion, pins, beside }, wanted, color) {
   const flights = [];
   const linear = reply && wanted.linear ? motionOf(reply, motion)?.linear : undefined;
   if (linear) flights.push({ slot: 'linear', label: 'linear', color: rgb(color('ink')), trajectory: linear });
@@ -37,6 +37,8 @@ export function flightsOf({ reply, motion, pins }, wanted, color) {
     if (trajectory)
       flights.push({ slot: String(k), label: letterOf(pin.index), color: rgb(color(colorOf(pin.index))), trajectory });
   });
+  if (beside?.ghost)
+    flights.push({ slot: 'recorded', label: 'recorded', color: rgb(color('recorded')), trajectory: beside });
   return flights;
 }
 

@@ -236,7 +236,7 @@ export class SceneView {
   /** Who flies beside the rig. @param {State} state */
   #fly(state) {
     const { linear, pins } = this.controls;
-    const seen = [state.reply, state.motion, state.pins, linear.checked, pins.checked];
+    const seen = [state.reply, state.motion, state.pins, state.beside, linear.checked, pins.checked];
     if (seen.every((v, i) => v === this.#flown[i])) return;
     this.#flown = seen;
     const style = getComputedStyle(document.documentElement);

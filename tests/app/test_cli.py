@@ -20,7 +20,8 @@ from app.cli.group import COMMANDS, heli2dof
 from app.cli.values import Poles
 from app.contract.experiment import StepRequest
 from app.contract.frequency import RgaRequest
-from app.contract.recordings import IdentifyRequest, OverlayRequest
+from app.contract.identification import IdentifyRequest
+from app.contract.recordings import OverlayRequest
 from tests.children import ROOT, environment, python
 from tests.patience import PATIENCE
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.contract.recordings import IdentificationReply, OverlayReply, Preview
+from app.contract.identification import IdentificationReply
+from app.contract.recordings import OverlayReply, Preview
 from app.jobs.recording_store import RecordingStore
 from heli2dof_core.errors import RecordingError
 from heli2dof_core.recordings.recording import Table
@@ -48,7 +49,8 @@ def test_a_sample_is_previewed_with_a_guess(client, sample):
         "sample_time": pytest.approx(0.005),
     }
     assert reply["guess"] == {"columns": COLUMNS, **units}
-    assert (reply["dialect"], reply["findings"]) == ({"separator": "comma", "decimal": "point"}, [])
+    assert reply["dialect"] == {"separator": "comma", "decimal": "point"}
+    assert [f["code"] for f in reply["findings"]] == ["synthetic"]  # nobody has measured it, and it says so
     assert len(reply["preview"]) == 5
     again = client.post("/api/v1/recordings/sample", json=SHORT).content
     assert again == sample
@@ -101,9 +103,19 @@ def test_identification_tells_progress_and_finds_the_rig(client, sample, sent):
     assert len(parts) > 1
     IdentificationReply.model_validate(parts[-1])
     for estimate in parts[-1]["estimates"]:
-        true, width = float(truth[estimate["name"]]), estimate["high"] - estimate["low"]
+        true, width = float(truth[estimate["name"]]), 2 * estimate["noise"]
         assert abs(estimate["value"] - true) < 2 * width, estimate
         assert width < 0.3 * abs(true)
+        assert estimate["low"] <= true <= estimate["high"], estimate
+    fitted, held = parts[-1]["parts"]
+    assert not fitted["held_out"] and held["held_out"]
+    assert held["first"] == pytest.approx(2 / 3 * held["end"], rel=0.01)
+    assert held["after"]["fit"]["theta"] > max(75, held["before"]["fit"]["theta"])
+    courses = parts[-1]["courses"]
+    assert {len(courses["t"])} == {
+        len(c[axis]) for c in list(courses.values())[1:] for axis in ("theta", "psi")
+    }
+    assert len(parts[-1]["whiteness"]["theta"]["correlations"]) == 25
     assert parts[-1]["rms"]["theta"] < parts[-1]["rms_before"]["theta"]
 
 
@@ -118,6 +130,10 @@ def test_identification_can_be_cancelled_and_goes_on(client, sent):
         while not (reply := socket.receive_json())["done"]:
             pass
         assert [e["name"] for e in reply["estimates"]] == ["B_p"]
+        socket.send_json({"recording": sent, "columns": COLUMNS, "free": ["B_p"], "held_out": 0})
+        while not (reply := socket.receive_json())["done"]:
+            pass
+        assert [part["held_out"] for part in reply["parts"]] == [False]
 
 
 @pytest.mark.parametrize(
@@ -127,6 +143,7 @@ def test_identification_can_be_cancelled_and_goes_on(client, sent):
         ({"free": ["m"]}, "free"),
         ({"free": []}, "free"),
         ({"segment": 0}, "segment"),
+        ({"held_out": 0.9}, "held_out"),
     ],
 )
 def test_refused_identifications(client, sent, body, field):

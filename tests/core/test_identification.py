@@ -347,7 +347,7 @@ def test_whoever_does_not_wait_ends_any_simulation():
 
 def test_refusals():
     spec, _, _, _, recording = made(duration=3.0)
-    for free in (["J_p"], []):
+    for free in (["m"], []):
         with pytest.raises(InvalidInputError):
             identify(spec.parameters, recording, free)
     silent = replace(recording, voltages=np.zeros_like(recording.voltages))

@@ -17,7 +17,7 @@ test('each part of a design belongs to one lock', () => {
   const parts = new Set([...names, ...Object.keys(designOf(PRESETS[0]))]);
   assert.ok(parts.has('shift') && parts.has('theta0') && parts.has('scenario'));
   for (const key of parts) assert.equal(locking(key).length, 1, `${key}: ${locking(key)}`);
-  const known = new Set([...parts, 'preset', 'method']);
+  const known = new Set([...parts, 'preset', 'rig', 'method']);
   for (const { keys } of Object.values(LOCKS)) for (const key of keys) assert.ok(known.has(key), key);
 });
 

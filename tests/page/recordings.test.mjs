@@ -6,7 +6,6 @@ import {
   adopted,
   columnsBody,
   curves,
-  estimateRows,
   fitText,
   freeAtFirst,
   guessed,
@@ -17,6 +16,7 @@ import {
   previewWords,
   rangeOfCurves,
 } from '../../static/recordings/recordings.js';
+import { estimateRows } from '../../static/recordings/found.js';
 import { designOf, Store } from '../../static/model/store.js';
 import { MACHINE } from './presets.mjs';
 
@@ -52,7 +52,19 @@ const found = {
   findings: [],
   rotors: { pitch: { tau: 0, curve: 'linear', dead_zone: 0 }, yaw: { tau: 0, curve: 'linear', dead_zone: 0 } },
   friction: { pitch: { coulomb: 0 }, yaw: { coulomb: 0 } },
-  estimates: [{ name: 'K_pp', unit: 'N·m/V', before: 1, value: 1.25, low: 1.2, high: 1.3, plain: 0.02, adopted: 1.25 }],
+  estimates: [
+    {
+      name: 'K_pp',
+      unit: 'N·m/V',
+      before: 1,
+      value: 1.25,
+      low: 1.2,
+      high: 1.3,
+      noise: 0.03,
+      plain: 0.02,
+      adopted: 1.25,
+    },
+  ],
 };
 
 test('columns are asked for as the server takes them', () => {
@@ -107,6 +119,7 @@ test('words', () => {
     before: '1',
     value: '1.250',
     width: '± 0.050',
+    noise: '± 0.030',
     interval: '1.200 … 1.300',
   });
   assert.ok(!freeAtFirst(preset.parameters).includes('K_s'));
@@ -162,6 +175,7 @@ test('identification: progress, then the result and the rig that it belongs to',
   feed.identify(['K_pp']);
   sockets[0].onopen();
   assert.deepEqual([sockets[0].sent[0].recording, sockets[0].sent[0].free], ['x', ['K_pp']]);
+  assert.ok(!('held_out' in sockets[0].sent[0]), 'how much is held out is the contract’s to say');
   tell(sockets[0], { done: false, evaluations: 2, rms: { theta: 0.1, psi: 0.1 } });
   assert.equal(store.state.recorded.progress.evaluations, 2);
   tell(sockets[0], found);

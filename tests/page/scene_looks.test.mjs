@@ -118,8 +118,11 @@ describe('ghosts', () => {
     assert.deepEqual(flightsOf(state, { linear: false, pins: false }, color), []);
     assert.deepEqual(flightsOf({ ...state, reply: null }, { linear: true, pins: false }, color), []);
     const many = { ...state, pins: Array.from({ length: 9 }, (_, k) => pin(k, 0.1)) };
-    const slots = flightsOf(many, { linear: true, pins: true }, color).map((f) => f.slot);
-    assert.deepEqual(slots, SLOTS);
+    const { trajectory } = flightsOf(state, { linear: true, pins: false }, color)[0];
+    const slots = (/** @type {boolean} */ ghost) =>
+      flightsOf({ ...many, beside: { ...trajectory, ghost } }, { linear: true, pins: true }, color).map((f) => f.slot);
+    assert.deepEqual(slots(true).sort(), [...SLOTS].sort(), 'a recording has a node of its own');
+    assert.ok(!slots(false).includes('recorded'));
   });
   test('hold the end of their own response, and the others are hidden', () => {
     const messages = ghostMessages(flightsOf(state, { linear: false, pins: true }, color), 99);

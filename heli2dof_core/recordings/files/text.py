@@ -10,6 +10,7 @@ from types import MappingProxyType
 from typing import Literal, get_args
 
 from ...errors import RecordingError, Wanted
+from ...findings import Finding
 from ..recording import Table
 from .cells import is_empty, number, share_of_numbers
 from .grid import MOSTLY, Grid, table_of_grid
@@ -24,6 +25,8 @@ _A_TABLE = 0.25
 """Share of lines that are rows of numbers, below which a text is no table."""
 _CONSISTENT = 0.8
 """Share of the best candidate's lines from which a candidate counts as consistent, too."""
+SYNTHETIC = "A digital rig of heli2dof"
+"""With this begins a comment of files that nobody has measured."""
 _COMMENT = ("#", "%", "//")
 _LINES = re.compile(r"\r\n|\n|\r")
 _DECLARED = re.compile(r"\ufeff?\"?sep=(.)\"?\s*", re.IGNORECASE)
@@ -91,6 +94,9 @@ def read_text(data: bytes, name: str, dialect: Dialect, wanted: Wanted) -> Table
     split_comments = [[_cells(comment, way) for way in ways] for comment in comments]
     grid = Grid(cells, places, width, comma, split_comments, separator)
     table = table_of_grid(grid, wanted)
+    if any(comment.startswith(SYNTHETIC) for comment in comments):
+        words = "A digital rig of heli2dof made this recording: no real one was measured."
+        table = replace(table, findings=(*table.findings, Finding("synthetic", "info", words)))
     return replace(table, dialect={"separator": separator, "decimal": "comma" if comma else "point"})
 
 
