@@ -233,9 +233,10 @@ async function furtherDown() {
   );
   schedule();
   computeHere().catch(console.warn);
-  const [{ ComparePanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }] = await fetched(() =>
+  const [{ ComparePanel }, { RecordingsPanel }, { formulaStyle, FormulasPanel, PaperPanel }] = await fetched(() =>
     Promise.all([import('./compare/index.js'), import('./recordings/index.js'), import('./paper/index.js')]),
   );
+  await fetched(formulaStyle).catch(report); // before any formula is drawn, so that none moves
   const further = [
     new ComparePanel(byId('compare'), store),
     new RecordingsPanel(byId('recordings'), store),

@@ -3,7 +3,7 @@
 from base64 import b64encode
 from pathlib import Path
 
-FAMILY = "heli2dof math"
+FAMILY = "STIX Two Math"
 _FILE = Path(__file__).parent / "vendor" / "stix-two-math.woff2"
 
 
