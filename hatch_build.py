@@ -52,7 +52,7 @@ FONT_LETTERS = (
     *(n for n in range(0x1D434, 0x1D468) if n != 0x1D455),  # italic, h being Planck's
     *range(0x1D6E2, 0x1D71C),  # italic Greek
 )
-"""What formulas are written with: of 6,800 glyphs five hundred, a twelfth of the bytes; their tall forms come along."""
+"""What formulas are written with: five hundred of 6,800 glyphs; their tall forms come along."""
 
 
 class VendorHook(BuildHookInterface):

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from functools import cache
 
 import sympy as sp
-from .mathml import mathml
 
 from ..couplings import Modelled, Sought, Structure
 from .beyond import GainFormulas, observer_formulas, rotor_formulas
 from .formulas import derive
 from .full_rank import indices
 from .linearization import linear_model
+from .mathml import mathml
 from .names import NAMES, Name, latex
 
 _REPORTED = (

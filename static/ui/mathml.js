@@ -71,7 +71,12 @@ export function symbol(base, sub, bars) {
   const bar = () => (bars ? [math('mo', { stretchy: 'false', form: 'prefix' }, bars)] : []);
   const inner = [...bar(), ...letters(base), ...bar()];
   const body = sub ? [math('msub', {}, row(inner), row(letters(sub)))] : inner;
-  return h('span', { class: 'sym' }, math('math', {}, ...body));
+  // the label is what a table's head or a field is called by
+  return h(
+    'span',
+    { class: 'sym' },
+    math('math', { 'aria-label': `${bars ?? ''}${base}${bars ?? ''}${sub ?? ''}` }, ...body),
+  );
 }
 
 /** A symbol as the registry of figures prints it: ‖K‖_F, κ_2(X), V_p. @param {string} text @returns {HTMLElement} */
