@@ -1,6 +1,6 @@
 /**
  * What is wider than its place scrolls in itself, by the keys too; here it is said on which side more of it lies, for
- * the style to show. And the style sheet of formulas, with their font, which the first view does without.
+ * the style to show. And the style of formulas and of the paper, with their font, which the first view does without.
  */
 const SLACK = 2; // px, by which a browser may round
 
@@ -44,19 +44,28 @@ export function watchEnds(root) {
   find();
 }
 
-/** Brings the font of formulas and what else their style needs; resolves when both are there. */
-export async function formulaStyle() {
-  const link = Object.assign(document.createElement('link'), { rel: 'stylesheet', href: 'static/css/math.css' });
+const SHEETS = ['static/css/paper.css', 'static/css/math.css'];
+
+/** @param {string} href @param {Element|null} before the sheets that may change what it says */
+function styled(href, before) {
+  const link = Object.assign(document.createElement('link'), { rel: 'stylesheet', href });
   const done = /** @type {Promise<void>} */ (
     new Promise((resolve, reject) => {
       link.onload = () => resolve();
       link.onerror = () => {
         link.remove();
-        reject(new Error('static/css/math.css could not be fetched'));
+        reject(new Error(`${href} could not be fetched`));
       };
     })
   );
-  document.head.append(link);
-  await done;
+  document.head.insertBefore(link, before);
+  return done;
+}
+
+/** Brings the style of formulas and of the paper, and the formulas' font; resolves when all are there. */
+export async function formulaStyle() {
+  const others = document.querySelector('link[href$="/sharing.css"]');
+  const missing = SHEETS.filter((href) => !document.querySelector(`link[href="${href}"]`));
+  await Promise.all(missing.map((href) => styled(href, others)));
   await document.fonts.load('1em "STIX Two Math"').catch(console.warn); // without it others do
 }

@@ -145,7 +145,9 @@ def test_pins_stand_in_the_report_with_their_figures(client):
 
 
 def test_a_pin_that_is_no_design_is_refused_by_its_place(client):
-    reply = client.post("/api/v1/export/report", json={"pins": [{"name": "A"}, {"name": "B", "poles": [1, 2]}]})
+    reply = client.post(
+        "/api/v1/export/report", json={"pins": [{"name": "A"}, {"name": "B", "poles": [1, 2]}]}
+    )
     assert reply.status_code == 422 and reply.json()["field"] == "pins.1.poles"
     seven = [{"name": "A"}] * 7
     assert client.post("/api/v1/export/report", json={"pins": seven}).status_code == 422

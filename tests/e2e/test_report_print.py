@@ -12,7 +12,9 @@ from heli2dof_core import PoleSet, Rotor, Rotors, Scenario, Spec, preset
 from heli2dof_core.export import FORMATS
 
 BASE = Spec.from_preset(preset())
-UNSTABLE = replace(BASE, poles=PoleSet([-3 + 4j, -3 - 4j, -5, -6]), scenario=Scenario(theta=0.6, duration=8.0))
+UNSTABLE = replace(
+    BASE, poles=PoleSet([-3 + 4j, -3 - 4j, -5, -6]), scenario=Scenario(theta=0.6, duration=8.0)
+)
 SIX = replace(BASE, rotors=Rotors(Rotor(0.16), Rotor(0.16)), place_rotors=True)
 LINK = "http://127.0.0.1:8000/#v1&" + "&".join(f"at{i}=-12.345678,-9.87654" for i in range(30))
 PINS = [(f"{letter} as before", spec) for letter, spec in zip("ABCDEF", [BASE, UNSTABLE] * 3, strict=True)]
