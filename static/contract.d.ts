@@ -386,6 +386,12 @@ export interface Evidence {
   mathml?: string;
 }
 
+/** A design, an experiment, and the designs that stand beside it in a report. */
+export interface ExportRequest extends StepRequest {
+  /** listed in the report with their figures; other formats leave them out */
+  pins?: PinnedDesign[];
+}
+
 /** A redrawn figure; t in s. */
 export interface Figure {
   /** of the paper */
@@ -947,6 +953,52 @@ export interface PerAxis {
   theta: number | null;
   /** of yaw */
   psi: number | null;
+}
+
+/** A design that a report lists beside its own. */
+export interface PinnedDesign {
+  /** structure of the closed loop */
+  coupling?: 'triangular' | 'input-diagonal' | 'axis-decoupled' | null;
+  /** axis that leads where the coupling is triangular */
+  lead?: 'pitch' | 'yaw' | null;
+  /** shift c of Luenberger's basis, q₁ → q₁ + c q₂ (yaw leading: q₂ → q₂ + c q₁); the structure's own where left out */
+  shift?: number | null;
+  /** pi: two PI loops (Fig. 3); none: inner loop alone (Fig. 2) */
+  outer?: 'pi' | 'none' | null;
+  /** which error drives which motor */
+  pairing?: 'diagonal' | 'cross' | null;
+  /** static decoupler Ĝ(0)⁻¹ diag(|ĝ|) between the PI controllers and the motors */
+  decoupler?: boolean | null;
+  /** the rotors' speeds are states of the model that is placed: full rank on six states, K is 2×6 */
+  place_rotors?: boolean | null;
+  /** name of a preset, see GET /api/v1/presets */
+  preset?:
+    | 'quanser-2dof-manual'
+    | 'quanser-2dof-design-file'
+    | 'paper-table-1'
+    | 'paper-as-computed'
+    | 'quanser-aero-2'
+    | 'quanser-aero';
+  parameters?: ParameterChanges;
+  limits?: LimitChanges;
+  operating_point?: OperatingPoint | null;
+  /** p₁, p₂ (pitch's pair), p₃, p₄ (yaw's), rad/s */
+  poles?: (number | { re: number; im: number })[] | null;
+  /** see GET /api/v1/methods */
+  method?: 'full-rank' | 'tits-yang' | 'knv0' | 'varga' | 'ackermann' | 'bass-gura' | 'lqr' | 'lqr-integral';
+  /** which poles, by position from 0, form pitch's pair and which yaw's */
+  split?: [number[], number[]] | null;
+  weights?: WeightChanges;
+  loops?: LoopsChanges;
+  rotors?: RotorsChanges;
+  friction?: AxisFrictionChanges;
+  /** of pitch's and of yaw's rotor where they are placed, real, rad/s */
+  rotor_poles?: (number | { re: number; im: number })[] | null;
+  /** estimates the states where `scenario.measured` says so */
+  observer?: ObserverChanges | null;
+  scenario?: ScenarioChanges;
+  /** what its row is called */
+  name: string;
 }
 
 /** Any system ẋ = Ax + Bu and its desired poles, row by row, in any units. */

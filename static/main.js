@@ -203,13 +203,16 @@ async function fetched(load) {
   }
 }
 
-/** A stylesheet of rooms that come later. @param {string} name */
+/** A sheet of rooms that come later, before those that may change what it says. @param {string} name */
 function styles(name) {
   const link = Object.assign(document.createElement('link'), { rel: 'stylesheet', href: `static/css/${name}.css` });
   return new Promise((resolve, reject) => {
     link.onload = resolve;
-    link.onerror = () => reject(new Error(`static/css/${name}.css`));
-    document.head.append(link);
+    link.onerror = () => {
+      link.remove();
+      reject(new Error(`${link.href} could not be fetched`));
+    };
+    document.head.insertBefore(link, document.querySelector('link[href$="/sharing.css"]'));
   });
 }
 
@@ -243,26 +246,24 @@ async function furtherDown() {
   );
   schedule();
   computeHere().catch(console.warn);
-  const [{ ComparePanel, PinsPanel }, { RigPanel }, { RecordingsPanel }, { FormulasPanel, PaperPanel }, { OwnRigs }] =
-    await fetched(() =>
-      Promise.all([
-        import('./compare/index.js'),
-        import('./rig/index.js'),
-        import('./recordings/index.js'),
-        import('./paper/index.js'),
-        import('./rigs/index.js'),
-        styles('recordings'),
-        styles('rigs'),
-        styles('paper'),
-      ]),
-    );
+  const [compare, { RigPanel }, { RecordingsPanel }, paper, { OwnRigs }] = await fetched(() =>
+    Promise.all([
+      import('./compare/index.js'),
+      import('./rig/index.js'),
+      import('./recordings/index.js'),
+      import('./paper/index.js'),
+      import('./rigs/index.js'),
+      ...['recordings', 'rigs', 'paper', 'math'].map(styles),
+    ]),
+  );
+  await paper.formulaFont(); // before any formula is drawn, so that none moves
   views.figures.unshift(
-    drawn([new PinsPanel(byId('pins'), store), byId('pins')]),
-    drawn([new ComparePanel(byId('compare'), store), byId('compare')]),
+    drawn([new compare.PinsPanel(byId('pins'), store), byId('pins')]),
+    drawn([new compare.ComparePanel(byId('compare'), store), byId('compare')]),
     drawn([new RigPanel(byId('rig'), store), byId('rig')]),
     drawn([new RecordingsPanel(byId('recordings'), store, plots), byId('recordings')]),
-    drawn([new FormulasPanel(byId('formulas'), store), byId('formulas')]),
-    drawn([new PaperPanel(byId('paper'), store), byId('paper')]),
+    drawn([new paper.FormulasPanel(byId('formulas'), store), byId('formulas')]),
+    drawn([new paper.PaperPanel(byId('paper'), store), byId('paper')]),
     drawn([new OwnRigs(byId('own-rigs'), store)]),
   );
   schedule();

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from heli2dof_core import Loop
+from heli2dof_core import Loop, Spec
+from heli2dof_core.errors import within_field
 from heli2dof_core.evaluate import Step as CoreStep
 from heli2dof_core.figures import AXIS, MOTOR, STEP
 from heli2dof_core.figures import LOOP as FIGURES_OF_LOOP
@@ -80,6 +81,38 @@ class StepRequest(DesignRequest):
     """A design and an experiment."""
 
     scenario: ScenarioChanges = ScenarioChanges()
+
+
+MOST_PINS = 6
+"""Designs beside the one that is exported: more have no room on a report's two pages."""
+
+
+class PinnedDesign(StepRequest):
+    """A design that a report lists beside its own."""
+
+    name: str = Field(min_length=1, max_length=60, description="what its row is called")
+
+
+class ExportRequest(StepRequest):
+    """A design, an experiment, and the designs that stand beside it in a report."""
+
+    pins: list[PinnedDesign] = Field(
+        default_factory=list,
+        max_length=MOST_PINS,
+        description="listed in the report with their figures; other formats leave them out",
+    )
+
+    def beside(self) -> list[tuple[str, Spec]]:
+        """The core's specs of the pins, by their names.
+
+        Raises:
+            Heli2DofError: as `to_spec`.
+        """
+        found = []
+        for i, pin in enumerate(self.pins):
+            with within_field(f"pins.{i}"):
+                found.append((pin.name, pin.to_spec()))
+        return found
 
 
 class ResponseRequest(StepRequest):

@@ -6,8 +6,6 @@ from dataclasses import asdict
 from functools import cache
 from typing import Any
 
-from latex2mathml.converter import convert
-
 from heli2dof_core.paper.consequence import consequence
 from heli2dof_core.paper.equation import Equation
 from heli2dof_core.paper.equations import EQUATIONS
@@ -15,6 +13,7 @@ from heli2dof_core.paper.errata import ERRATA, Erratum
 from heli2dof_core.paper.figures import figures
 from heli2dof_core.paper.glossary import TERMS
 from heli2dof_core.paper.reproduce import Row, reproduce, significant_digits
+from heli2dof_core.symbolic.mathml import mathml
 from heli2dof_core.symbolic.names import latex
 
 from . import paper as models
@@ -31,7 +30,7 @@ def paper_reply() -> Reply:
         "title": TITLE,
         "authors": AUTHORS,
         "equations": [_equation(equation) for equation in EQUATIONS],
-        "symbols": [{**asdict(term), "mathml": convert(term.latex)} for term in TERMS],
+        "symbols": [{**asdict(term), "mathml": mathml(term.latex)} for term in TERMS],
         "numbers": [_row(row) for row in reproduce()],
         "errata": [_erratum(erratum) for erratum in ERRATA],
         "consequence": [reply_of(models.Outcome, outcome) for outcome in consequence()],
@@ -40,7 +39,7 @@ def paper_reply() -> Reply:
 
 
 def _typeset(latex: str) -> Reply:
-    return {"latex": latex, "mathml": convert(latex)}
+    return {"latex": latex, "mathml": mathml(latex)}
 
 
 def _equation(equation: Equation) -> Reply:

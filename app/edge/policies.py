@@ -28,12 +28,14 @@ def page(ancestors: Iterable[str]) -> str:
     """Of the page: everything from its own origin, nothing inline but the laboratory report's own style.
 
     Its scripts may compile WebAssembly, which is the kernels in static/kernel/; they may not make code of text.
-    The page opens the report from a blob, which inherits this policy; the style's hash allows that one content.
+    The page opens the report from a blob, which inherits this policy; the style's hash allows that one content,
+    and its font stands in it as data.
     """
     return _joined(
         ancestors,
         script_src="'self' 'wasm-unsafe-eval'",
         style_src=f"'self' {hash_source(STYLE.encode())}",
+        font_src="'self' data:",
         img_src="'self'",
         connect_src="'self'",
         frame_src="'self'",

@@ -9,7 +9,7 @@ from fastapi import APIRouter, Path, Query, Response
 from heli2dof_core.checks import require_known
 
 from ..contract.encoding import described_files
-from ..contract.experiment import StepRequest
+from ..contract.experiment import ExportRequest
 from ..contract.exports import FORMATS
 from ..jobs.compute import Compute
 
@@ -30,9 +30,11 @@ def build_router(compute: Compute) -> APIRouter:
     router = APIRouter(prefix="/api/v1", tags=["export"])
 
     @router.post("/export/{format}", **_described())
-    async def export(request: StepRequest, name: FormatName, link: Link = None) -> Response:
+    async def export(request: ExportRequest, name: FormatName, link: Link = None) -> Response:
         chosen = require_known(name, FORMATS, "format")
-        content = await compute.run_slow(lambda: chosen.content(request.to_spec(), link or ""))
+        content = await compute.run_slow(
+            lambda: chosen.content(request.to_spec(), link or "", request.beside())
+        )
         headers = {"Content-Disposition": f'attachment; filename="{chosen.filename}"'}
         return Response(content, media_type=chosen.media_type, headers=headers)
 

@@ -8,12 +8,13 @@ from ..parameters import PARAMETER_INFO
 from ..spec import Spec
 from .dialect import MATLAB
 from .format import Format
+from .nonlinear_script import nonlinear_lines
 from .origin import origin
 from .script_loop import estimator_lines, gain_comment, loop_lines, machine_lines, model_names, start_of
 
 
 def render(spec: Spec, link: str = "") -> str:
-    """A script that defines rig, K, loops and the linear step response, checks them and plots."""
+    """A script that defines rig, K and loops, checks them, and plots the linear model's and the rig's responses."""
     loop = loop_of(spec)
     design, scenario, matrix = loop.design, spec.scenario, MATLAB.matrix
     theta, psi, *_ = scenario.resolved(spec.theta_0)
@@ -49,6 +50,8 @@ def render(spec: Spec, link: str = "") -> str:
             f"reference = [{theta!r} - theta_0; {psi!r}];  % deviations, rad",
             f"x = [{'; '.join(map(repr, start_of(loop, scenario)))}];",
             _RESPONSE,
+            *nonlinear_lines(spec, loop),
+            _PLOTS,
         ]
     )
 
@@ -109,14 +112,15 @@ for k = 1:numel(t)
     V_p(k) = u(1);
     V_y(k) = u(2);
     x = step_matrix(1:n, :) * [x; 1];
-end
+end"""
 
+_PLOTS = """
 if ~exist('no_plots', 'var') || ~no_plots
     figure;
-    subplot(2, 1, 1); plot(t, [theta, psi] * 180 / pi); grid on;
-    ylabel('angle, deg'); legend('theta', 'psi');
-    subplot(2, 1, 2); plot(t, [V_p, V_y]); grid on;
-    ylabel('voltage from trim, V'); xlabel('t, s'); legend('V_p', 'V_y');
+    subplot(2, 1, 1); plot(t, [theta_rig, psi_rig] * 180 / pi, t, [theta, psi] * 180 / pi, '--'); grid on;
+    ylabel('angle, deg'); legend('theta', 'psi', 'theta, linear', 'psi, linear');
+    subplot(2, 1, 2); plot(t, [V_p_rig, V_y_rig], t, [V_p + trim(1), V_y + trim(2)], '--'); grid on;
+    ylabel('voltage, V'); xlabel('t, s'); legend('V_p', 'V_y', 'V_p, linear', 'V_y, linear');
 end
 % With the Control System Toolbox: loop = ss(A_loop, B_loop, [eye(2, n); law], [zeros(2); law_of_reference]);
 % In Octave keep it an ss: bode draws a tf with poles at 0 lower by 360 degrees, isstable of a 2x2 tf cancels poles.

@@ -23,6 +23,7 @@ from .origin import origin, preset_of
 from .report_figures import margins, merit
 from .report_formulas import formulas
 from .report_machine import words
+from .report_pins import Pins, pinned
 from .report_style import STYLE
 from .svg import Curve, Marks, chart, number, pole_map
 
@@ -32,9 +33,12 @@ if TYPE_CHECKING:  # would be imported before the first page
 _NAMES = ("p₁", "p₂", "p₃", "p₄", "p₅", "p₆")
 
 
-def render(spec: Spec, link: str = "") -> str:
-    """The page; figures and words are those of `evaluate`."""
+def render(spec: Spec, link: str = "", pins: Pins = ()) -> str:
+    """The page; figures and words are those of `evaluate`; `pins` are other designs by their names."""
     report, preset = evaluate(spec, each_axis=True), preset_of(spec)
+    rig = words(spec, report)
+    # what makes it long: rows of pins, a machine's tables and words, six states' formulas
+    load = bool(pins) + bool(rig["machine"] or rig["feedback"]) + (report.design.rotor_poles is not None)
     return (
         _templates()
         .get_template("report.html.jinja")
@@ -58,7 +62,9 @@ def render(spec: Spec, link: str = "") -> str:
             merit=merit(report),
             margins=margins(report),
             origin=origin(spec, FORMAT.name, link),
-            rig=words(spec, report),
+            rig=rig,
+            load=load,
+            pins=pinned(pins),
         )
     )
 
@@ -206,5 +212,11 @@ def _experiment(spec: Spec, report: Report) -> str:
 
 
 FORMAT = Format(
-    "report", "Laboratory report, to print", ".html", "text/html; charset=utf-8", render, "heli2dof_report"
+    "report",
+    "Laboratory report, to print",
+    ".html",
+    "text/html; charset=utf-8",
+    render,
+    "heli2dof_report",
+    render,
 )

@@ -2,5 +2,7 @@
 
 from pathlib import Path
 
-STYLE = (Path(__file__).parent / "templates" / "report.css").read_text("utf-8")
+from .math_font import face
+
+STYLE = face() + (Path(__file__).parent / "templates" / "report.css").read_text("utf-8")
 """Stands in the report itself; the page's policy allows exactly this content."""

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from functools import cache
 
 import sympy as sp
-from latex2mathml.converter import convert
 
 from ..couplings import Modelled, Sought, Structure
 from .beyond import GainFormulas, observer_formulas, rotor_formulas
 from .formulas import derive
 from .full_rank import indices
 from .linearization import linear_model
+from .mathml import mathml
 from .names import NAMES, Name, latex
 
 _REPORTED = (
@@ -110,17 +110,17 @@ def _entries(matrix: sp.MatrixBase, letter: str) -> dict[str, Formula]:
 
 def formula_of_name(name: Name) -> Formula:
     """A symbol by itself."""
-    return Formula(name.name, name.latex, convert(name.latex))
+    return Formula(name.name, name.latex, mathml(name.latex))
 
 
 def formula_of_letters(expression: sp.Expr | sp.Matrix, letters: Mapping[str, sp.Symbol]) -> Formula:
     """An expression in somebody's own letters; those renamed for SymPy are written by the names that were given."""
     own = {symbol: sp.latex(sp.Symbol(name)) for name, symbol in letters.items() if symbol.name != name}
     text = sp.latex(expression, symbol_names=own, mat_delim="[")
-    return Formula(str(expression), text, convert(text))
+    return Formula(str(expression), text, mathml(text))
 
 
 def formula(expression: sp.Expr | sp.Matrix) -> Formula:
     """An expression or matrix in all three notations."""
     text = latex(expression)
-    return Formula(str(expression), text, convert(text))
+    return Formula(str(expression), text, mathml(text))

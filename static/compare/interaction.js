@@ -8,7 +8,7 @@ import { h, symbol } from '../ui/index.js';
 import { FrequencyCard } from './frequency_card.js';
 
 const FREQUENCIES = logSpaced(0.01, 1000, 121);
-const size = (/** @type {string} */ sub) => h('span', { class: 'sym' }, '|', h('i', {}, 'λ'), h('sub', {}, sub), '|');
+const size = (/** @type {string} */ sub) => h('span', { class: 'sym' }, '|', symbol('λ', sub), '|');
 
 /** Full decades around what is seen, and around 1. @param {number[][]} data @returns {[number, number]} */
 function range(data) {

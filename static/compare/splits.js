@@ -2,7 +2,7 @@
 import { fixed, significant } from '../text/index.js';
 import { best, bodyOf, fromWire, FULL_RANK, inOrder, nameOf, pairText, sameSplit } from '../model/index.js';
 import { compareSplits } from '../net/index.js';
-import { button, h, head, Lazy, setAttr, setText, shape, symbol, wide } from '../ui/index.js';
+import { button, h, head, Lazy, printed, setAttr, setText, shape, symbol, wide } from '../ui/index.js';
 
 export class SplitsCard {
   /** @type {{row: HTMLElement, use: HTMLButtonElement, poles: import('../types.js').Poles}[]} */ #rows = [];
@@ -17,13 +17,7 @@ export class SplitsCard {
     const columns = [
       column('pitch'),
       column('yaw'),
-      h(
-        'th',
-        { scope: 'col', title: 'Frobenius norm of K' },
-        '‖',
-        symbol('K'),
-        h('span', { class: 'sym' }, '‖', h('sub', {}, 'F')),
-      ),
+      h('th', { scope: 'col', title: 'Frobenius norm of K' }, printed('‖K‖_F')),
       h('th', { scope: 'col', title: 'relative gain at s = 0, dimensionless' }, symbol('λ', '11')),
       h('th', {}, h('span', { class: 'sr' }, 'Use')),
     ];

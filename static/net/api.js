@@ -21,16 +21,17 @@ const PATIENCE_MS = 10_000;
 const UNUSUAL = /[^\w\-.~:/?#[\]@!$&'()*+,;=%]/gu; // what RFC 3986 knows in no address, and browsers leave in it
 
 /**
- * What the browser says where no server answers differs from one to another, and helps nobody.
- * @param {string|URL} address
- * @param {RequestInit} options
- * @returns {Promise<Response>}
+ * What the browser says where no server answers, or where one stops amid its answer, differs from one to another, and
+ * helps nobody.
+ * @template T
+ * @param {Promise<T>} answer
+ * @returns {Promise<T>}
  */
-async function reach(address, options) {
+async function reach(answer) {
   try {
-    return await fetch(address, options);
+    return await answer;
   } catch {
-    throw new Error(t('No connection to the server. Try again in a moment.'));
+    throw new Error(t('No connection to the server. Your design stays here. Try again when the page says “live”.'));
   }
 }
 
@@ -55,7 +56,7 @@ export class ProblemError extends Error {
  */
 async function answerOf(path, { method = 'GET', body, type = 'application/json' } = {}) {
   const headers = body === undefined ? undefined : { 'Content-Type': type };
-  const response = await reach(path instanceof URL ? path : at(path), { method, headers, body });
+  const response = await reach(fetch(path instanceof URL ? path : at(path), { method, headers, body }));
   if (!response.ok)
     throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
   return response;
@@ -70,7 +71,7 @@ async function answerOf(path, { method = 'GET', body, type = 'application/json' 
  */
 async function call(path, body, method = body === undefined ? 'GET' : 'POST') {
   const response = await answerOf(path, { method, body: body === undefined ? body : JSON.stringify(body) });
-  const text = await response.text();
+  const text = await reach(response.text());
   const json = text && (response.headers.get('content-type') ?? '').includes('json') ? JSON.parse(text) : {};
   return json;
 }
@@ -80,7 +81,10 @@ async function call(path, body, method = body === undefined ? 'GET' : 'POST') {
  * @param {string} path
  * @param {Asked<import('../contract.js').StepRequest>} design
  */
-const fileOf = async (path, design) => (await answerOf(path, { method: 'POST', body: JSON.stringify(design) })).blob();
+const fileOf = async (path, design) => {
+  const response = await answerOf(path, { method: 'POST', body: JSON.stringify(design) });
+  return reach(response.blob());
+};
 
 /** @returns {Promise<import('../types.js').Preset[]>} */
 export const getPresets = () => call('api/v1/presets');
@@ -186,7 +190,7 @@ export const motionFile = (format, design) => fileOf(`api/v1/motion?format=${for
  * A design for another program or for print.
  * @param {string} format
  * @param {string} link that opens it
- * @param {Asked<import('../contract.js').StepRequest>} design
+ * @param {Asked<import('../contract.js').StepRequest> & {pins?: Asked<import('../contract.js').PinnedDesign>[]}} design
  */
 export const exportDesign = (format, link, design) =>
   fileOf(`api/v1/export/${format}?${new URLSearchParams({ link: link.replace(UNUSUAL, encodeURIComponent) })}`, design);

@@ -1,11 +1,12 @@
 /** "Export": the design as a file for other programs, as numbers, or as a report to print. */
 import { messageOf, say } from '../text/index.js';
-import { bodyOf, scenarioOf } from '../model/index.js';
+import { bodyOf, letterOf, scenarioOf } from '../model/index.js';
 import { exportDesign } from '../net/index.js';
 import { button, h, icon, popupButton, saveFile, setText } from '../ui/index.js';
 import { EXPORTS } from './export_formats.js';
 
 /** @typedef {import('./export_formats.js').Export} Export */
+const [MOST_PINS, MOST_NAME] = [6, 60]; // that the server takes
 const READ_MS = 60_000; // by then a tab has read its page
 
 /** @param {import('../model/store.js').Store} store @param {import('../link/address.js').Address} address */
@@ -19,6 +20,17 @@ export function exportMenu(store, address) {
   });
 }
 
+/** Those that have figures, as many as a report has room for. @param {import('../types.js').Pin[]} pins */
+const pinsOf = (pins) =>
+  pins
+    .filter(({ refused }) => !refused)
+    .slice(0, MOST_PINS)
+    .map(({ index, name, design }) => ({
+      ...bodyOf(design),
+      scenario: scenarioOf(design),
+      name: `${letterOf(index)} ${name}`.slice(0, MOST_NAME),
+    }));
+
 /** @param {import('../model/store.js').Store} store @param {import('../link/address.js').Address} address */
 function menu(store, address) {
   const told = h('p', { class: 'told', role: 'status', 'data-testid': 'export-told' });
@@ -31,6 +43,7 @@ function menu(store, address) {
       return await exportDesign(name, `${location.origin}${location.pathname}${location.search}${address.link}`, {
         ...bodyOf(design),
         scenario: scenarioOf(design),
+        ...(name === 'report' ? { pins: pinsOf(store.state.pins) } : {}),
       });
     } catch (error) {
       setText(told, messageOf(error));

@@ -11,7 +11,7 @@ const APPENDIX = [
   ['paper-consequence', 'What the unequal digits mean'],
   ['paper-symbols', 'Symbols'],
 ];
-const HERE = 0.35; // share of the window's height above which the step that is read begins
+const HERE = 0.25; // share of the window's height above which the step that is read begins
 
 /** @param {Equation[]} equations @param {...Node} more below */
 export function contents(equations, ...more) {

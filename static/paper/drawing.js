@@ -25,6 +25,14 @@ export function arrow(points, kind = '') {
   );
 }
 
+/** Letters as a font for mathematics slants them; a drawing's text is no MathML. @param {string} text */
+export const slanted = (text) =>
+  text
+    .normalize('NFD')
+    .replace(/[A-Za-zα-ω]/g, (c) =>
+      c === 'h' ? 'ℎ' : String.fromCodePoint(c.charCodeAt(0) + (c < '[' ? 0x1d3f3 : c < '{' ? 0x1d3ed : 0x1d34b)),
+    );
+
 /**
  * Mathematics: italic base, small subscript.
  * @param {number} x
@@ -37,8 +45,8 @@ export const math = (x, y, base, sub, { kind = '', anchor = 'middle' } = {}) =>
   svg(
     'text',
     { class: `math ${kind}`, x, y, 'text-anchor': anchor },
-    base,
-    ...(sub ? [svg('tspan', { class: 'sub', dy: 4 }, sub)] : []),
+    slanted(base),
+    ...(sub ? [svg('tspan', { class: 'sub', dy: 4 }, sub.length > 1 ? sub : slanted(sub))] : []),
   );
 
 /** @param {number} x @param {number} y @param {string} text @param {{kind?: string, anchor?: string}} [how] */

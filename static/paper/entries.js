@@ -1,6 +1,6 @@
 /** A gain entry by entry, each formula beside its present value; and what the letters in it stand for. */
 import { significant } from '../text/index.js';
-import { copyButton, formula, h, setText } from '../ui/index.js';
+import { copyButton, formula, h, setText, symbol } from '../ui/index.js';
 
 const SUB = '₀₁₂₃₄₅₆';
 /** @typedef {import('../contract.js').Formula} Formula */
@@ -37,7 +37,7 @@ export class Entries {
     return h(
       'div',
       { class: 'entry' },
-      mark ? null : h('span', { class: 'sym' }, h('i', {}, name[0]), `${SUB[i]}${SUB[j]} =`),
+      mark ? null : h('span', { class: 'before' }, symbol(name[0], `${i}${j}`), ' ='),
       h(
         'div',
         { class: `scroll ${mark ? 'equation' : ''}`, tabindex: 0, role: 'group', 'aria-label': label },

@@ -6,7 +6,9 @@ import { messageOf } from '../text/index.js';
 import { bodyOf, FULL_RANK, presetOf } from '../model/index.js';
 import { formula, h, Lazy, whileSeen } from '../ui/index.js';
 import { ofObserver, ofPaper, ofRotors } from './derived.js';
+import { watchEnds } from './ends.js';
 import { copying, defined, Entries, nonzero } from './entries.js';
+import { rich } from './rich.js';
 import { memberOf } from './structure.js';
 import { SymbolCards } from './symbol_cards.js';
 import { walk } from './walk.js';
@@ -28,6 +30,8 @@ const OTHERS = [
   ['canonical_closed_loop', 'Closed loop in Luenberger’s basis, T(A − BK)T⁻¹'],
   ['G', 'Closed loop Ĝ(s)'],
 ];
+/** Those that have no room beside another. */
+const WIDE = new Set(['RGA', 'closed_loop', 'canonical_closed_loop', 'G']);
 
 export class FormulasPanel {
   #structure = '';
@@ -42,6 +46,7 @@ export class FormulasPanel {
     this.store = store;
     this.body = h('div', { class: 'formulas-body', 'data-testid': 'formulas' });
     root.append(this.body);
+    watchEnds(root);
     this.cards = new SymbolCards(root, () => ({
       parameters: { ...presetOf(store.state)?.parameters, ...store.state.design?.parameters },
       components: {},
@@ -112,7 +117,7 @@ export class FormulasPanel {
       return own
         ? h(
             'section',
-            { class: `card ${key === 'RGA' ? 'wide' : ''}` },
+            { class: `card ${WIDE.has(key) ? 'wide' : ''}` },
             h('h3', {}, title, ' ', copy(key, own)),
             h(
               'div',
@@ -146,7 +151,7 @@ export class FormulasPanel {
                     ? [h('span', { class: 'sr' }, s.name), h('span', { 'aria-hidden': 'true' }, formula(s.mathml))]
                     : s.name,
                 ),
-                h('td', {}, s.meaning),
+                h('td', {}, rich(s.meaning)),
                 h('td', {}, s.unit),
               ),
             ),

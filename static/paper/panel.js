@@ -15,6 +15,7 @@ import { consequence } from './consequence.js';
 import { contents, follow } from './contents.js';
 import { PaperCurves } from './curves.js';
 import { chapters, mark } from './equations.js';
+import { watchEnds } from './ends.js';
 import { errata } from './errata.js';
 import { chapter } from './forms.js';
 import { LiveNumbers } from './live.js';
@@ -49,6 +50,7 @@ export class PaperPanel {
     this.store = store;
     this.body = h('div', { class: 'paper-body', 'data-testid': 'paper' });
     root.append(this.body);
+    watchEnds(root);
     this.cards = new SymbolCards(root, () => this.#now());
     this.lazy = new Lazy(root, this.body, store, {
       wait: WAIT,

@@ -2,18 +2,26 @@
  * Plain text of the server as typeset text: K_pp gets its subscript, −8.7 its minus, "Eq. 13" leads to it, and $x$ is
  * mathematics.
  */
-import { h, symbol } from '../ui/index.js';
+import { h, letters, math, symbol } from '../ui/index.js';
 import { anchorOf, minus } from './math.js';
 
 const PIECE = /\$([^$]+)\$|([A-Za-zα-ωΑ-Ω])_([A-Za-z0-9]+(?:,[a-z])?)|(\b(?:Eq|Fig)\. \d+|\bTable I\b)/g;
-const LETTERS = /([A-Za-zα-ωΑ-Ω]\p{Mn}?|\p{L})/u;
+const LETTERS = /(\p{L}\p{Mn}?)/u;
+const FIRM = '\u00a0'; // a space that MathML keeps
 
 /** Mathematics in a line: letters in italics, all else upright. @param {string} text */
 const inline = (text) =>
   h(
     'span',
-    { class: 'sym inline' },
-    text.split(LETTERS).map((part, i) => (i % 2 ? h('i', {}, part) : part)),
+    { class: 'sym' },
+    math(
+      'math',
+      {},
+      ...text
+        .normalize('NFD')
+        .split(LETTERS)
+        .flatMap((part, i) => (i % 2 ? letters(part) : part ? [math('mtext', {}, part.replaceAll(' ', FIRM))] : [])),
+    ),
   );
 
 /**

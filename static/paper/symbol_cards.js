@@ -118,7 +118,7 @@ export class SymbolCards {
   mark(part, chapter = '') {
     const glossary = this.#glossary;
     if (!glossary) return;
-    for (const math of part.querySelectorAll('math')) {
+    for (const math of part.querySelectorAll('math:not(.sym > *)')) {
       const found = symbolsIn(math, (sign, applied) => glossary.find(sign, applied, chapter));
       for (const { element: sign, term } of found) {
         const element = /** @type {Element} */ (sign);

@@ -1,5 +1,4 @@
 /** A plot over time as a picture: what is seen, with its words. */
-import { drawPicture } from './picture.js';
 import { TITLES, unitOf } from './export.js';
 import { say, t } from '../text/index.js';
 import { isVoltage } from '../model/index.js';
@@ -16,11 +15,11 @@ import { isVoltage } from '../model/index.js';
  * @param {Line[]} lines
  * @param {import('../types.js').Pin[]} pins their pins, for the letters
  * @param {Seen & {subtitle: string}} how
- * @returns {HTMLCanvasElement}
+ * @returns {import('./picture.js').Picture}
  */
-export function drawPlot(signal, lines, pins, { x, y, subtitle, rules, regions, marks }) {
+export function pictureOf(signal, lines, pins, { x, y, subtitle, rules, regions, marks }) {
   const symbol = TITLES[signal].split(' ').pop();
-  return drawPicture({
+  return {
     title: t(TITLES[signal]),
     subtitle,
     lines,
@@ -30,7 +29,7 @@ export function drawPlot(signal, lines, pins, { x, y, subtitle, rules, regions, 
     marks,
     x: { range: x, title: t('Time in s') },
     y: { range: y, title: isVoltage(signal) ? `${symbol} in V` : say`${symbol} in degrees` },
-  });
+  };
 }
 
 /** @param {Signal} signal */

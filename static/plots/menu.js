@@ -4,7 +4,7 @@ import { nameOf } from '../model/index.js';
 import { button, h, icon, popupButton, saveFile } from '../ui/index.js';
 import { drawPicture } from './picture.js';
 import { csvOf, linesOf, tableOf } from './export.js';
-import { drawPlot, fileName } from './image.js';
+import { fileName, pictureOf } from './image.js';
 
 /**
  * @typedef {import('../model/traces.js').Signal} Signal
@@ -23,25 +23,56 @@ export function subtitle(store) {
 
 const WORDS = {
   PNG: 'Picture: what is seen, with title, axes and legend, on white',
+  SVG: 'The same as lines and letters, sharp at any size, to be edited',
   CSV: 'Numbers: time and every line, units in the header',
 };
+
+/** The pictures of the plots that the page always has. @type {Map<Signal, () => Picture>} */ const always = new Map();
 
 /**
  * The button that saves as a picture or as numbers.
  * @param {string} testid
  * @param {string} title
- * @param {{PNG: () => void, CSV: () => void}} save
+ * @param {string} name of the files
+ * @param {() => Picture} picture
+ * @param {() => string} csv
+ * @param {boolean} [all] whether the other plots are saved from here, too
  */
-function saveButton(testid, title, save) {
+function saveButton(testid, title, name, picture, csv, all = false) {
+  const save = {
+    PNG: () => savePicture(drawPicture(picture()), name),
+    SVG: () => saveDrawing([picture()], name),
+    CSV: () => saveFile(`${name}.csv`, new Blob([csv()], { type: 'text/csv;charset=utf-8' })),
+  };
+  const row = (/** @type {string} */ what, /** @type {Node[]} */ ...buttons) =>
+    h('div', { class: 'row' }, h('span', { class: 'caption' }, what), ...buttons);
   const content = () => [
-    h(
-      'div',
-      { class: 'row' },
-      h('span', { class: 'caption' }, `Save ${title}`),
-      .../** @type {('PNG'|'CSV')[]} */ (['PNG', 'CSV']).map((kind) =>
+    row(
+      `Save ${title}`,
+      .../** @type {('PNG'|'SVG'|'CSV')[]} */ (['PNG', 'SVG', 'CSV']).map((kind) =>
         button({ title: WORDS[kind], 'data-testid': `save-${testid}-${kind}`, onclick: save[kind] }, kind),
       ),
     ),
+    ...(all
+      ? [
+          row(
+            'Save all plots',
+            button(
+              {
+                title: WORDS.SVG,
+                'aria-label': 'Save all plots as SVG',
+                'data-testid': 'save-all-SVG',
+                onclick: () =>
+                  saveDrawing(
+                    [...always.values()].map((make) => make()),
+                    'heli2dof-plots',
+                  ),
+              },
+              'SVG',
+            ),
+          ),
+        ]
+      : []),
   ];
   return popupButton({
     label: `Save ${title} as picture or numbers`,
@@ -58,8 +89,12 @@ function savePicture(canvas, name) {
   const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
   saveFile(`${name}.png`, new Blob([bytes], { type: 'image/png' }));
 }
-const saveNumbers = (/** @type {string} */ csv, /** @type {string} */ name) =>
-  saveFile(`${name}.csv`, new Blob([csv], { type: 'text/csv;charset=utf-8' }));
+
+/** @param {Picture[]} pictures @param {string} name */
+async function saveDrawing(pictures, name) {
+  const { measuring, svgOf } = await import('./vector.js');
+  saveFile(`${name}.svg`, new Blob([svgOf(pictures, measuring())], { type: 'image/svg+xml' }));
+}
 
 /**
  * @param {import('../model/store.js').Store} store
@@ -67,15 +102,12 @@ const saveNumbers = (/** @type {string} */ csv, /** @type {string} */ name) =>
  * @param {string} title
  * @param {() => Seen} seen
  */
-export const plotMenu = (store, signal, title, seen) =>
-  saveButton(signal, title, {
-    PNG: () =>
-      savePicture(
-        drawPlot(signal, linesOf(store.state, signal), store.state.pins, { ...seen(), subtitle: subtitle(store) }),
-        fileName(signal),
-      ),
-    CSV: () => saveNumbers(csvOf(signal, linesOf(store.state, signal)), fileName(signal)),
-  });
+export function plotMenu(store, signal, title, seen) {
+  const lines = () => linesOf(store.state, signal);
+  const picture = () => pictureOf(signal, lines(), store.state.pins, { ...seen(), subtitle: subtitle(store) });
+  always.set(signal, picture);
+  return saveButton(signal, title, fileName(signal), picture, () => csvOf(signal, lines()), true);
+}
 
 /**
  * The same for lines that are not the design's.
@@ -86,10 +118,13 @@ export const plotMenu = (store, signal, title, seen) =>
  * @param {Seen & {subtitle: string}} seen
  */
 export const linesMenu = (name, title, signal, lines, seen) =>
-  saveButton(name, title, {
-    PNG: () => savePicture(drawPlot(signal, lines, [], seen), name),
-    CSV: () => saveNumbers(csvOf(signal, lines), name),
-  });
+  saveButton(
+    name,
+    title,
+    name,
+    () => pictureOf(signal, lines, [], seen),
+    () => csvOf(signal, lines),
+  );
 
 /**
  * The same for what is not over time.
@@ -99,11 +134,4 @@ export const linesMenu = (name, title, signal, lines, seen) =>
  * @param {string} over header of what the lines are over
  */
 export const pictureMenu = (name, title, picture, over) =>
-  saveButton(name, title, {
-    PNG: () => savePicture(drawPicture(picture()), name),
-    CSV: () =>
-      saveNumbers(
-        tableOf(picture().lines, over, (line) => line),
-        name,
-      ),
-  });
+  saveButton(name, title, name, picture, () => tableOf(picture().lines, over, (line) => line));

@@ -82,13 +82,24 @@ function ticksOf({ range: [low, high], log, steps }, about) {
 const share = ({ range: [low, high], log }, v) =>
   log ? Math.log(v / low) / Math.log(high / low) : (v - low) / (high - low);
 
+/** Width and height, px. @param {Picture} picture @returns {[number, number]} */
+export const sizeOf = ({ lines }) => [WIDTH, HEIGHT + 20 * Math.ceil(lines.length / 3)];
+
 /** @param {Picture} picture @returns {HTMLCanvasElement} */
-export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions = [], pins = [], marks = [] }) {
+export function drawPicture(picture) {
   const canvas = document.createElement('canvas');
-  const height = HEIGHT + 20 * Math.ceil(lines.length / 3);
-  Object.assign(canvas, { width: WIDTH * SCALE, height: height * SCALE });
+  const [width, height] = sizeOf(picture);
+  Object.assign(canvas, { width: width * SCALE, height: height * SCALE });
   const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
   ctx.scale(SCALE, SCALE);
+  paint(ctx, picture);
+  return canvas;
+}
+
+/** @param {CanvasRenderingContext2D} ctx or what writes down what it is asked @param {Picture} picture */
+export function paint(ctx, picture) {
+  const { title, subtitle, x, y, lines, rules = [], regions = [], pins = [], marks = [] } = picture;
+  const [, height] = sizeOf(picture);
   ctx.fillStyle = LIGHT.panel;
   ctx.fillRect(0, 0, WIDTH, height);
   const box = { left: LEFT, top: TOP, right: WIDTH - RIGHT, bottom: HEIGHT - BOTTOM };
@@ -199,7 +210,6 @@ export function drawPicture({ title, subtitle, x, y, lines, rules = [], regions 
     ctx.stroke();
     text(line.name, left + 33, top, 'left', '12px', LIGHT.ink);
   });
-  return canvas;
 }
 
 /**

@@ -1,6 +1,6 @@
 /**
- * Matrices, poles and formulas as text for other programs, at full precision: LaTeX, Python (NumPy, SymPy), MATLAB,
- * plain text. Pure.
+ * Matrices, poles and formulas as text for other programs, with all digits or with four: LaTeX, Python (NumPy, SymPy),
+ * MATLAB, plain text. Pure.
  * @typedef {import('../types.js').Complex} Complex
  * @typedef {{name: string, note?: string, matrix: ArrayLike<number>[]}} MatrixItem
  * @typedef {{name: string, note?: string, poles: readonly Complex[]}} PolesItem
@@ -8,6 +8,7 @@
  *   string>}} FormulaItem sympy: as `sympify` reads it
  * @typedef {MatrixItem|PolesItem|FormulaItem} Item name: an identifier, as K or A_bar; note: what it is, with its units
  * @typedef {'LaTeX'|'Python'|'MATLAB'|'Text'} Format
+ * @typedef {number|undefined} Digits significant ones; undefined: all that the number has
  */
 import { complexIn } from '../text/index.js';
 
@@ -32,8 +33,12 @@ const latexName = (name) =>
       ? name.replace(/^([A-Za-z])_(\w+)$/, '$1_{$2}')
       : `\\mathrm{${name.replaceAll('_', '\\_')}}`);
 
-/** @param {number} v */
-const latexNumber = (v) => String(v).replace(/e\+?(-?\d+)$/, ' \\times 10^{$1}');
+/** Rounded millions have a power of ten, not zeros. @param {number} v */
+const latexNumber = (v) =>
+  (Math.abs(v) >= 1e6 && /000$/.test(String(v)) ? v.toExponential() : String(v)).replace(
+    /e\+?(-?\d+)$/,
+    ' \\times 10^{$1}',
+  );
 
 /** @param {Complex} p @param {(v: number) => string} number @param {string} unit */
 const complexText = (p, number, unit) => complexIn(p, { number, minus: '-', unit });
@@ -149,16 +154,42 @@ const FORMULA = {
   Text: ({ name, sympy, text }) => text ?? (sympy && `${name} = ${sympy}`),
 };
 
-/** @param {Item} item @param {Format} format @returns {string|undefined} undefined where the item has no such form */
-export function textOf(item, format) {
-  if ('matrix' in item) return MATRIX[format](item);
-  if ('poles' in item) return POLES[format](item);
-  return FORMULA[format](item);
+/** Rounded to so many significant digits. @param {number} v @param {number} digits */
+const rounded = (v, digits) => Number(v.toPrecision(digits)) || 0;
+
+/**
+ * An item with rounded numbers, and a note that they are: who computes on with them should know. LaTeX has no note.
+ * @param {MatrixItem|PolesItem} item
+ * @param {number} digits
+ * @returns {MatrixItem|PolesItem}
+ */
+function shortened(item, digits) {
+  const note = `${item.note ? `${item.note}; ` : ''}rounded to ${digits} digits`;
+  const short = (/** @type {number} */ v) => rounded(v, digits);
+  if ('matrix' in item) return { ...item, note, matrix: item.matrix.map((row) => Array.from(row, short)) };
+  return { ...item, note, poles: item.poles.map(({ re, im }) => ({ re: short(re), im: short(im) })) };
 }
 
-/** Several items as one text; what the parts share stands once. @param {Item[]} items @param {Format} format */
-export function allOf(items, format) {
-  const parts = items.map((item) => textOf(item, format)).filter((text) => text !== undefined);
+/**
+ * @param {Item} item
+ * @param {Format} format
+ * @param {Digits} [digits]
+ * @returns {string|undefined} undefined where the item has no such form
+ */
+export function textOf(item, format, digits) {
+  if (!('matrix' in item) && !('poles' in item)) return FORMULA[format](item);
+  const own = digits ? shortened(item, digits) : item;
+  return 'matrix' in own ? MATRIX[format](own) : POLES[format](own);
+}
+
+/**
+ * Several items as one text; what the parts share stands once.
+ * @param {Item[]} items
+ * @param {Format} format
+ * @param {Digits} [digits]
+ */
+export function allOf(items, format, digits) {
+  const parts = items.map((item) => textOf(item, format, digits)).filter((text) => text !== undefined);
   const head = 'import numpy as np\n\n';
   if (format !== 'Python' || parts.some((p) => !p.startsWith(head))) return parts.join('\n\n');
   return head + parts.map((p) => p.slice(head.length)).join('\n\n');

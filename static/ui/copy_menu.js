@@ -2,11 +2,32 @@
 import { copyText } from './clipboard.js';
 import { allOf, FORMATS, textOf } from './copy_formats.js';
 import { button, h, setText } from './dom.js';
+import { Choice } from './fields.js';
+import { recall, remember } from './memory.js';
 import { icon, popupButton } from './popup.js';
 
 /** @typedef {import('./copy_formats.js').Item} Item @typedef {import('./copy_formats.js').Format} Format */
 const TITLES = { LaTeX: 'for a document', Python: 'NumPy or SymPy', MATLAB: 'MATLAB or Octave', Text: 'plain text' };
 const SHOWN_MS = 1400;
+const [MEMORY, FEW] = ['copy-digits', 4];
+
+/** How many digits numbers are copied with, as it was last chosen. @returns {import('./copy_formats.js').Digits} */
+const digits = () => (recall(MEMORY) === String(FEW) ? FEW : undefined);
+
+/** The choice between few digits and all. */
+function digitsChoice() {
+  const choice = new Choice({
+    label: 'Digits of copied numbers',
+    testid: MEMORY,
+    options: [
+      [String(FEW), '4 digits'],
+      ['all', 'all digits'],
+    ],
+    onChange: (value) => remember(MEMORY, value),
+  });
+  choice.set(digits() ? String(FEW) : 'all');
+  return choice.node;
+}
 
 /** @param {string} testid @param {() => Item[]} items what there is at the moment it opens @param {string} [label] */
 export function copyButton(testid, items, label = 'Copy as LaTeX, Python, MATLAB or text') {
@@ -17,17 +38,17 @@ export function copyButton(testid, items, label = 'Copy as LaTeX, Python, MATLAB
 function menu(items) {
   if (!items.length) return [h('p', { class: 'caption' }, 'There is nothing to copy yet.')];
   const told = h('p', { class: 'told', role: 'status', 'data-testid': 'copied' });
-  const cell = (/** @type {string} */ name, /** @type {Format} */ format, /** @type {string|undefined} */ text) =>
+  const cell = (/** @type {string} */ name, /** @type {Format} */ format, /** @type {() => string|undefined} */ text) =>
     h(
       'td',
       {},
       button(
         {
-          disabled: !text,
+          disabled: !text(),
           title: `${name}: ${TITLES[format]}`,
           'aria-label': `Copy ${name} as ${format}`,
           'data-testid': `copy-${name}-${format}`,
-          onclick: (/** @type {Event} */ e) => copy(e, name, format, text ?? '', told),
+          onclick: (/** @type {Event} */ e) => copy(e, name, format, text() ?? '', told),
         },
         format,
       ),
@@ -37,7 +58,7 @@ function menu(items) {
       'tr',
       {},
       h('th', { scope: 'row', title: item.note ?? '' }, item.name),
-      FORMATS.map((format) => cell(item.name, format, textOf(item, format))),
+      FORMATS.map((format) => cell(item.name, format, () => textOf(item, format, digits()))),
     ),
   );
   if (items.length > 1)
@@ -46,10 +67,12 @@ function menu(items) {
         'tr',
         {},
         h('th', { scope: 'row' }, 'all'),
-        FORMATS.map((format) => cell('all', format, allOf(items, format))),
+        FORMATS.map((format) => cell('all', format, () => allOf(items, format, digits()))),
       ),
     );
-  return [h('table', { class: 'copy-menu' }, h('tbody', {}, rows)), told];
+  const numbers = items.some((item) => 'matrix' in item || 'poles' in item);
+  const table = h('table', { class: 'copy-menu' }, h('tbody', {}, rows));
+  return numbers ? [table, digitsChoice(), told] : [table, told];
 }
 
 /** @param {Event} e @param {string} name @param {Format} format @param {string} text @param {HTMLElement} told */

@@ -89,14 +89,3 @@ export function byId(id) {
   if (!node) throw new Error(`the page has no element #${id}`);
   return node;
 }
-
-/** A symbol with subscript, as in K_pp. @param {string} base @param {string} [sub] @returns {HTMLElement} */
-export const symbol = (base, sub) =>
-  h('span', { class: 'sym' }, h('i', { translate: 'no' }, base), ...(sub ? [h('sub', { translate: 'no' }, sub)] : []));
-
-/** A symbol as the registry of figures prints it: ‖K‖_F, κ_2(X), V_p. @param {string} text @returns {HTMLElement} */
-export function printed(text) {
-  const [, norm, base, sub, of] = /** @type {RegExpExecArray} */ (/^(‖?)(.+?)‖?(?:_(\w+))?(?:\((\w)\))?$/.exec(text));
-  if (norm) return h('span', { class: 'sym' }, '‖', h('i', {}, base), '‖', h('sub', {}, sub));
-  return of ? h('span', {}, symbol(base, sub), '(', symbol(of), ')') : symbol(base, sub);
-}

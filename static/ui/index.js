@@ -1,11 +1,11 @@
 /** What other rooms may import of ui/. */
 export { copyText, saveFile } from './clipboard.js';
 export { copyButton } from './copy_menu.js';
-export { button, byId, check, h, printed, setAttr, setText, svg, symbol } from './dom.js';
+export { button, byId, check, h, setAttr, setText, svg } from './dom.js';
 export { Choice, designField, NumberField } from './fields.js';
 export { isolated } from './isolated.js';
 export { Lazy, whileSeen } from './lazy.js';
-export { formula } from './mathml.js';
+export { formula, letters, math, printed, symbol } from './mathml.js';
 export { GAIN, gainMatrix, integralMatrix, Matrix, relativeGains } from './matrix.js';
 export { recall, remember } from './memory.js';
 export { CALM, Turns } from './pace.js';

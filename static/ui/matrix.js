@@ -1,6 +1,7 @@
 /** A matrix of numbers with names on its borders, and what the entries of K are called. */
 import { copyButton } from './copy_menu.js';
-import { h, setAttr, setText, symbol } from './dom.js';
+import { h, setAttr, setText } from './dom.js';
+import { symbol } from './mathml.js';
 import { head } from './tables.js';
 import { significant, t } from '../text/index.js';
 
@@ -8,7 +9,6 @@ import { significant, t } from '../text/index.js';
  * @typedef {{name: string, note?: string}|(() => import('./copy_formats.js').Item[])} Copied the name under which a
  *   matrix is copied, or all that its button copies
  */
-const dotted = (/** @type {string} */ s) => h('span', { class: 'sym' }, h('i', {}, `${s}\u0307`));
 const STATES = [
   { name: 'θ', unit: 'V/rad' },
   { name: 'ψ', unit: 'V/rad' },
@@ -72,9 +72,9 @@ export class Matrix {
 export function gainMatrix(testid, copied) {
   const matrix = new Matrix(
     testid,
-    h('b', {}, 'K'),
+    symbol('𝐊'),
     motors(),
-    [symbol('θ'), symbol('ψ'), dotted('θ'), dotted('ψ'), symbol('v', 'p'), symbol('v', 'y')],
+    [symbol('θ'), symbol('ψ'), symbol('θ̇'), symbol('ψ̇'), symbol('v', 'p'), symbol('v', 'y')],
     (i, j) => `k${'₁₂'[i]}${'₁₂₃₄₅₆'[j]}: ${STATES[j].unit}, feedback from ${STATES[j].name} to ${MOTORS[i]}`,
     copied,
   );
@@ -86,12 +86,9 @@ export function gainMatrix(testid, copied) {
 export const integralMatrix = (testid) =>
   new Matrix(
     testid,
-    h('span', { class: 'sym' }, h('b', {}, 'K'), h('sub', {}, 'I')),
+    symbol('𝐊', 'I'),
     motors(),
-    [
-      h('span', { class: 'sym' }, '∫', h('i', {}, 'e'), h('sub', {}, 'θ')),
-      h('span', { class: 'sym' }, '∫', h('i', {}, 'e'), h('sub', {}, 'ψ')),
-    ],
+    [h('span', { class: 'sym' }, '∫', symbol('e', 'θ')), h('span', { class: 'sym' }, '∫', symbol('e', 'ψ'))],
     (i, j) => `V/(rad·s), feedback from the integrated error of ${STATES[j].name} to ${MOTORS[i]}`,
   );
 

@@ -123,3 +123,31 @@ def test_the_schema_tells_the_formats(client):
 def test_json_is_finite(client):
     reply = client.post("/api/v1/export/json", json={"poles": [0, -1, 5, -3], "outer": "none"})
     json.loads(reply.text, parse_constant=pytest.fail)
+
+
+def test_pins_stand_in_the_report_with_their_figures(client):
+    slow = {"poles": [-8, -9, -10, -11], "name": "A <slow>"}
+    unstable = {"poles": [{"re": -3, "im": 4}, {"re": -3, "im": -4}, -5, -6], "name": "B"}
+    report = client.post("/api/v1/export/report", json={**BODY, "pins": [slow, unstable]})
+    assert report.status_code == 200
+    assert "Pinned designs" in report.text and "A &lt;slow&gt;" in report.text
+    own = client.post("/api/v1/evaluate", json={"poles": slow["poles"], "each_axis": True}).json()
+    steps = own["axis_steps"]
+    settling = " · ".join(
+        f"{steps[axis]['nonlinear']['metrics'][axis]['settling_time']:.2f} s" for axis in ("theta", "psi")
+    )
+    assert settling in report.text
+    plain = client.post("/api/v1/export/report", json=BODY).text
+    assert "Pinned designs" not in plain
+    for name in ("csv", "matlab"):
+        beside = client.post(f"/api/v1/export/{name}", json={**BODY, "pins": [slow]}).text
+        assert beside == client.post(f"/api/v1/export/{name}", json=BODY).text
+
+
+def test_a_pin_that_is_no_design_is_refused_by_its_place(client):
+    reply = client.post(
+        "/api/v1/export/report", json={"pins": [{"name": "A"}, {"name": "B", "poles": [1, 2]}]}
+    )
+    assert reply.status_code == 422 and reply.json()["field"] == "pins.1.poles"
+    seven = [{"name": "A"}] * 7
+    assert client.post("/api/v1/export/report", json={"pins": seven}).status_code == 422

@@ -28,7 +28,7 @@ from heli2dof_core import (
 )
 from heli2dof_core.export import FORMATS
 from tests.children import python
-from tests.core.test_export_scripts import octave
+from tests.core.test_export_scripts import octave, on_the_rig
 
 BASE = Spec.from_preset("quanser-2dof-manual")
 MOVED = Scenario(0.1, -0.2, 1.0, 101, initial=(0.05, 0.1, -0.1, 0.1))
@@ -124,6 +124,7 @@ def test_the_python_script_says_the_same(case):
 def test_the_matlab_script_says_the_same_in_octave(case, tmp_path: Path):
     spec, report = case
     names = octave(FORMATS["matlab"].render(spec, "http://127.0.0.1:8000/#x"), tmp_path)
+    on_the_rig(names, report)
     agree(names, report, "I_z")
     assert names["pole_error"][0, 0] < 1e-6
     if spec.scenario.measured == "observer" and spec.observer is not KALMAN:

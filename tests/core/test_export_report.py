@@ -53,7 +53,8 @@ def test_the_report_is_well_formed_and_holds_the_design(name: str):
     kinds = {element.tag.rpartition("}")[2] for element in page.iter()}
     assert {"math", "svg", "table", "polyline", "title"} <= kinds
     headings = [element.text for element in page.iter("h2")]
-    assert headings == ["Rig", "Design", "Formulas", "Responses", "Figures of merit", "Findings", "Origin"]
+    what_follows = ["Responses", "Figures of merit", "Findings", "Answers", "Origin"]
+    assert headings == ["Rig", "Design", "Formulas", *what_follows]
     assert "nan" not in words.lower().split() and "None°" not in words
 
 
@@ -173,3 +174,26 @@ def test_the_curves_are_both_steps_by_both_models():
 )
 def test_numbers_are_written_as_on_the_page(told: str, expected: str):
     assert told == expected
+
+
+def test_fields_can_be_typed_in_without_a_script():
+    page = tree(FORMATS["report"].render(BASE))
+    boxes = {box.get("aria-label"): box for box in page.iter("div") if box.get("role") == "textbox"}
+    assert set(boxes) == {"Name", "Date", "Answers"}
+    assert {box.get("contenteditable") for box in boxes.values()} == {"true"}
+
+
+def test_pins_are_rows_with_the_cores_figures():
+    text = FORMATS["report"].content(BASE, "", [("A", SPECS["aero"]), ("B <b>", SPECS["unstable"])]).decode()
+    page = tree(text)
+    assert "Pinned designs" in [element.text for element in page.iter("h2")]
+    rows = {row[0].text: [cell.text or "" for cell in row[1:]] for row in page.iter("tr")}
+    report = evaluate(SPECS["aero"], each_axis=True)
+    steps = [report.axis_steps[name]["nonlinear"].metrics for name in ("theta", "psi")]
+    overshoot = " · ".join(
+        f"{m.axes[a].overshoot:.1f} %" for m, a in zip(steps, ("theta", "psi"), strict=True)
+    )
+    assert rows["A"][3] == overshoot
+    volts = [max(m.motors[name].peak for m in steps) for name in ("V_p", "V_y")]
+    assert rows["A"][4] == " · ".join(f"{v:.1f} V" for v in volts)
+    assert rows["B <b>"][2] == "unstable"

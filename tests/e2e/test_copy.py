@@ -157,3 +157,69 @@ def test_zoom_by_mouse_and_by_keyboard(page: Page):
     expect(unzoom).to_be_visible()
     page.keyboard.press("Escape")
     expect(unzoom).to_be_hidden()
+
+
+def test_a_plots_drawing_is_its_picture(page: Page):
+    """The SVG, drawn by the browser, beside the picture of the same plot."""
+    picture, drawing = saved(page, "V_p", "PNG").read_bytes(), saved(page, "V_p", "SVG").read_text("utf-8")
+    for text in ("<script", "href=", "url(http"):
+        assert text not in drawing
+    page.context.clear_cookies()
+    blank = page.context.new_page()  # whose policy lets pictures in
+    found = blank.evaluate(
+        """async ([bytes, text]) => {
+          const height = new DataView(new Uint8Array(bytes).buffer).getUint32(20);
+          const drawn = async (source) => {
+            const image = new Image();
+            image.src = source;
+            await image.decode();
+            const context = new OffscreenCanvas(1600, height).getContext("2d");
+            context.drawImage(image, 0, 0, 1600, height);
+            return context.getImageData(0, 0, 1600, height).data;
+          };
+          const png = await drawn("data:image/png;base64," + btoa(String.fromCharCode(...bytes)));
+          const svg = await drawn("data:image/svg+xml," + encodeURIComponent(text));
+          const colours = [[185, 74, 44], [36, 104, 155], [179, 38, 30]];
+          return colours.map((colour) => {
+            const is = (data, i) => colour.every((part, k) => Math.abs(data[i + k] - part) < 40);
+            let [all, both] = [0, 0];
+            for (let i = 0; i < png.length; i += 4)
+              if (is(png, i)) {
+                all += 1;
+                both += is(svg, i);
+              }
+            return [all, both];
+          });
+        }""",
+        [list(picture), drawing],
+    )
+    blank.close()
+    for all_of_them, both in found:  # pitch, yaw, the limit
+        assert all_of_them > 1000 and both > 0.8 * all_of_them, found
+
+
+def test_all_plots_are_saved_as_one_drawing(page: Page):
+    page.get_by_test_id("save-theta").click()
+    with page.expect_download() as download:
+        page.get_by_test_id("save-all-SVG").click()
+    assert download.value.suggested_filename == "heli2dof-plots.svg"
+    drawing = Path(download.value.path()).read_text("utf-8")
+    for title in ("Pitch", "Yaw", "Pitch motor", "Yaw motor"):
+        assert f"<title>{title}" in drawing, title
+
+
+def test_numbers_are_copied_with_four_digits_where_that_is_chosen(page: Page, app: App):
+    clipboard(page, app)
+    page.get_by_test_id("copy-k-matrix").click()
+    page.get_by_test_id("copy-digits-4").check()
+    page.get_by_test_id("copy-K-MATLAB").click()
+    expect(page.get_by_test_id("copied")).to_have_text("K copied as MATLAB.")
+    text = page.evaluate("() => navigator.clipboard.readText()")
+    assert "rounded to 4 digits" in text and "51.17," in text
+    page.reload()
+    page.get_by_test_id("copy-k-matrix").click()
+    expect(page.get_by_test_id("copy-digits-4")).to_be_checked()
+    page.get_by_test_id("copy-digits-all").check()
+    page.get_by_test_id("copy-K-MATLAB").click()
+    expect(page.get_by_test_id("copied")).to_have_text("K copied as MATLAB.")
+    assert "rounded" not in page.evaluate("() => navigator.clipboard.readText()")

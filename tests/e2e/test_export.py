@@ -54,6 +54,9 @@ def test_the_report_opens_in_a_tab(page: Page):
         "none",
         "rgb(185, 74, 44)",
     ]  # the page's policy, which the tab inherits, lets the report's style in
+    assert report.evaluate(  # and its font
+        "async () => (await document.fonts.load('16px \"STIX Two Math\"')).map((face) => face.status)"
+    ) == ["loaded"]
     for name, row in (
         ("settling", "Settling time"),
         ("overshoot", "Overshoot"),

@@ -75,7 +75,9 @@ def test_the_recording_beside_the_design(page: Page):
     }"""
     assert page.evaluate(ink) == 0
     page.get_by_test_id("beside-plots").check()
+    view(page, "design")
     expect(legend).to_be_visible()
+    view(page, "rig")
     expect(page.get_by_test_id("beside-words")).to_contain_text("are the plots’ 0 s.")
     page.wait_for_function(f"() => ({ink})() > 100")
     page.get_by_test_id("beside-from").fill("99")

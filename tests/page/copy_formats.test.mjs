@@ -90,3 +90,25 @@ test('several items share one import', () => {
   assert.match(text, /\]\)\n\npoles = /);
   assert.match(allOf([K, FORMULA], 'Python'), /import numpy as np[\s\S]*from sympy import/);
 });
+
+test('four digits where they are wanted, with a note that they are', () => {
+  const gain = {
+    name: 'K',
+    note: 'V/rad',
+    matrix: [
+      [51.17012345678, -0.0034559999],
+      [1e21 / 3, -1e-300],
+    ],
+  };
+  assert.equal(textOf(gain, 'MATLAB', 4).split('\n')[0], '% V/rad; rounded to 4 digits');
+  assert.match(
+    textOf(gain, 'LaTeX', 4),
+    /51\.17 & +-0\.003456 \\\\\n +3\.333 \\times 10\^\{20\} & -1 \\times 10\^\{-300\}/,
+  );
+  assert.match(textOf(POLES, 'Python', 4), /# rounded to 4 digits\npoles = np\.array\(\[-3 \+ 4\.5j, -3 - 4\.5j, -10/);
+  assert.match(textOf({ name: 'M', matrix: [[-0, 99999.6]] }, 'Text', 4), /\n0 {2}100000$/);
+  assert.equal(textOf(gain, 'MATLAB'), textOf(gain, 'MATLAB', undefined));
+  assert.ok(!textOf(gain, 'MATLAB').includes('rounded'));
+  assert.equal(textOf(FORMULA, 'LaTeX', 4), textOf(FORMULA, 'LaTeX'));
+  assert.equal(allOf([gain, POLES], 'Python', 4).match(/rounded to 4 digits/g).length, 2);
+});
