@@ -8,7 +8,7 @@ import { isView, requestOf, Store } from './model/index.js';
 import { backoff, getMethods, getPresets, Live } from './net/index.js';
 import { byId, isolated, projectorWanted, recall, Stats, Turns, watched } from './ui/index.js';
 import { Address, LockedControls, PinKeeper } from './link/index.js';
-import { Plots } from './plots/index.js';
+import { draughtsman, Plots } from './plots/index.js';
 import { SPlane } from './splane/index.js';
 import { SceneSharing, SceneView } from './scene/index.js';
 import {
@@ -253,6 +253,7 @@ async function furtherDown() {
       import('./recordings/index.js'),
       import('./paper/index.js'),
       import('./rigs/index.js'),
+      draughtsman(),
       ...['recordings', 'rigs', 'paper', 'math'].map(styles),
     ]),
   );

@@ -1,4 +1,4 @@
 /** What other rooms may import of plots/. */
-export { linesMenu, pictureMenu, subtitle } from './menu.js';
+export { draughtsman, linesMenu, pictureMenu, subtitle } from './menu.js';
 export { Plots } from './plots.js';
 export { drawNamedRules, drawShades } from './rules.js';

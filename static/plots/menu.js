@@ -2,7 +2,6 @@
 import { polesText, say } from '../text/index.js';
 import { nameOf } from '../model/index.js';
 import { button, h, icon, popupButton, saveFile } from '../ui/index.js';
-import { drawPicture } from './picture.js';
 import { csvOf, linesOf, tableOf } from './export.js';
 import { fileName, pictureOf } from './image.js';
 
@@ -40,7 +39,7 @@ const WORDS = {
  */
 function saveButton(testid, title, name, picture, csv, all = false) {
   const save = {
-    PNG: () => savePicture(drawPicture(picture()), name),
+    PNG: () => savePicture(picture(), name),
     SVG: () => saveDrawing([picture()], name),
     CSV: () => saveFile(`${name}.csv`, new Blob([csv()], { type: 'text/csv;charset=utf-8' })),
   };
@@ -82,8 +81,13 @@ function saveButton(testid, title, name, picture, csv, all = false) {
   });
 }
 
-/** @param {HTMLCanvasElement} canvas @param {string} name */
-function savePicture(canvas, name) {
+/** What draws pictures; the first view does not need it, but it shall be there when the server is not. */
+export const draughtsman = () => Promise.all([import('./picture.js'), import('./vector.js')]);
+
+/** @param {Picture} picture @param {string} name */
+async function savePicture(picture, name) {
+  const [{ drawPicture }] = await draughtsman();
+  const canvas = drawPicture(picture);
   // Not toBlob: browsers encode there when they are idle, which beside a rig in motion takes seconds.
   const [, base64] = canvas.toDataURL('image/png').split(',');
   const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
@@ -92,7 +96,7 @@ function savePicture(canvas, name) {
 
 /** @param {Picture[]} pictures @param {string} name */
 async function saveDrawing(pictures, name) {
-  const { measuring, svgOf } = await import('./vector.js');
+  const [, { measuring, svgOf }] = await draughtsman();
   saveFile(`${name}.svg`, new Blob([svgOf(pictures, measuring())], { type: 'image/svg+xml' }));
 }
 
