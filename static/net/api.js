@@ -80,7 +80,7 @@ async function call(path, body, method = body === undefined ? 'GET' : 'POST') {
  * @param {string} path
  * @param {Asked<import('../contract.js').StepRequest>} design
  */
-const fileOf = async (path, design) => (await answerOf(path, { method: 'POST', body: JSON.stringify(design) })).blob();
+export const fileOf = async (path, design) => (await answerOf(path, { method: 'POST', body: JSON.stringify(design) })).blob();
 
 /** @returns {Promise<import('../types.js').Preset[]>} */
 export const getPresets = () => call('api/v1/presets');

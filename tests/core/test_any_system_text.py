@@ -24,7 +24,8 @@ SAME = {
     "MATLAB over lines": "A = [0  1   % first\n    -2 -3];\nB = [0\n1];\nC = [1 ...\n 0]",
     "MATLAB as it prints": "A =\n\n     0     1\n    -2    -3\n\nB =\n\n     0\n     1\n\nC =\n\n     1     0\n",
     "transposed": "A = [0 -2; 1 -3]'; B = [0 1]'; C = [1; 0].'",
-    "NumPy": "import numpy as np\nA = np.array([[0, 1],\n [-2, -3]])  # rows\nB = np.array([[0.], [1]])\nC = np.array([[1, 0]], dtype=float)",
+    "NumPy": "import numpy as np\nA = np.array([[0, 1],\n [-2, -3]])  # rows\n"
+    "B = np.array([[0.], [1]])\nC = np.array([[1, 0]], dtype=float)",
     "lists": "A = [[0, 1], [-2, -3]]; B = [[0], [1]]; C = [[1, 0]]",
     "NumPy as it prints": "[[ 0.  1.]\n [-2. -3.]]\n[[0.]\n [1.]]\n[[1. 0.]]",
     "one dimension": "A = np.matrix([[0,1],[-2,-3]])\nB = [0, 1]\nC = [1, 0]\nsys = ct.ss(A, B, C, 0)",
@@ -64,7 +65,8 @@ def test_entries_are_told_apart_as_matlab_does():
 
 def test_what_is_read_besides():
     pasted = read_system(
-        "A = [0 1; -k sqrt(2)*pi]\nB = [0 1]\nC = eye(2)\nJ = [-2+j*4 -2-j*4];\nq = [-8, -9]\nk = 3\nK = acker(A, B, J)"
+        "A = [0 1; -k sqrt(2)*pi]\nB = [0 1]\nC = eye(2)\nJ = [-2+j*4 -2-j*4];\nq = [-8, -9]\nk = 3\n"
+        "K = acker(A, B, J)"
     )
     assert pasted.letters == {"k": 3.0, "pi": pi}
     assert pasted.system.A[1].tolist() == [-3.0, sqrt(2) * pi]
