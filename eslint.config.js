@@ -9,7 +9,7 @@ const FLOORS = [
   ['ui', 'link', 'kernel'],
   ['charts'],
   ['plots', 'splane', 'scene', 'recordings', 'tour', 'panels'],
-  ['paper', 'compare', 'machine', 'clouds'],
+  ['paper', 'compare', 'machine', 'clouds', 'plant'],
 ];
 const TOP = ['static/main.js', 'static/api_docs.js'];
 

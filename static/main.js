@@ -244,6 +244,9 @@ async function furtherDown() {
   ];
   views.figures.unshift(...further.map(viewOf));
   schedule();
+  const { PlantPanel } = await fetched(() => import('./plant/index.js'));
+  views.figures.unshift(viewOf(new PlantPanel(byId('plant'), store)));
+  schedule();
 }
 
 /** The design and its key results in one attribute, for tests and scripts. @param {State} state */

@@ -207,6 +207,8 @@ export interface State {
   pins: Pin[];
   /** names in locks.js */
   locks: string[];
+  /** any system, as a link has it (plant/link_text.js) */
+  plant: string | null;
   recorded: Recorded;
   /** what is to be said of the link that was opened, or of this design's numbers */
   notice: string | null;

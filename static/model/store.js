@@ -46,6 +46,7 @@ export const initialState = () => ({
   canRedo: false,
   pins: [],
   locks: [],
+  plant: null,
   notice: null,
   fault: null,
   recorded: {

@@ -68,7 +68,7 @@ async function answerOf(path, { method = 'GET', body, type = 'application/json' 
  * @param {string} [method]
  * @returns {Promise<T>} as the contract has it
  */
-async function call(path, body, method = body === undefined ? 'GET' : 'POST') {
+export async function call(path, body, method = body === undefined ? 'GET' : 'POST') {
   const response = await answerOf(path, { method, body: body === undefined ? body : JSON.stringify(body) });
   const text = await response.text();
   const json = text && (response.headers.get('content-type') ?? '').includes('json') ? JSON.parse(text) : {};
@@ -78,9 +78,10 @@ async function call(path, body, method = body === undefined ? 'GET' : 'POST') {
 /**
  * A file that the server makes of a design.
  * @param {string} path
- * @param {Asked<import('../contract.js').StepRequest>} design
+ * @param {unknown} design
  */
-export const fileOf = async (path, design) => (await answerOf(path, { method: 'POST', body: JSON.stringify(design) })).blob();
+export const fileOf = async (path, design) =>
+  (await answerOf(path, { method: 'POST', body: JSON.stringify(design) })).blob();
 
 /** @returns {Promise<import('../types.js').Preset[]>} */
 export const getPresets = () => call('api/v1/presets');
