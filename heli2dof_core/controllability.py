@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import UncontrollableError
+from .frozen import Frozen
 from .signals import Floats
 
 RANK_TOLERANCE = 1e-10
@@ -27,7 +28,7 @@ class Scan:
 
 
 @dataclass(frozen=True)
-class Reach:
+class Reach(Frozen):
     """How far a scan came.
 
     Attributes:

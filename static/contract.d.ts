@@ -1553,10 +1553,13 @@ export interface SystemCourses {
   step_u: number[][][];
   /** every state from x(0), the references 0 */
   initial_x: number[][];
+  /** the outputs meanwhile */
   initial_y: number[][];
+  /** the inputs meanwhile */
   initial_u: number[][];
   /** with an observer, which begins at 0, every estimate */
   estimate?: number[][];
+  /** where the states begin */
   x0: number[];
 }
 
@@ -1578,6 +1581,7 @@ export interface SystemDesign {
   pole_error?: number;
   /** Frobenius norm of K */
   norm: number;
+  /** κ₂ of the eigenvectors of A − BK */
   eigenvector_condition?: number;
   observer?: SystemObserver;
   courses: SystemCourses;
@@ -1624,15 +1628,20 @@ export interface SystemExample {
 /** K and L in closed form. */
 export interface SystemFormulas {
   K: Formula;
+  /** as k_11, row by row */
+  K_entries: Record<string, Formula>;
   T: Formula;
   Q: Formula;
   /** A − BK */
   closed_loop: Formula;
+  /** one per input */
   controllability_indices: number[];
   /** what must not be 0 */
   holds_unless: Formula[];
   /** in the observer's poles q_1 … q_n */
   L?: Formula;
+  L_entries?: Record<string, Formula>;
+  /** one per output */
   observability_indices?: number[];
   observer_holds_unless?: Formula[];
   /** why there is no L, though C is given */
@@ -1654,6 +1663,7 @@ export interface SystemMatrix {
   rows: string[][];
   latex: string;
   mathml: string;
+  /** row by row */
   values: number[][];
 }
 
@@ -1663,7 +1673,9 @@ export interface SystemObserver {
   L: number[][];
   /** of A − LC, rad/s */
   poles: Complex[];
+  /** largest distance to those asked for, rad/s */
   pole_error: number;
+  /** Frobenius norm of L */
   norm: number;
 }
 

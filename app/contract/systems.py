@@ -116,7 +116,7 @@ class SystemMatrix(Model):
     rows: list[list[str]]
     latex: str
     mathml: str
-    values: Numbers
+    values: Numbers = Field(description="row by row")
 
 
 class Reached(Model):
@@ -170,10 +170,10 @@ class SystemCourses(Model):
     step_y: Cube = Field(description="per reference every output; each reference steps by 1")
     step_u: Cube = Field(description="per reference every input")
     initial_x: Numbers = Field(description="every state from x(0), the references 0")
-    initial_y: Numbers
-    initial_u: Numbers
+    initial_y: Numbers = Field(description="the outputs meanwhile")
+    initial_u: Numbers = Field(description="the inputs meanwhile")
     estimate: Numbers | None = Field(None, description="with an observer, which begins at 0, every estimate")
-    x0: list[float]
+    x0: list[float] = Field(description="where the states begin")
 
 
 class SystemBode(Model):
@@ -193,8 +193,8 @@ class SystemObserver(Model):
 
     L: Numbers = Field(description="n×q")
     poles: list[Complex] = Field(description="of A − LC, rad/s")
-    pole_error: float
-    norm: float
+    pole_error: float = Field(description="largest distance to those asked for, rad/s")
+    norm: float = Field(description="Frobenius norm of L")
 
 
 class SystemDesign(Model):
@@ -208,7 +208,7 @@ class SystemDesign(Model):
     poles: list[Complex] = Field(description="of the closed loop without the observer, rad/s")
     pole_error: float | None = Field(None, description="largest distance to those asked for, rad/s")
     norm: float = Field(description="Frobenius norm of K")
-    eigenvector_condition: float | None = None
+    eigenvector_condition: float | None = Field(None, description="κ₂ of the eigenvectors of A − BK")
     observer: SystemObserver | None = None
     courses: SystemCourses
     bode: SystemBode
@@ -219,13 +219,15 @@ class SystemFormulas(Model):
     """K and L in closed form."""
 
     K: Formula
+    K_entries: dict[str, Formula] = Field(description="as k_11, row by row")
     T: Formula
     Q: Formula
     closed_loop: Formula = Field(description="A − BK")
-    controllability_indices: list[int]
+    controllability_indices: list[int] = Field(description="one per input")
     holds_unless: list[Formula] = Field(description="what must not be 0")
     L: Formula | None = Field(None, description="in the observer's poles q_1 … q_n")
-    observability_indices: list[int] | None = None
+    L_entries: dict[str, Formula] | None = None
+    observability_indices: list[int] | None = Field(None, description="one per output")
     observer_holds_unless: list[Formula] | None = None
     reason: str | None = Field(None, description="why there is no L, though C is given")
 
@@ -404,15 +406,21 @@ def formulas_reply(request: SystemFormulasRequest, wanted: Wanted = nobody_leave
     def formulas(expressions: Sequence[Any], letters: Mapping[str, Any]) -> list[Reply]:
         return [formula(each, letters) for each in expressions]
 
+    def entries(gain: Any, name: str, letters: Mapping[str, Any]) -> Reply:
+        places = [(i, j) for i in range(gain.rows) for j in range(gain.cols)]
+        return {f"{name}_{i + 1}{j + 1}": formula(gain[i, j], letters) for i, j in places}
+
     control, observer = found.control, found.observer
     with within_budget(wanted=wanted):
         reply: Reply = {
             name: formula(getattr(control, name), control.letters) for name in ("K", "T", "Q", "closed_loop")
         }
+        reply["K_entries"] = entries(control.K, "k", control.letters)
         reply["controllability_indices"] = list(control.controllability_indices)
         reply["holds_unless"] = formulas(control.holds_unless, control.letters)
         if observer is not None:
             reply["L"] = formula(observer.K.T, observer.letters)
+            reply["L_entries"] = entries(observer.K.T, "l", observer.letters)
             reply["observability_indices"] = list(observer.controllability_indices)
             reply["observer_holds_unless"] = formulas(observer.holds_unless, observer.letters)
     if found.reason:

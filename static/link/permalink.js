@@ -6,7 +6,8 @@
  * pitch, k_p, T_i of yaw. `set.…`: parameters; `limits.…`; `step.…`: references;
  * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`,
  * `lag`, `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`.
- * `plant`: any system. `at`: the place on the page. A part that cannot be read is named and left out; the rest is restored.
+ * `plant`: any system. `at`: the place on the page. A part that cannot be read is named and left out;
+ * the rest is restored.
  *
  * The format is part of the page's contract: a change that an old reader would misread takes a new version, and the
  * reader of the old one stays.
@@ -16,7 +17,8 @@
  * @typedef {import('./link_values.js').Leaf} Leaf
  * @typedef {{part: string, why: string}} Trouble
  * @typedef {{index: number, name: string, design: Design}} PinnedDesign
- * @typedef {Pick<State, 'motion'|'showLinear'|'showMarks'|'showLag'|'spread'|'requirements'|'locks'|'plant'>} Shown
+ * @typedef {Pick<State, 'motion'|'showLinear'|'showMarks'|'showLag'|'spread'|'requirements'|'locks'> &
+ *   Partial<Pick<State, 'plant'>>} Shown
  * @typedef {{design?: Design, shown?: Shown, pins?: PinnedDesign[], place?: string, trouble: Trouble[]}} Link
  * @typedef {{presets: Preset[], methods: {name: string}[]}} Known
  */
@@ -252,7 +254,6 @@ function readFirst(body, known) {
     spread: 0,
     requirements: NONE,
     locks: [],
-    plant: null,
   };
   /** @type {[string, string][]} */ const design = [];
   /** @type {PinnedDesign[]} */ const pins = [];

@@ -1,7 +1,8 @@
 /**
  * What is wanted of a system: poles as text, method, weights, observer.
  * @typedef {import('../types.js').Complex} Complex
- * @typedef {{poles: Complex[], observer: Complex[]|null, method: string, weights: {states: number[], inputs: number[]}|null}} Wish
+ * @typedef {{poles: Complex[], observer: Complex[]|null, method: string, weights: {states: number[],
+ *   inputs: number[]}|null}} Wish
  */
 import { parseNumber, say } from '../text/index.js';
 import { check, h, setText } from '../ui/index.js';

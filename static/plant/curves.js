@@ -18,7 +18,13 @@ const GAP = 0.07; // of the range, above and below the lines
 const decades = (/** @type {uPlot} */ _u, /** @type {number[]} */ splits) =>
   splits.map((v) => (v && Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? v : null));
 const powers = (/** @type {uPlot} */ u, /** @type {number[]} */ splits) =>
-  decades(u, splits).map((v) => (v === null ? '' : forField(v)));
+  decades(u, splits).map((v) => (v === null ? '' : powerOfTen(Math.round(Math.log10(v)))));
+const RAISED = '⁰¹²³⁴⁵⁶⁷⁸⁹';
+/** As 0.01, 1, 100, and from there on with an exponent. Pure. @param {number} n */
+export const powerOfTen = (n) =>
+  Math.abs(n) < 3
+    ? forField(10 ** n)
+    : `10${n < 0 ? '⁻' : ''}${[...String(Math.abs(n))].map((d) => RAISED[Number(d)]).join('')}`;
 const plain = (/** @type {uPlot} */ _u, /** @type {number[]} */ splits) => splits.map((v) => inField(v));
 
 /**
@@ -164,12 +170,8 @@ export class Curves {
   /** @param {number|null} i */
   #read(i) {
     const at = i === null || i >= this.#x.length ? null : i;
-    setText(
-      this.at,
-      at === null
-        ? ''
-        : `${this.how.log.x ? 'ω' : 't'} = ${significant(this.#x[at], 3)} ${this.how.log.x ? 'rad/s' : 's'}`,
-    );
+    const [name, unit] = this.how.log.x ? ['ω', 'rad/s'] : ['t', 's'];
+    setText(this.at, at === null ? say`${name} in ${unit}` : `${name} = ${significant(this.#x[at], 3)} ${unit}`);
     this.lines.forEach((line, k) =>
       setText(this.values[k], at === null ? '' : `${significant(line.values[at], 4)}${this.how.unit}`),
     );

@@ -73,7 +73,8 @@ export class Editor {
       h(
         'p',
         { class: 'caption', id: 'plant-help' },
-        'Paste A, B, C, D from MATLAB, Python or plain text. Letters may have values: m = 2. Desired poles: p = [ … ].',
+        'Paste A, B, C, D from MATLAB, Python or plain text. Letters may have values: m = 2. ' +
+          'Desired poles: p = [ … ], the observer’s: q = [ … ].',
       ),
       this.trouble,
       this.letters,
@@ -108,7 +109,10 @@ export class Editor {
     this.#timer = setTimeout(() => this.onText(this.area.value), DELAY_MS);
   }
 
-  /** What is wrong with the text; the place is marked where the text is not being typed. @param {import('../types.js').Problem|null} problem */
+  /**
+   * What is wrong with the text; the place is marked where the text is not being typed.
+   * @param {import('../types.js').Problem|null} problem
+   */
   complain(problem) {
     this.node.classList.toggle('wrong', problem !== null);
     if (problem) this.area.setAttribute('aria-invalid', 'true');

@@ -1,5 +1,5 @@
 /** Matrices of any size with names on their borders, to be copied. */
-import { significant, t } from '../text/index.js';
+import { inField, significant, t } from '../text/index.js';
 import { copyButton, h, head, setText, symbol } from '../ui/index.js';
 
 /** @param {string} letter @param {number} n @returns {[string, string][]} */
@@ -9,9 +9,11 @@ export class NumberMatrix {
   /** @type {HTMLElement[][]} */ #cells = [];
   #shape = '';
 
-  /** @param {string} name @param {[string, string]} letters of rows and columns @param {string} about */
-  constructor(name, letters, about) {
+  /** @param {string} name @param {[string, string]} letters of rows and columns @param {string} about
+   * @param {boolean} [exact] without zeros at the end, as it does not move under the hand */
+  constructor(name, letters, about, exact = false) {
     this.name = name;
+    this.exact = exact;
     this.letters = letters;
     /** @type {number[][]} */ this.values = [];
     this.table = h('table', { class: 'matrix plant-matrix', 'data-testid': `plant-${name}` });
@@ -37,7 +39,13 @@ export class NumberMatrix {
     const shape = `${values.length} ${values[0].length}`;
     if (shape !== this.#shape) this.#make(values.length, values[0].length);
     this.#shape = shape;
-    values.forEach((row, i) => row.forEach((v, j) => setText(this.#cells[i][j], significant(v, 5))));
+    values.forEach((row, i) => row.forEach((v, j) => setText(this.#cells[i][j], this.#format(v))));
+  }
+
+  /** @param {number} v */
+  #format(v) {
+    if (v === 0) return '0';
+    return this.exact ? inField(Number(v.toPrecision(5))) : significant(v, 5);
   }
 
   /** @param {number} rows @param {number} columns */

@@ -7,7 +7,10 @@ import { tidy } from '../model/index.js';
 
 const SAME = 1e-9;
 
-/** Where the conjugate of a pole stands; itself where it is real. @param {readonly Complex[]} poles @param {number} i */
+/**
+ * Where the conjugate of a pole stands; itself where it is real.
+ * @param {readonly Complex[]} poles @param {number} i
+ */
 export function conjugateOf(poles, i) {
   const p = poles[i];
   if (p.im === 0) return i;

@@ -15,7 +15,8 @@ const named = (/** @type {string} */ name, /** @type {number[][]} */ rows) =>
 
 /**
  * The lines of one view over time. Pure.
- * @param {SystemDesign} design @param {string} view ``step-0`` and so on, or ``initial`` @returns {{y: Line[], u: Line[]}}
+ * @param {SystemDesign} design @param {string} view ``step-0`` and so on, or ``initial``
+ * @returns {{y: Line[], u: Line[]}}
  */
 export function overTime({ courses }, view) {
   if (view === 'initial')

@@ -6,24 +6,29 @@
  * @typedef {import('../contract.js').SystemFormulas} SystemFormulas
  */
 import { say, significant, t } from '../text/index.js';
-import { copyButton, formula, h, setText } from '../ui/index.js';
+import { copyButton, formula, h, setText, symbol } from '../ui/index.js';
 import { NumberMatrix } from './matrices.js';
 import { polesLine } from './poles.js';
 
+const LONG = 240; // characters of LaTeX from which on a matrix is shown entry by entry
 const SIGNS = { error: '✕', warning: '!', info: 'i' };
 
 export class Results {
   constructor() {
-    const matrix = (/** @type {string} */ name, /** @type {[string, string]} */ letters, /** @type {string} */ about) =>
-      new NumberMatrix(name, letters, about);
+    const matrix = (
+      /** @type {string} */ name,
+      /** @type {[string, string]} */ letters,
+      /** @type {string} */ about,
+      exact = false,
+    ) => new NumberMatrix(name, letters, about, exact);
     this.K = matrix('K', ['u', 'x'], 'u = −Kx + F r');
     this.L = matrix('L', ['x', 'y'], 'x̂′ = Ax̂ + Bu + L (y − ŷ)');
     this.Kz = matrix('K_z', ['u', 'z'], 'of ∫ (r − y) dt');
     this.F = matrix('F', ['u', 'r'], 'how references enter');
-    this.T = matrix('T', ['z', 'x'], 'x̄ = Tx, Luenberger’s canonical form');
-    this.Q = matrix('Q', ['u', 'u'], 'the nonzero rows of TB');
-    this.M = matrix('M', ['x', 'm'], '[b₁ … A^(σ₁−1)b₁ | b₂ …]');
-    this.rga = matrix('RGA', ['y', 'u'], 'of the plant at ω = 0');
+    this.T = matrix('T', ['z', 'x'], 'x̄ = Tx, Luenberger’s canonical form', true);
+    this.Q = matrix('Q', ['u', 'u'], 'the nonzero rows of TB', true);
+    this.M = matrix('M', ['x', 'm'], '[b₁ … A^(σ₁−1)b₁ | b₂ …]', true);
+    this.rga = matrix('RGA', ['y', 'u'], 'of the plant at ω = 0', true);
     this.facts = h('dl', { class: 'plant-facts', 'data-testid': 'plant-facts' });
     this.findings = h('ul', { class: 'plant-findings', 'data-testid': 'plant-findings' });
     this.verdict = h('p', { class: 'plant-verdict', role: 'status', 'data-testid': 'plant-verdict' });
@@ -125,9 +130,18 @@ export class Results {
       this.closed.replaceChildren(h('p', { class: 'caption' }, told));
       return;
     }
+    const shown = (/** @type {string} */ name, /** @type {Node[]} */ parts) =>
+      h(
+        'div',
+        { class: 'sideways plant-closed-form', tabindex: 0, role: 'group', 'aria-label': say`${name} in closed form` },
+        parts,
+      );
+    const inWords = (/** @type {string} */ entry) =>
+      h('span', { class: 'plant-entry' }, symbol(entry[0], entry.slice(2)), ' = ');
     const part = (
       /** @type {string} */ name,
       /** @type {import('../contract.js').Formula} */ own,
+      /** @type {Record<string, import('../contract.js').Formula>} */ entries,
       /** @type {import('../contract.js').Formula[]} */ unless,
     ) => [
       h(
@@ -136,11 +150,9 @@ export class Results {
         h('b', { translate: 'no' }, name),
         copyButton(`plant-closed-${name}`, () => [{ name, latex: own.latex, sympy: own.sympy }]),
       ),
-      h(
-        'div',
-        { class: 'sideways plant-closed-form', tabindex: 0, role: 'group', 'aria-label': say`${name} in closed form` },
-        formula(own.mathml),
-      ),
+      own.latex.length > LONG
+        ? Object.entries(entries).map(([entry, { mathml }]) => shown(entry, [inWords(entry), formula(mathml)]))
+        : shown(name, [formula(own.mathml)]),
       unless.length
         ? h(
             'p',
@@ -152,11 +164,13 @@ export class Results {
     ];
     this.closed.replaceChildren(
       ...[
-        ...part('K', told.K, told.holds_unless),
-        ...(told.L ? part('L', told.L, told.observer_holds_unless ?? []) : []),
+        ...part('K', told.K, told.K_entries, told.holds_unless),
+        ...(told.L ? part('L', told.L, told.L_entries ?? {}, told.observer_holds_unless ?? []) : []),
         told.reason ? h('p', { class: 'caption' }, told.reason) : null,
         h('p', { class: 'caption' }, 'p₁ … pₙ are the desired poles, q₁ … qₙ the observer’s.'),
-      ].filter((node) => node !== null),
+      ]
+        .flat()
+        .filter((node) => node !== null),
     );
   }
 }

@@ -34,6 +34,11 @@ from heli2dof_core.recordings.recording import Recording
 from heli2dof_core.recordings.samples import sample_recording
 from heli2dof_core.symbolic.linearization import linear_model
 from heli2dof_core.symbolic.mechanics import mechanics
+from heli2dof_core.systems.analysis import analyse
+from heli2dof_core.systems.courses import courses
+from heli2dof_core.systems.frequency import bode
+from heli2dof_core.systems.loop import Wish, close_loop
+from heli2dof_core.systems.model import System
 from heli2dof_core.walkthrough import walk_through
 from heli2dof_core.walkthrough_beyond import observer_steps, rotor_steps
 from tests.core.recorded_run import RUN
@@ -126,6 +131,9 @@ def everything_else() -> Iterator[Any]:
         yield heli.place_poles(A, B, [-4, -5, -6, -7], name, C=C)
     for form in FORMATS.values():
         yield form.render(SPEC)
+    system = System.of(A, B, np.eye(1, 4))
+    closed = close_loop(system, Wish((-4, -5, -6, -7), observer_poles=(-8, -9, -10, -11)))
+    yield analyse(system), closed, courses(closed), bode(analyse(system), closed)
     yield figures()
     yield consequence()
     yield linear_model(), mechanics(), heli.formulas()
