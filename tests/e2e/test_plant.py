@@ -19,7 +19,8 @@ SPRING = "A = [0 1; -k/m -b/m];\nB = [0; 1/m];\nC = [1 0];\nk = 3, m = 2, b = 1\
 
 
 def plant_of(page: Page) -> Page:
-    page.locator("#plant").scroll_into_view_if_needed()
+    page.get_by_test_id("plant").wait_for(state="attached")
+    page.get_by_test_id("plant-text").scroll_into_view_if_needed()
     page.get_by_test_id("plant-K").locator("td").nth(1).wait_for()
     return page
 
