@@ -87,7 +87,8 @@ export class Plane {
     this.node = h(
       'div',
       { class: 'plant-plane' },
-      h('div', { class: 'splane-stage' }, backdrop, this.svg, this.readout),
+      h('div', { class: 'splane-stage' }, backdrop, this.svg),
+      this.readout,
       h(
         'div',
         { class: 'splane-tools' },
@@ -231,8 +232,10 @@ export class Plane {
   #read() {
     const i = this.#drag?.i ?? this.handles.findIndex((handle) => handle === document.activeElement);
     const p = this.#all[i];
-    this.readout.hidden = !p;
-    if (!p) return;
+    if (!p) {
+      setText(this.readout, '');
+      return;
+    }
     const size = Math.hypot(p.re, p.im);
     const more = p.im && size ? `, ζ ${fixed(-p.re / size)}, ωₙ ${significant(size, 3)} rad/s` : '';
     setText(this.readout, `${this.#name(i)}: ${written(p)} rad/s${more}`);

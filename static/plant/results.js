@@ -90,7 +90,9 @@ export class Results {
     if (!design) return;
     const parts = [
       say`Closed loop: ${polesLine(design.poles)} rad/s.`,
-      design.pole_error === undefined ? '' : say`Pole error ${significant(design.pole_error, 2)}.`,
+      design.pole_error === undefined
+        ? ''
+        : say`Pole error ${design.pole_error ? significant(design.pole_error, 2) : '0'}.`,
       `‖K‖ = ${significant(design.norm, 4)}.`,
       t(design.reason),
     ];
