@@ -34,7 +34,8 @@ export class Pins {
           h(
             'tr',
             {},
-            ['Pin', 'Poles, rad/s', 'Method', '‖K‖', 'K', ''].map((words) => h('th', { scope: 'col' }, words)),
+            ['Pin', 'Poles, rad/s', 'Method', '‖K‖', 'K'].map((words) => h('th', { scope: 'col' }, words)),
+            h('td'),
           ),
         ),
         this.body,

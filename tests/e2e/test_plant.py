@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from heli2dof_core.systems.textbook import EXAMPLES
-from tests.browser import opened
+from tests.browser import EMPTY, SEEN, opened, visited
 from tests.core.test_any_system import PRINTED
 from tests.e2e.conftest import App
 from tests.e2e.test_axe import violations
@@ -75,7 +75,14 @@ def test_a_pole_is_moved_by_mouse_and_keys(plant: Page):
     shows(plant, "K", "21.000", "13.000")  # m p₁p₂ − k, −m (p₁ + p₂) − b
 
 
-def test_what_is_wrong_is_told_where_it_is(plant: Page):
+def test_what_is_wrong_is_told_where_it_is(chromium: Browser, app: App):
+    with visited(chromium, EMPTY, SEEN) as visit:
+        visit.forgive("422 (Unprocessable")
+        visit.page.goto(app.url)
+        wrong_texts(plant_of(visit.page))
+
+
+def wrong_texts(plant: Page) -> None:
     typed(plant, "A = [0 1; -2 -3]\nB = [0; 2x]")
     expect(plant.get_by_test_id("plant-trouble")).to_contain_text("line 2, column 10")
     expect(plant.get_by_test_id("plant-trouble")).to_contain_text("2*x")
