@@ -121,7 +121,7 @@ export class Controls {
     this.sizes = sizes;
     const quadratic = wish.method.startsWith('lqr');
     this.poles.set(polesLine(wish.poles));
-    this.poles.node.classList.toggle('unused', quadratic);
+    setText(this.poles.label, quadratic ? 'Poles, rad/s (LQR chooses its own)' : 'Poles, rad/s');
     this.method.value = wish.method;
     this.states.node.hidden = this.inputs.node.hidden = !quadratic;
     this.states.set(this.#weights.states.join(', '));

@@ -31,6 +31,8 @@ const FILES = /** @type {const} */ ([
 /** @param {unknown} error @returns {Problem} */
 const problemOf = (error) => (error instanceof ProblemError ? error.problem : { detail: messageOf(error) });
 
+const rounded = (/** @type {number} */ v) => Number(v.toPrecision(4));
+
 export class PlantPanel {
   /** @type {Wish} */ #wish = { poles: [], observer: null, method: 'full-rank', weights: null };
   /** @type {SystemRead|null} */ #read = null;
@@ -222,7 +224,10 @@ export class PlantPanel {
     const read = this.#read;
     if (!read) return;
     const faster = () =>
-      this.#wish.poles.map((p) => ({ re: FASTER * Math.min(p.re, -Math.hypot(p.re, p.im) / 2), im: FASTER * p.im }));
+      this.#wish.poles.map((p) => ({
+        re: rounded(FASTER * Math.min(p.re, -Math.hypot(p.re, p.im) / 2)),
+        im: rounded(FASTER * p.im),
+      }));
     this.#change({ observer: this.#wish.observer ? null : faster() });
   }
 

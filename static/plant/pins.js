@@ -81,7 +81,7 @@ export class Pins {
           h(
             'td',
             {},
-            button({ 'aria-label': say`Go back to pin ${pin.letter}`, onclick: () => this.onLoad(pin.plant) }, 'Use'),
+            button({ 'aria-label': say`Use pin ${pin.letter}`, onclick: () => this.onLoad(pin.plant) }, 'Use'),
             button({ 'aria-label': say`Remove pin ${pin.letter}`, onclick: () => this.#remove(pin) }, 'Remove'),
           ),
         ),

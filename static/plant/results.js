@@ -11,6 +11,7 @@ import { NumberMatrix } from './matrices.js';
 import { polesLine } from './poles.js';
 
 const LONG = 240; // characters of LaTeX from which on a matrix is shown entry by entry
+const LARGE = /\d{7}/; // a number that nobody reads
 const SIGNS = { error: '✕', warning: '!', info: 'i' };
 
 export class Results {
@@ -130,6 +131,11 @@ export class Results {
     }
     if (typeof told === 'string') {
       this.closed.replaceChildren(h('p', { class: 'caption' }, told));
+      return;
+    }
+    if (LARGE.test(told.K.latex)) {
+      const words = 'These numbers make formulas of long fractions. Give letters for some of them, as m in 1/m.';
+      this.closed.replaceChildren(h('p', { class: 'caption' }, words));
       return;
     }
     const shown = (/** @type {string} */ name, /** @type {Node[]} */ parts) =>

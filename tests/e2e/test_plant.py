@@ -110,9 +110,7 @@ def test_letters_observer_methods_and_formulas(plant: Page):
     plant.get_by_test_id("plant-method").select_option("lqr")
     plant.get_by_test_id("plant-R").fill("0.01")
     plant.get_by_test_id("plant-R").press("Enter")
-    plant.wait_for_function(
-        "() => document.querySelectorAll('.plant-plane.unused .loop-poles path').length === 2"
-    )
+    expect(plant.get_by_test_id("plant-plane").locator(".loop-poles path")).to_have_count(2)
 
 
 def test_pins_links_and_files(chromium: Browser, app: App, plant: Page, tmp_path: Path):
@@ -138,7 +136,7 @@ def test_pins_links_and_files(chromium: Browser, app: App, plant: Page, tmp_path
         plant_of(other)
         expect(other.get_by_test_id("plant-poles")).to_have_value("−3, −4")
         expect(other.get_by_test_id("plant-letter-m")).to_have_value("2")
-    plant.get_by_role("button", name="Go back to pin A").click()
+    plant.get_by_role("button", name="Use pin A").click()
     expect(plant.get_by_test_id("plant-poles")).to_have_value("−1 ± 2j")
 
 
