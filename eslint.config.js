@@ -10,7 +10,7 @@ const FLOORS = [
   ['charts'],
   ['rigs'],
   ['plots', 'splane', 'scene', 'recordings', 'explore', 'panels'],
-  ['paper', 'compare', 'rig', 'machine', 'clouds'],
+  ['paper', 'compare', 'rig', 'machine', 'clouds', 'plant'],
   ['optimal'],
 ];
 const TOP = ['static/main.js', 'static/api_docs.js'];

@@ -33,6 +33,7 @@ from .routes import (
     motion,
     recordings,
     robustness,
+    systems,
 )
 
 _DESCRIPTION = (
@@ -105,6 +106,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(design.build_router(compute))
     app.include_router(frequency.build_router(compute))
     app.include_router(derivation.build_router(compute))
+    app.include_router(systems.build_router(compute))
     app.include_router(comparison.build_router(compute))
     app.include_router(motion.build_router(compute))
     app.include_router(recordings.build_router(compute, settings))

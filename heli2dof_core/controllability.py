@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import UncontrollableError
+from .frozen import Frozen
 from .signals import Floats
 
 RANK_TOLERANCE = 1e-10
@@ -26,7 +27,41 @@ class Scan:
     weakest: float
 
 
+@dataclass(frozen=True)
+class Reach(Frozen):
+    """How far a scan came.
+
+    Attributes:
+        indices: columns kept, per input.
+        weakest: as of `Scan`.
+        basis: orthonormal columns that span what the inputs reach, n×r, in the states' own units.
+        units: of the states (`in_own_units`).
+    """
+
+    indices: tuple[int, ...]
+    weakest: float
+    basis: Floats
+    units: Floats
+
+
 def scan(A: Floats, B: Floats) -> Scan:
+    """`reach` of a controllable pair.
+
+    Raises:
+        UncontrollableError: fewer than n independent columns exist.
+    """
+    (n, p), found = B.shape, reach(A, B)
+    if found.basis.shape[1] < n:
+        who = "the inputs reach" if p > 1 else "the input reaches"
+        raise UncontrollableError(
+            f"{who} only {found.basis.shape[1]} of the {n} states",
+            field="B",
+            hint="Add an input, or take the states that no input reaches out of the model.",
+        )
+    return Scan(found.indices, found.weakest)
+
+
+def reach(A: Floats, B: Floats) -> Reach:
     """Scans b₁ … b_p, Ab₁ … left to right; σ_i is the number of columns kept of input i.
 
     States and columns are scaled first, so that units do not decide (`in_own_units`). In place of A^k b_i
@@ -39,12 +74,9 @@ def scan(A: Floats, B: Floats) -> Scan:
     Args:
         A: n×n.
         B: n×p.
-
-    Raises:
-        UncontrollableError: fewer than n independent columns exist.
     """
     n, p = B.shape
-    A, B, *_ = in_own_units(A, B)
+    A, B, units, _ = in_own_units(A, B)
     lengths = np.linalg.norm(B, axis=0)
     B = B / np.where(lengths > 0, lengths, 1.0)
     rounding = 100 * n * np.finfo(float).eps
@@ -69,14 +101,7 @@ def scan(A: Floats, B: Floats) -> Scan:
             chains[i] = A @ added, rounding * float(np.linalg.norm(np.abs(A) @ np.abs(added)))
             indices[i] += 1
             weakest = min(weakest, smallest)
-    if kept.shape[1] < n:
-        who = "the inputs reach" if p > 1 else "the input reaches"
-        raise UncontrollableError(
-            f"{who} only {kept.shape[1]} of the {n} states",
-            field="B",
-            hint="Add an input, or take the states that no input reaches out of the model.",
-        )
-    return Scan(tuple(indices), weakest)
+    return Reach(tuple(indices), weakest, kept, units)
 
 
 def controllability_indices(A: Floats, B: Floats) -> tuple[int, ...]:

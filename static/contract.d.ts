@@ -1205,6 +1205,20 @@ export interface ProposedR {
   V_y: number;
 }
 
+/** How far the inputs reach, or what the outputs tell. */
+export interface Reached {
+  /** per input the controllability index, per output the observability index */
+  indices: number[];
+  /** dimension of what is reached */
+  reached: number;
+  /** modes that are not, rad/s */
+  lost: Complex[];
+  /** the mode that is hardest to reach, rad/s */
+  nearest: Complex;
+  /** there the smallest singular value of [sI − A, B], in units of its own */
+  distance: number;
+}
+
 /** Reference angles after t = 0, absolute. */
 export interface Reference {
   /** pitch reference, rad; at rest at the operating point (θ₀, 0) where left out */
@@ -1649,6 +1663,201 @@ export interface SymbolicRotors {
   B: Formula;
   /** V/rad, V·s/rad and V/V, columns θ, ψ, θ̇, ψ̇, v_p, v_y; rows V_p, V_y */
   K: Formula;
+}
+
+/** What can be said of a system before anything is designed. */
+export interface SystemAnalysis {
+  /** eigenvalues of A, rad/s */
+  poles: Complex[];
+  /** invariant zeros, rad/s; none are told without C */
+  zeros: Complex[];
+  stable: boolean;
+  inputs: Reached;
+  /** left out without C */
+  outputs?: Reached;
+  /** n×n, x̄ = Tx */
+  T?: number[][];
+  /** p×p, the nonzero rows of TB */
+  Q?: number[][];
+  /** n×n, columns of the controllability matrix, [b₁ … A^(σ₁−1)b₁ | b₂ …] */
+  M?: number[][];
+  /** Ĝ(0), q×p */
+  dc_gain?: number[][];
+  /** at ω = 0, q×p */
+  rga?: number[][];
+  /** index of the diagonal pairing */
+  niederlinski?: number;
+}
+
+/** Frequency responses as gain and phase, rad; per output (or loop), per input (or reference). */
+export interface SystemBode {
+  /** rad/s */
+  frequencies: number[];
+  /** gain and phase of Ĝ(jω) */
+  plant: Record<string, number[][][]>;
+  /** of each input's loop opened there, the others closed; −1 is critical */
+  loops: Record<string, number[][]>;
+  /** from references to outputs */
+  closed: Record<string, number[][][]>;
+  /** |RGA(jω)| of the plant, per output, per input */
+  rga?: number[][][];
+}
+
+/** Responses over time, s; exact at every sample. */
+export interface SystemCourses {
+  /** s */
+  t: number[];
+  /** per reference every output; each reference steps by 1 */
+  step_y: number[][][];
+  /** per reference every input */
+  step_u: number[][][];
+  /** every state from x(0), the references 0 */
+  initial_x: number[][];
+  /** the outputs meanwhile */
+  initial_y: number[][];
+  /** the inputs meanwhile */
+  initial_u: number[][];
+  /** with an observer, which begins at 0, every estimate */
+  estimate?: number[][];
+  /** where the states begin */
+  x0: number[];
+}
+
+/** The state feedback of a system, and what it does. */
+export interface SystemDesign {
+  /** p×n, u = −Kx + F r */
+  K: number[][];
+  /** p×q, of the integrated errors */
+  K_z?: number[][];
+  /** p×m, how the references enter */
+  F: number[][];
+  /** static, pseudo-inverse, integral or inputs: what F is */
+  scaling: string;
+  /** the same in a sentence */
+  reason: string;
+  /** of the closed loop without the observer, rad/s */
+  poles: Complex[];
+  /** largest distance to those asked for, rad/s */
+  pole_error?: number;
+  /** Frobenius norm of K */
+  norm: number;
+  /** κ₂ of the eigenvectors of A − BK */
+  eigenvector_condition?: number;
+  observer?: SystemObserver;
+  courses: SystemCourses;
+  bode: SystemBode;
+  findings: Finding[];
+}
+
+/** A system, the poles it shall have, and the experiment on it. */
+export interface SystemDesignRequest {
+  /** n×n, row by row */
+  A: number[][];
+  /** n×p, row by row */
+  B: number[][];
+  /** q×n; all states are outputs where it is left out */
+  C?: number[][] | null;
+  /** q×p; 0 where it is left out */
+  D?: number[][] | null;
+  /** n, in the unit of A; complex ones with their conjugates */
+  poles: (number | { re: number; im: number })[];
+  method?: 'full-rank' | 'tits-yang' | 'knv0' | 'varga' | 'ackermann' | 'bass-gura' | 'lqr' | 'lqr-integral';
+  /** n; no observer where left out */
+  observer_poles?: (number | { re: number; im: number })[] | null;
+  /** of the quadratic methods */
+  weights?: SystemWeights;
+  /** initial state, n; 1 for the first state where left out */
+  x0?: number[] | null;
+  /** of the responses, s */
+  duration?: number | null;
+  /** whether poles are told exactly where floats do not tell them, which takes longer */
+  exactly?: boolean;
+}
+
+/** A system of a textbook, to be pasted. */
+export interface SystemExample {
+  name: string;
+  title: string;
+  source: string;
+  text: string;
+  method: string;
+  /** of a quadratic method */
+  weights?: Record<string, number[]>;
+}
+
+/** K and L in closed form. */
+export interface SystemFormulas {
+  K: Formula;
+  /** as k_11, row by row */
+  K_entries: Record<string, Formula>;
+  T: Formula;
+  Q: Formula;
+  /** A − BK */
+  closed_loop: Formula;
+  /** one per input */
+  controllability_indices: number[];
+  /** what must not be 0 */
+  holds_unless: Formula[];
+  /** in the observer's poles q_1 … q_n */
+  L?: Formula;
+  L_entries?: Record<string, Formula>;
+  /** one per output */
+  observability_indices?: number[];
+  observer_holds_unless?: Formula[];
+  /** why there is no L, though C is given */
+  reason?: string;
+}
+
+/** Any system of up to six states, in expressions; nothing in it is ever run as code. */
+export interface SystemFormulasRequest {
+  /** n×n, row by row */
+  A: (string | number)[][];
+  /** n×p, row by row */
+  B: (string | number)[][];
+  /** q×n, for the observer's gain */
+  C?: (string | number)[][] | null;
+}
+
+/** A matrix as it was typed, as a formula, and in numbers. */
+export interface SystemMatrix {
+  rows: string[][];
+  latex: string;
+  mathml: string;
+  /** row by row */
+  values: number[][];
+}
+
+/** x̂' = Ax̂ + Bu + L (y − Cx̂ − Du). */
+export interface SystemObserver {
+  /** n×q */
+  L: number[][];
+  /** of A − LC, rad/s */
+  poles: Complex[];
+  /** largest distance to those asked for, rad/s */
+  pole_error: number;
+  /** Frobenius norm of L */
+  norm: number;
+}
+
+/** A system as it was read, and what can be said of it. */
+export interface SystemRead {
+  /** A, B, and C and D where they are given */
+  matrices: Record<string, SystemMatrix>;
+  /** value of each letter; 1 where it has none */
+  letters: Record<string, number>;
+  /** letters without a value */
+  missing: string[];
+  /** desired ones, where the text has some */
+  poles?: Complex[];
+  observer_poles?: Complex[];
+  analysis: SystemAnalysis;
+  findings: Finding[];
+}
+
+/** A system as it is pasted from MATLAB, Python or a page of text; nothing in it is ever run as code. */
+export interface SystemText {
+  /** A = …, B = …, and C, D, letters' values, desired poles where they are given */
+  text: string;
 }
 
 /** Diagonals of Q, R and of the integrals' weight; ones where left out. */

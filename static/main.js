@@ -268,6 +268,9 @@ async function furtherDown() {
     drawn([new OwnRigs(byId('own-rigs'), store)]),
   );
   schedule();
+  const [{ PlantPanel }] = await fetched(() => Promise.all([import('./plant/index.js'), styles('plant')]));
+  views.figures.unshift(drawn([new PlantPanel(byId('plant'), store), byId('plant')]));
+  schedule();
 }
 
 /** The design and its key results in one attribute, for tests and scripts. @param {State} state */

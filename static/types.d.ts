@@ -22,7 +22,7 @@ export type Poles = [Complex, Complex, Complex, Complex];
 export type Axis = keyof Angles;
 export type Motor = keyof contract.Voltages;
 export type Motion = Axis | 'both';
-export type View = 'explore' | 'design' | 'compare' | 'rig' | 'derivation';
+export type View = 'explore' | 'design' | 'compare' | 'rig' | 'plant' | 'derivation';
 export type Connection = 'connecting' | 'open' | 'lost';
 /** Numbers over time: of the live socket, a view on its frame. */
 export type Series = ArrayLike<number>;
@@ -238,6 +238,8 @@ export interface State {
   pins: Pin[];
   /** names in locks.js */
   locks: string[];
+  /** any system, as a link has it (plant/link_text.js) */
+  plant: string | null;
   recorded: Recorded;
   /** null: no recording is shown beside the design */
   beside: Beside | null;

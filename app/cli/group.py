@@ -14,6 +14,7 @@ COMMANDS = {
     "rga": ("designs", "Relative gain array, pairing, Niederlinski index."),
     "step": ("designs", "Step response: metrics, motors, whole loop."),
     "place": ("systems", "K of any system, in numbers or in formulas."),
+    "system": ("systems", "Any system from a file: modes, zeros, K, L."),
     "compare": ("comparisons", "The same poles through several methods."),
     "robustness": ("comparisons", "One controller on many uncertain rigs."),
     "read": ("recordings", "A recording of a rig: columns, units, what is odd."),

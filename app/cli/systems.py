@@ -1,8 +1,8 @@
-"""`heli2dof place`: any system, in numbers or with letters, as the REST calls place and symbolic/place."""
+"""`heli2dof place` and `heli2dof system`: any system, in numbers or with letters, as REST has it."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TextIO
 
 import click
 
@@ -63,3 +63,53 @@ def _in_symbols(A: list[list[str]], B: list[list[str]], poles: list[Any] | None,
     for name in ("T", "Q", "K"):
         click.echo(f"{name} = {getattr(placed, name)}")
     return None
+
+
+@click.command()
+@click.argument("file", type=click.File(encoding="utf-8"))
+@click.option("--poles", type=Poles(), help="n, as -1,-2±3j; those of the file where left out.")
+@click.option("--observer-poles", type=Poles(), help="n, likewise; no observer where there are none.")
+@click.option("--method", default=None, help="Of placement; full-rank where left out.")
+@click.option("--json", "as_json", is_flag=True, help="Print the REST API's replies, one a line.")
+def system(
+    file: TextIO,
+    poles: list[Any] | None,
+    observer_poles: list[Any] | None,
+    method: str | None,
+    *,
+    as_json: bool,
+) -> None:
+    """Read a system from FILE (- for standard input), as MATLAB, Python or a page of text has it."""
+    with refusals(as_json):
+        from heli2dof_core.systems.analysis import analyse
+        from heli2dof_core.systems.pasted import read_system
+
+        from ..contract.systems import SystemDesignRequest, design_reply, read_reply
+
+        text = file.read()
+        pasted = read_system(text)
+        looked = analyse(pasted.system)
+        if as_json:
+            print_json(read_reply(text))
+        else:
+            show(looked.tables(), looked.summary(), findings=(*pasted.findings, *looked.findings))
+        wanted = poles or _as_asked(pasted.poles)
+        if not wanted:
+            return
+        own = pasted.system
+        body = {
+            **{name: getattr(own, name).tolist() for name in ("AB" if not own.measured else "ABCD")},
+            "poles": wanted,
+            "observer_poles": observer_poles or _as_asked(pasted.observer_poles),
+            **({"method": method} if method else {}),
+        }
+        request = SystemDesignRequest.model_validate(body)
+        if as_json:
+            print_json(design_reply(request))
+        else:
+            loop = request.loop()
+            show(loop.tables(), loop.summary(), findings=loop.findings)
+
+
+def _as_asked(poles: tuple[complex, ...] | None) -> list[Any] | None:
+    return None if poles is None else [{"re": p.real, "im": p.imag} for p in poles]

@@ -73,6 +73,34 @@ EXAMPLES: dict[str, dict[str, tuple[str, Json]]] = {
             },
         ),
     },
+    "SystemText": {
+        "matlab": (
+            "A spring in letters, from MATLAB",
+            {"text": "A = [0 1; -k/m -b/m]; B = [0; 1/m]; k = 3, m = 2, b = 1"},
+        ),
+        "python": (
+            "From Python",
+            {"text": "A = np.array([[0, 1], [-2, -3]])\nB = np.array([[0], [1]])\nC = [[1, 0]]"},
+        ),
+    },
+    "SystemDesignRequest": {
+        "observer": (
+            "With an observer",
+            {
+                "A": [[0, 1], [20.6, 0]],
+                "B": [[0], [1]],
+                "C": [[1, 0]],
+                "poles": [{"re": -1.8, "im": 2.4}, {"re": -1.8, "im": -2.4}],
+                "observer_poles": [-8, -9],
+            },
+        ),
+    },
+    "SystemFormulasRequest": {
+        "spring": (
+            "A mass on a spring, its place measured",
+            {"A": [["0", "1"], ["-k/m", "-b/m"]], "B": [["0"], ["1/m"]], "C": [["1", "0"]]},
+        ),
+    },
     "SymbolicPlaceRequest": {
         "spring": ("A mass on a spring", {"A": [["0", "1"], ["-k/m", "-b/m"]], "B": [["0"], ["1/m"]]}),
         "numbers": (

@@ -79,13 +79,13 @@ class PlaceRequest(Strict):
         Raises:
             Heli2DofError: a shape or number does not fit, or the method cannot solve the task.
         """
-        A, B, poles = require_system(_array(self.A, "A"), _array(self.B, "B"), self.poles)
+        A, B, poles = require_system(array_of(self.A, "A"), array_of(self.B, "B"), self.poles)
         options = ("groups", "input_order", "triangle", "shift")
         if self.method == FULL_RANK:
             groups = None
             if self.groups is not None:
                 groups = [CoreGroup(tuple(g.inputs), tuple(g.poles)) for g in self.groups]
-            shift = None if self.shift is None else _array(self.shift, "shift")
+            shift = None if self.shift is None else array_of(self.shift, "shift")
             placed = full_rank(
                 A,
                 B,
@@ -102,16 +102,21 @@ class PlaceRequest(Strict):
                     f"{option} belongs to full-rank placement alone", field=option, hint="Leave it out."
                 )
         n, p = B.shape
-        C = None if self.C is None else _array(self.C, "C", columns=n)
+        C = None if self.C is None else array_of(self.C, "C", columns=n)
         weights = Weights(
-            _sized(self.weights.states, n, "weights.states"),
-            _sized(self.weights.inputs, p, "weights.inputs"),
-            _sized(self.weights.integrals, 0 if C is None else len(C), "weights.integrals"),
+            sized(self.weights.states, n, "weights.states"),
+            sized(self.weights.inputs, p, "weights.inputs"),
+            sized(self.weights.integrals, 0 if C is None else len(C), "weights.integrals"),
         )
         return place_poles(A, B, poles, self.method, C=C, weights=weights)
 
 
-def _array(rows: Sequence[Sequence[float]], field: str, *, columns: int | None = None) -> Floats:
+def array_of(rows: Sequence[Sequence[float]], field: str, *, columns: int | None = None) -> Floats:
+    """A matrix of a request.
+
+    Raises:
+        InvalidInputError: its rows differ in length, or have not so many columns.
+    """
     lengths = {len(row) for row in rows}
     if len(lengths) > 1 or (columns is not None and lengths != {columns}):
         raise InvalidInputError(
@@ -122,7 +127,12 @@ def _array(rows: Sequence[Sequence[float]], field: str, *, columns: int | None =
     return np.array(rows, dtype=float)
 
 
-def _sized(values: list[float] | None, size: int, field: str) -> tuple[float, ...]:
+def sized(values: list[float] | None, size: int, field: str) -> tuple[float, ...]:
+    """A diagonal of so many entries; ones where it is left out.
+
+    Raises:
+        InvalidInputError: it has another number of entries.
+    """
     if values is not None and len(values) != size:
         raise InvalidInputError(f"{field} has {len(values)} entries, not {size}", field=field)
     return (1.0,) * size if values is None else tuple(values)

@@ -101,11 +101,17 @@ def place_poles(
 
 
 def assess(
-    A: Floats, B: Floats, wanted: Complexes, placement: Placement, *, aimed: bool = True
+    A: Floats,
+    B: Floats,
+    wanted: Complexes,
+    placement: Placement,
+    *,
+    aimed: bool = True,
+    exactly: bool = True,
 ) -> Assessment:
-    """What a placement does to (A, B); `aimed` says whether it was to place `wanted`."""
+    """What a placement does to (A, B); `aimed` says whether it was to place `wanted`, `exactly` is `judge`'s."""
     K = placement.K
-    verdict = judge(A, B, K, wanted, condition=True)
+    verdict = judge(A, B, K, wanted, condition=True, exactly=exactly)
     return Assessment(
         placement,
         verdict.poles,

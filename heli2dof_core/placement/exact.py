@@ -38,6 +38,22 @@ def float_matrix(matrix: DomainMatrix) -> Floats:
     return np.array([[float(Fraction(int(x.numerator), int(x.denominator))) for x in row] for row in rows])
 
 
+Whole = list[list[int]]
+
+
+def whole_matrix(matrix: DomainMatrix) -> tuple[Whole, int]:
+    """The same over one denominator: whole numbers, and what they are divided by."""
+    rows: list[list[Any]] = matrix.to_list()
+    below = lcm(*(int(x.denominator) for row in rows for x in row))
+    return [[int(x.numerator) * (below // int(x.denominator)) for x in row] for row in rows], below
+
+
+def whole_product(left: Whole, right: Whole) -> Whole:
+    """Of two matrices of whole numbers."""
+    columns = [*zip(*right, strict=True)]
+    return [[sum(map(mul, row, column)) for column in columns] for row in left]
+
+
 def exact_fraction(number: float) -> Any:
     """The same number as a fraction."""
     from sympy import QQ
@@ -101,17 +117,14 @@ def _characteristic_polynomial(matrix: DomainMatrix) -> list[Any]:
     """
     from sympy import QQ
 
-    entries, n = matrix.to_list(), matrix.shape[0]
-    unit = lcm(*(int(x.denominator) for row in entries for x in row))
-    own = [[int(x.numerator) * (unit // int(x.denominator)) for x in row] for row in entries]
+    (own, unit), n = whole_matrix(matrix), matrix.shape[0]
     found, power = [QQ.one], 1
     product = [[0] * n for _ in range(n)]
     trace = 1  # of the coefficient before
     for k in range(1, n + 1):
         for i in range(n):
             product[i][i] += trace
-        columns = [*zip(*product, strict=True)]
-        product = [[sum(map(mul, row, column)) for column in columns] for row in own]
+        product = whole_product(own, product)
         trace, power = -sum(product[i][i] for i in range(n)) // k, power * unit
         found.append(QQ(trace, power))
     return found

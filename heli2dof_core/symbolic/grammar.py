@@ -65,7 +65,7 @@ class WrittenError(InvalidInputError):
 _NUMBER = re.compile(r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _GREEK = "\u0391-\u03a1\u03a3-\u03a9\u03b1-\u03c1\u03c3-\u03c9"
 _SUBSCRIPTS = "\u2080-\u2089"
-_NAME = re.compile(f"[A-Za-z{_GREEK}][A-Za-z0-9_{_GREEK}{_SUBSCRIPTS}]*")
+NAME = re.compile(f"[A-Za-z{_GREEK}][A-Za-z0-9_{_GREEK}{_SUBSCRIPTS}]*")
 _SAME = {"−": "-", "–": "-", "·": "*", "×": "*", "⋅": "*", "∙": "*", "÷": "/", "∕": "/", "**": "^"}
 _OPERATOR = re.compile(r"\*\*|[-+*/^()−–·×⋅∙÷∕]")
 _START = "a number, a letter, sqrt( or an opening bracket"
@@ -111,7 +111,7 @@ def _tokens(text: str) -> Iterator[_Token]:
         if text[at].isspace():
             at += 1
             continue
-        for kind, pattern in (("number", _NUMBER), ("name", _NAME), ("operator", _OPERATOR)):
+        for kind, pattern in (("number", _NUMBER), ("name", NAME), ("operator", _OPERATOR)):
             if found := pattern.match(text, at):
                 written = found.group()
                 yield _Token(kind, _SAME.get(written, written), at + 1)  # pyright: ignore[reportArgumentType]

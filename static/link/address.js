@@ -45,6 +45,7 @@ const held = (s) => [
   s.spread,
   s.requirements,
   s.locks,
+  s.plant,
   pinKey(s.pins),
 ];
 /** Their replies are no part of it. @param {State['pins']} pins */

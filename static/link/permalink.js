@@ -6,8 +6,8 @@
  * pitch, k_p, T_i of yaw. `rig`: the name of a rig of one's own; `set.…`: parameters; `limits.…`; `step.…`: references;
  * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`,
  * `lag`, `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`.
- * `view`: the view, `at`: the place on the page. A part that cannot be read is named and left out; the rest is
- * restored.
+ * `plant`: any system. `view`: the view, `at`: the place on the page. A part that cannot be read is named and left out;
+ * the rest is restored.
  *
  * The format is part of the page's contract: a change that an old reader would misread takes a new version, and the
  * reader of the old one stays.
@@ -17,7 +17,8 @@
  * @typedef {import('./link_values.js').Leaf} Leaf
  * @typedef {{part: string, why: string}} Trouble
  * @typedef {{index: number, name: string, design: Design}} PinnedDesign
- * @typedef {Pick<State, 'view'|'motion'|'showLinear'|'showMarks'|'showLag'|'spread'|'requirements'|'locks'>} Shown
+ * @typedef {Pick<State, 'view'|'motion'|'showLinear'|'showMarks'|'showLag'|'spread'|'requirements'|'locks'> &
+ *   Partial<Pick<State, 'plant'>>} Shown
  * @typedef {{design?: Design, shown?: Shown, pins?: PinnedDesign[], place?: string, trouble: Trouble[]}} Link
  * @typedef {{presets: Preset[], methods: {name: string}[]}} Known
  */
@@ -90,7 +91,7 @@ const joined = (parts, separator) => parts.map(([key, text]) => `${key}=${escape
  * @returns {string} with its #; empty while there is no design
  */
 export function linkOf(state, { presets }, place = null, most = MOST) {
-  const { design, view, motion, showLinear, showMarks, showLag, spread, requirements, locks, pins } = state;
+  const { design, view, motion, showLinear, showMarks, showLag, spread, requirements, locks, pins, plant } = state;
   if (!design) return '';
   const parts = designParts(design, presets);
   if (motion !== 'both') parts.push(['motion', motion]);
@@ -100,6 +101,7 @@ export function linkOf(state, { presets }, place = null, most = MOST) {
   if (spread) parts.push(['spread', String(spread)]);
   for (const [path, text] of differences(requirements, NONE)) parts.push([`req.${path}`, text]);
   if (locks.length) parts.push(['lock', locks.join()]);
+  if (plant) parts.push(['plant', plant]);
   if (view !== STANDARD_VIEW) parts.push(['view', view]);
   if (place) parts.push(['at', place]);
   const link = `#v${VERSION}&${joined(parts, '&')}`;
@@ -289,7 +291,8 @@ function readFirst(body, known) {
       shown.locks = value.split(',').filter((name) => Object.hasOwn(LOCKS, name));
       for (const name of value.split(','))
         if (!Object.hasOwn(LOCKS, name)) refuse(`“${name}” is nothing that can be locked`);
-    } else if (key === 'at') place = value;
+    } else if (key === 'plant') shown.plant = value;
+    else if (key === 'at') place = value;
     else if (key === 'view') isView(value) ? (view = value) : refuse('no view of this page');
     else if (key.startsWith('req.')) {
       const asked = asking(shown.requirements, key.slice(4), /^["[{]/.test(value) ? undefined : leafOf(value));

@@ -48,6 +48,7 @@ export const initialState = () => ({
   canRedo: false,
   pins: [],
   locks: [],
+  plant: null,
   notice: null,
   fault: null,
   recorded: {

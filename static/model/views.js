@@ -19,6 +19,7 @@ export const VIEWS = {
     about: 'Parameters, rotors, recordings of a real rig',
     places: ['own-rigs', 'recordings'],
   },
+  plant: { title: 'Plant', key: 'P', about: 'Any plant: your own A, B and C', places: [] },
   derivation: {
     title: 'Derivation',
     key: 'M',

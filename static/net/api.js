@@ -69,7 +69,7 @@ async function answerOf(path, { method = 'GET', body, type = 'application/json' 
  * @param {string} [method]
  * @returns {Promise<T>} as the contract has it
  */
-async function call(path, body, method = body === undefined ? 'GET' : 'POST') {
+export async function call(path, body, method = body === undefined ? 'GET' : 'POST') {
   const response = await answerOf(path, { method, body: body === undefined ? body : JSON.stringify(body) });
   const text = await reach(response.text());
   const json = text && (response.headers.get('content-type') ?? '').includes('json') ? JSON.parse(text) : {};
@@ -79,9 +79,9 @@ async function call(path, body, method = body === undefined ? 'GET' : 'POST') {
 /**
  * A file that the server makes of a design.
  * @param {string} path
- * @param {Asked<import('../contract.js').StepRequest>} design
+ * @param {unknown} design
  */
-const fileOf = async (path, design) => {
+export const fileOf = async (path, design) => {
   const response = await answerOf(path, { method: 'POST', body: JSON.stringify(design) });
   return reach(response.blob());
 };

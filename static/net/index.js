@@ -1,10 +1,12 @@
 /** What other rooms may import of net/. */
 export {
+  call,
   cloudAddress,
   compareMethods,
   compareSplits,
   evaluateDesign,
   exportDesign,
+  fileOf,
   getMethods,
   getPaper,
   getPresets,

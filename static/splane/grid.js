@@ -12,8 +12,12 @@ const WN_DIRECTION = [Math.cos(0.87), Math.sin(0.87)];
 /** @param {number} step */
 const decimalsOf = (step) => Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
 
-/** @param {SVGGElement} layer @param {import('./math.js').View} view */
-export function drawGrid(layer, view) {
+/**
+ * @param {SVGGElement} layer
+ * @param {import('./math.js').View} view
+ * @param {string} [pattern] of the unstable half, by its name
+ */
+export function drawGrid(layer, view, pattern = 'hatch') {
   const b = bounds(view);
   const [x0, y0] = toPixel(view, { re: 0, im: 0 });
   const step = niceStep(Math.max(b.right - b.left, b.top - b.bottom), 8);
@@ -30,7 +34,7 @@ export function drawGrid(layer, view) {
         y: 0,
         width: view.width - left,
         height: view.height,
-        fill: 'url(#hatch)',
+        fill: `url(#${pattern})`,
       }),
     );
     if (view.width - left > 14) {

@@ -94,6 +94,7 @@ def save_recordings():
     savemat("run.mat", {"t": made.t, **degrees})
     for name, values in signals.items():
         Path(f"{name}.csv").write_bytes(write_csv({"time": made.t, name: values}))
+    Path("plant.m").write_text("A = [0 1; 20.6 0]; B = [0; 1]; C = [1 0]; p = [-2 -3];")
 
 
 def test_command_lines_run(tmp_path, monkeypatch):

@@ -50,6 +50,12 @@ EXPERIMENT = DESIGN | {
     "invalid_input scenario.digital.sample_time": "the duration may hold at most 100,000 samples of the controller",
     "invalid_input scenario.digital.encoders.(theta|psi)": "the counts of another rig",
 }
+SYSTEM = {
+    "unpaired_poles": "each complex pole needs its conjugate",
+    "uncontrollable": "the rank of [B, AB, …] or of its dual",
+    "method_unavailable": "a method may not solve the task",
+    "invalid_input (A|B|C|D|poles|observer_poles|weights|x0|duration).*": "the shapes of matrices must agree",
+}
 RIGS = EXPERIMENT | {
     "invalid_input scenario.(digital|disturbance|noise)": "the cloud is continuous and undisturbed",
 }
@@ -84,6 +90,15 @@ RULES: dict[str, dict[str, str]] = {
         "method_unavailable": "a method may not solve the task: multiple poles, too few inputs, outputs left out",
         "invalid_input (A|B|C|poles|shift|groups|input_order|weights).*": "the shapes of matrices must agree",
         "invalid_input (groups|input_order|triangle|shift)": "belong to full-rank placement alone",
+    },
+    "POST /api/v1/system/read": {
+        "invalid_input text": "the grammar of pasted texts, and the shapes of matrices",
+    },
+    "POST /api/v1/system/design": SYSTEM,
+    "POST /api/v1/system/export/{format}": SYSTEM,
+    "POST /api/v1/system/formulas": {
+        "uncontrollable": "the rank of [B, AB, …]",
+        "invalid_input (A|B|C).*": "the grammar of expressions, the shapes of matrices, and time",
     },
     "POST /api/v1/symbolic/place": {
         "unpaired_poles": "each complex pole needs its conjugate",

@@ -35,6 +35,11 @@ from heli2dof_core.recordings.samples import sample_recording
 from heli2dof_core.root_locus import symmetric_root_locus
 from heli2dof_core.symbolic.linearization import linear_model
 from heli2dof_core.symbolic.mechanics import mechanics
+from heli2dof_core.systems.analysis import analyse
+from heli2dof_core.systems.courses import courses
+from heli2dof_core.systems.frequency import bode
+from heli2dof_core.systems.loop import Wish, close_loop
+from heli2dof_core.systems.model import System
 from heli2dof_core.walkthrough import walk_through
 from heli2dof_core.walkthrough_beyond import observer_steps, rotor_steps
 from heli2dof_core.weights import bryson_weights
@@ -129,6 +134,9 @@ def everything_else() -> Iterator[Any]:
         yield heli.place_poles(A, B, [-4, -5, -6, -7], name, C=C)
     for form in FORMATS.values():
         yield form.render(SPEC)
+    system = System.of(A, B, np.eye(1, 4))
+    closed = close_loop(system, Wish((-4, -5, -6, -7), observer_poles=(-8, -9, -10, -11)))
+    yield analyse(system), closed, courses(closed), bode(analyse(system), closed)
     yield figures()
     yield consequence()
     yield linear_model(), mechanics(), heli.formulas()

@@ -1,0 +1,2 @@
+/** What other rooms may import of plant/. */
+export { PlantPanel } from './panel.js';
