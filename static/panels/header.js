@@ -60,11 +60,10 @@ export class HeaderPanel {
       h(
         'div',
         { class: 'buttons' },
-        this.undo,
-        this.redo,
-        this.reset,
-        h('span', { class: 'takes', 'data-views': 'design compare rig derivation' }, this.pin, this.share.node),
-        h('span', { class: 'takes', 'data-views': 'design compare rig derivation' }, exportMenu(store, address)),
+        h('span', { 'data-views': 'explore design compare rig derivation' }, this.undo, this.redo, this.reset),
+        h('span', { 'data-views': 'design compare rig derivation' }, this.pin),
+        h('span', { 'data-views': 'design compare rig plant derivation' }, this.share.node),
+        h('span', { 'data-views': 'design compare rig derivation' }, exportMenu(store, address)),
       ),
       this.status,
     );
