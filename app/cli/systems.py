@@ -84,7 +84,8 @@ def system(
         from heli2dof_core.systems.analysis import analyse
         from heli2dof_core.systems.pasted import read_system
 
-        from ..contract.systems import SystemDesignRequest, design_reply, read_reply
+        from ..contract.system_replies import design_reply, read_reply
+        from ..contract.systems import SystemDesignRequest
 
         text = file.read()
         pasted = read_system(text)

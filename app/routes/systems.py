@@ -12,8 +12,8 @@ from heli2dof_core.systems.textbook import EXAMPLES
 
 from ..contract.encoding import described_files, json_response
 from ..contract.model import Reply, described
+from ..contract.system_replies import FILES, design_reply, example_reply, formulas_reply, read_reply
 from ..contract.systems import (
-    FILES,
     SystemDesign,
     SystemDesignRequest,
     SystemExample,
@@ -21,10 +21,6 @@ from ..contract.systems import (
     SystemFormulasRequest,
     SystemRead,
     SystemText,
-    design_reply,
-    example_reply,
-    formulas_reply,
-    read_reply,
 )
 from ..jobs.compute import Compute, check_cancelled
 from .exports import Link

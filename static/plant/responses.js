@@ -78,7 +78,7 @@ export class Responses {
     });
     this.node = h(
       'section',
-      { class: 'card plant-responses', 'aria-label': 'Responses' },
+      { class: 'card plant-responses', 'aria-label': 'Responses of the plant' },
       h('div', { class: 'plant-row' }, h('h3', {}, 'Responses over time'), this.time),
       h('div', { class: 'plant-charts' }, this.y.node, this.u.node),
       h('div', { class: 'plant-row' }, h('h3', {}, 'Over frequency'), this.frequency),
