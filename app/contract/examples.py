@@ -26,6 +26,13 @@ EXAMPLES: dict[str, dict[str, tuple[str, Json]]] = {
     },
     "LoopsRequest": {"bode": ("L(jω) at three frequencies, rad/s", {"frequencies": [0.1, 1, 10]})},
     "StepRequest": {"pitch": ("A step of 0.2 rad in pitch", {"scenario": _PITCH})},
+    "ExportRequest": {
+        "pitch": ("A step of 0.2 rad in pitch", {"scenario": _PITCH}),
+        "pins": (
+            "A report with another design beside",
+            {"scenario": _PITCH, "pins": [{"name": "A slow", "poles": [-6, -7, -8, -9], "scenario": _PITCH}]},
+        ),
+    },
     "ResponseRequest": {
         "pitch": ("A step of 0.2 rad in pitch, with the rates", {"scenario": _PITCH, "states": True}),
         "linear": ("Both references, the linear model", {"scenario": {"model": "linear", "duration": 2}}),

@@ -83,5 +83,5 @@ export function symbol(base, sub, bars) {
 export function printed(text) {
   const [, norm, base, sub, of] = /** @type {RegExpExecArray} */ (/^(‖?)(.+?)‖?(?:_(\w+))?(?:\((\w)\))?$/.exec(text));
   if (norm) return symbol(base, sub, '‖');
-  return of ? h('span', {}, symbol(base, sub), '(', symbol(of), ')') : symbol(base, sub);
+  return of ? h('span', { class: 'sym' }, symbol(base, sub), '(', symbol(of), ')') : symbol(base, sub);
 }
