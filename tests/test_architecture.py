@@ -145,3 +145,28 @@ def test_nothing_is_evaluated_from_text():
                     {node.module or ""} if isinstance(node, ast.ImportFrom) else {a.name for a in node.names}
                 )
                 assert not {m.partition(".")[0] for m in modules} & UNPICKLING, where
+
+
+def test_sympy_is_imported_before_any_part_of_it():
+    """Who asks for a part of a package that another thread is importing does not wait for the package."""
+    found, parts = [], 0
+    for path in (path for path in SOURCES if path.parts[-2] != "tests" and path.suffix == ".py"):
+        if ROOT / "heli2dof_core" not in path.parents:
+            continue
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            body = getattr(node, "body", None)
+            if not isinstance(body, list) or (
+                isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test)
+            ):
+                continue
+            whole = False
+            for line in body:
+                if isinstance(line, ast.Import):
+                    whole = whole or any(name.name == "sympy" for name in line.names)
+                elif isinstance(line, ast.ImportFrom) and (line.module or "").partition(".")[0] == "sympy":
+                    parts += line.module != "sympy"
+                    whole = whole or line.module == "sympy"
+                    if not whole:
+                        found.append(f"{path.relative_to(ROOT)}:{line.lineno}")
+    assert parts > 10
+    assert found == []

@@ -16,6 +16,9 @@ from functools import cached_property
 from itertools import pairwise
 from typing import Any, Literal
 
+# SymPy first, as in all modules: who asks for a part of a package that another thread is importing does not wait for
+# it, and its circular imports break for both.
+import sympy  # noqa: F401
 from sympy.polys.matrices import DomainMatrix
 
 from ..errors import UncontrollableError

@@ -2,7 +2,7 @@
  * Poles that nobody places: LQR's and a Kalman filter's, as marks of their own shape under the handles, with a tooltip.
  * @typedef {import('../types.js').Complex} Complex
  */
-import { poleText, polesText, say } from '../text/index.js';
+import { poleText, polesText, say, t } from '../text/index.js';
 import { setAttr, svg } from '../ui/index.js';
 import { toPixel } from '../splane/index.js';
 
@@ -36,7 +36,7 @@ export class OwnMarks {
   draw(poles, fresh) {
     if (!fresh && poles === this.#drawn) return;
     this.#drawn = poles;
-    setAttr(this.layer, 'aria-label', say`${this.name} poles: ${polesText(poles)} rad/s`);
+    setAttr(this.layer, 'aria-label', say`${t(this.name)} poles: ${polesText(poles)} rad/s`);
     setAttr(this.layer, 'display', poles.length ? 'inline' : 'none');
     while (this.layer.childElementCount > poles.length) this.layer.lastElementChild?.remove();
     while (this.layer.childElementCount < poles.length)
@@ -47,7 +47,7 @@ export class OwnMarks {
       setAttr(node, 'transform', `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
       setAttr(node, 'class', p.re >= 0 ? 'bad' : '');
       const title = /** @type {Element} */ (node.firstElementChild);
-      title.textContent = poleText(p, say`${this.name} pole`);
+      title.textContent = poleText(p, say`${t(this.name)} pole`);
     }
   }
 }

@@ -30,7 +30,7 @@ export class Optimal {
       h('span', { 'data-testid': testid, hidden: true }, inner);
     this.keys = {
       optimal: part('key-optimal', sampleOf('optimal'), 'LQR’s poles'),
-      locus: part('key-locus', 'thin line: root locus, R scaled by ρ; ring: ρ = 1'),
+      locus: part('key-locus', 'line: root locus over ρ; ring: ρ = 1'),
       kalman: part('key-kalman', sampleOf('kalman'), 'Kalman filter’s poles'),
     };
     plane.svg.after(h('div', { class: 'cloud-words own-words' }, Object.values(this.keys)));

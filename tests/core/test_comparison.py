@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import control
 import numpy as np
@@ -50,10 +51,13 @@ def test_one_rule_and_one_target_for_all(spec):
         plant = replace(design, actuators=None).to_control()
         c = [control.tf([pi.kp, pi.kp / pi.ti], [1, 0]) for pi in (outer.pitch, outer.yaw)]
         pi = control.append(control.tf2ss(c[0]), control.tf2ss(c[1]))
-        poles = control.feedback(control.series(pi, plant), np.eye(2)).poles()
-        if design.actuators is not None and design.actuators.lags:
-            poles = np.array(row.report.judged.poles)  # the rotors are the rig's, not the design's
-            inner = np.array(close_loop(design, replace(outer, outer="none")).poles)
+        series: Any = plant * pi
+        poles = np.asarray(series.feedback(np.eye(2)).poles(), np.complex128)
+        if (
+            design.actuators is not None and design.actuators.lags
+        ):  # the rotors are the rig's, not the design's
+            poles = np.array(row.report.judged.poles, dtype=np.complex128)
+            inner = close_loop(design, replace(outer, outer="none")).poles
         else:
             inner = design.closed_loop_poles
         target = min(DAMPING, EASED * float(np.min(-inner.real / np.abs(inner))))
