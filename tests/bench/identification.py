@@ -1,4 +1,4 @@
-"""How often the 95 % intervals of an identification contain the truth: `python -m tests.bench.identification [runs]`.
+"""How often 95 % intervals by noise contain the truth: `python -m tests.bench.identification [runs]`.
 
 Each run is a digital rig of its own: parameters off its data sheet by up to 15 %, random reference steps, encoders,
 filtered rates and noise by its seed. Also given: intervals that take the residuals for white, and the time.
@@ -100,13 +100,13 @@ def tell(
     for i, first in enumerate(done[0][1].estimates):
         right = [truth(rig, first.name) for rig, _ in done]
         own = [result.estimates[i] for _, result in done]
-        inside = sum(e.low <= true <= e.high for e, true in zip(own, right, strict=True))
+        inside = sum(abs(e.value - true) <= e.noise for e, true in zip(own, right, strict=True))
         white = sum(abs(e.value - true) <= e.plain for e, true in zip(own, right, strict=True))
         hits, plain = hits + inside, plain + white
-        width = median((e.high - e.low) / 2 / abs(true) for e, true in zip(own, right, strict=True))
+        width = median(e.noise / abs(true) for e, true in zip(own, right, strict=True))
         print(f"  {first.name:5} inside {inside} of {runs}, taken for white {white}; ± {100 * width:.3g} %")
     for rig, result in done:
-        together += all(e.low <= truth(rig, e.name) <= e.high for e in result.estimates)
+        together += all(abs(e.value - truth(rig, e.name)) <= e.noise for e in result.estimates)
     each, times = runs * len(done[0][1].estimates) / 100, [result.seconds for _, result in done]
     told = Counter(finding.code for _, result in done for finding in result.findings)
     print(
