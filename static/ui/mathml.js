@@ -43,9 +43,9 @@ export function math(tag, attributes, ...children) {
   return node;
 }
 
-/** Letters as they are slanted: one by one, those of a word upright, each with its accent. @param {string} text */
+/** Letters as they are slanted: one by one, but a word's upright; axes as in K_py are no word. @param {string} text */
 export function letters(text) {
-  if (/^[A-Za-z]{2,}$/.test(text)) return [math('mtext', {}, text)];
+  if (/^[A-Za-z]{2,}$/.test(text) && !/^[py]{2}$/.test(text)) return [math('mtext', {}, text)];
   return Array.from(
     text.normalize('NFD').matchAll(/(\d+)|(\p{L})(\p{Mn}?)|([^\p{L}\d\s])/gu),
     ([, digits, base, mark, sign]) => {
