@@ -28,8 +28,7 @@ def read_reply(text: str, wanted: Wanted = nobody_leaves) -> Reply:
     Raises:
         Heli2DofError: it cannot be read, or is no system.
     """
-    from latex2mathml.converter import convert
-
+    from heli2dof_core.symbolic.mathml import mathml
     from heli2dof_core.systems.notation import latex_of_rows
     from heli2dof_core.systems.pasted import read_system
 
@@ -40,7 +39,7 @@ def read_reply(text: str, wanted: Wanted = nobody_leaves) -> Reply:
     for name, rows in pasted.rows.items():
         latex = latex_of_rows(rows)
         values = getattr(pasted.system, name).tolist()
-        matrices[name] = {"rows": rows, "latex": latex, "mathml": convert(latex), "values": values}
+        matrices[name] = {"rows": rows, "latex": latex, "mathml": mathml(latex), "values": values}
     reply: Reply = {
         "matrices": matrices,
         "letters": pasted.letters,

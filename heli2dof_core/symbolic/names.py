@@ -47,7 +47,10 @@ s = sp.Symbol("s")
 def _latex(name: str) -> str:
     """LaTeX of a parameter's name; subscripts of several letters stand upright."""
     base, _, index = name.partition("_")
-    return rf"{base}_{{\text{{{index}}}}}" if len(index) > 1 else name
+    if len(index) == 1:
+        return name
+    axes = set(index) <= set("py")  # as in K_py, which is no word
+    return f"{base}_{{{index}}}" if axes else rf"{base}_{{\text{{{index}}}}}"
 
 
 NAMES: tuple[Name, ...] = (
