@@ -88,8 +88,8 @@ export class LagPaths {
       !lag
         ? ''
         : lag.assumed
-          ? say`dashed: were the rotors to lag by 0 to ${tau}, as an Aero’s`
-          : say`dashed: the rotors’ lag from 0 to ${tau}`,
+          ? say`dashed: rotors’ lag up to ${tau} (Aero)`
+          : say`dashed: rotors’ lag up to ${tau}`,
     );
   }
 

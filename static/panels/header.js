@@ -55,7 +55,7 @@ export class HeaderPanel {
         'data-testid': 'help',
         'aria-label': 'Help',
         'aria-pressed': 'false',
-        title: "Help (?): what is tapped or takes the focus explains itself",
+        title: 'Help (?): what is tapped or takes the focus explains itself',
         onclick: () => this.#explain(),
       },
       '?',

@@ -114,7 +114,8 @@ export class PairEditor {
     this.verdict.hidden = !verdict;
     if (!verdict) return;
     this.verdict.classList.toggle('missed', !verdict.met);
-    setText(this.verdict, verdict.met ? `✓ ${verdict.text}` : say`✕ step ${verdict.text}`);
+    setAttr(this.verdict, 'title', verdict.text);
+    setText(this.verdict, verdict.met ? `✓ ${verdict.text}` : `✕ ${verdict.text}`);
   }
 }
 
