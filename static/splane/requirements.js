@@ -46,7 +46,7 @@ export function drawForbidden(layer, view, r) {
     nodes.push(svg('path', { class: 'forbidden-edge', d: `M ${border.join(' L ')}` }));
   }
   if (regions.settling && r.settling !== null) {
-    const [x, y] = [toPixel(view, regions.settling[0])[0] + 12, view.height - 24];
+    const [x, y] = [toPixel(view, regions.settling[0])[0] + 12, view.height - 48];
     nodes.push(
       svg(
         'text',
