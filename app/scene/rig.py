@@ -47,7 +47,7 @@ class RigServer(ViserServer):
 
     def __init__(self, rig: RigName) -> None:
         super().__init__(host=LOOPBACK, port=0, verbose=False)
-        self.gui.configure_theme(control_layout="collapsible", show_logo=False, show_share_button=False)
+        self.gui.configure_theme(show_logo=False, show_share_button=False)
         self.show(rig)
 
     def request_share_url(self, verbose: bool = True) -> str | None:
