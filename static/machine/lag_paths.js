@@ -85,11 +85,7 @@ export class LagPaths {
     const tau = `${significant(Math.max(...(lag?.tau ?? [0])), 3)} s`;
     setText(
       this.words,
-      !lag
-        ? ''
-        : lag.assumed
-          ? say`dashed: rotors’ lag up to ${tau} (Aero)`
-          : say`dashed: rotors’ lag up to ${tau}`,
+      !lag ? '' : lag.assumed ? say`dashed: rotors’ lag up to ${tau} (Aero)` : say`dashed: rotors’ lag up to ${tau}`,
     );
   }
 

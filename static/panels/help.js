@@ -40,7 +40,7 @@ export function help(opener) {
     // what takes no focus by itself takes it meanwhile, so that keys reach each
     for (const node of document.querySelectorAll(wanted ? '[title]' : `[${LENT}]`)) {
       if (!wanted) node.removeAttribute('tabindex');
-      else if (node.matches(REACHED) || node.querySelector(REACHED)) continue;
+      else if (node.matches(REACHED) || node.querySelector(REACHED) || node.closest('[aria-hidden=true]')) continue;
       else node.setAttribute('tabindex', '0');
       node.toggleAttribute(LENT, wanted);
     }

@@ -1,5 +1,4 @@
 /** The two pairs as numbers: real or complex, two values each, with sliders. */
-import { say } from '../text/index.js';
 import {
   AXES,
   isComplex,

@@ -4,7 +4,6 @@
  * _pins and _requirements (drawing), _readout (words), _math (pure).
  * @typedef {import('../types.js').State} State
  */
-import { say } from '../text/index.js';
 import { handlesOf, pairAlone, placesPoles } from '../model/index.js';
 import { button, drawingUnit, h, setText, svg } from '../ui/index.js';
 import { loopPaths } from './loop_paths.js';

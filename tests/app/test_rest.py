@@ -259,7 +259,12 @@ def test_broken_json_and_unknown_paths_are_problems_too(client):
 
 @pytest.mark.parametrize(
     ("path", "status", "root"),
-    [("/nothing", 404, "./"), ("/a/b", 404, "../"), ("/static/none.js", 404, "../"), ("/api/v1/gains", 405, "../../")],
+    [
+        ("/nothing", 404, "./"),
+        ("/a/b", 404, "../"),
+        ("/static/none.js", 404, "../"),
+        ("/api/v1/gains", 405, "../../"),
+    ],
 )
 def test_a_person_who_comes_to_a_wrong_path_gets_a_page(client, path: str, status: int, root: str):
     asked = {"accept": "text/html,application/xhtml+xml,*/*;q=0.8"}

@@ -76,7 +76,6 @@ def test_yaw_scale_puts_positive_angles_clockwise():
 
 @pytest.mark.parametrize("viewer", [(0.36, -0.94), (1.0, 0.0), (-0.5, 0.5)])
 def test_numbers_of_the_yaw_scale_stand_upright_for_their_viewer(viewer: tuple[float, float]):
-    # A seven has its bar at the top, a one nothing but its stem at the foot; 120° and -120° lie on two sides.
     vertices = yaw_scale(1.0, viewer).vertices[:, :2]
     away = -np.array(viewer) / np.hypot(*viewer)
     for degrees in (-150, -120, -90, -60, -30, 0, 30, 60, 90, 120, 150, 180):
@@ -86,7 +85,7 @@ def test_numbers_of_the_yaw_scale_stand_upright_for_their_viewer(viewer: tuple[f
             continue  # seen from the side
         up = np.sign(out @ away) * out
         right = np.array([up[1], -up[0]])
-        # The degree sign stands last and raised: right of the middle nothing is lower than half the height but digits.
+        # the degree sign stands last, and raised
         last = inside[inside @ right > np.quantile(inside @ right, 0.93)]
         assert (last @ up).mean() > (inside @ up).mean(), degrees
 

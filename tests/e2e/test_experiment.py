@@ -283,7 +283,8 @@ def test_options_and_all_figures_fit_without_moving_the_instrument(
             assert box["x"] >= 0 and box["x"] + box["width"] <= size[0], testid
             assert box["y"] >= 0 and box["y"] + box["height"] <= size[1], testid
         (body, *shown) = (
-            page.get_by_test_id(name).first.bounding_box() for name in ("experiment-body", "splane", "scene", *PLOTS)
+            page.get_by_test_id(name).first.bounding_box()
+            for name in ("experiment-body", "splane", "scene", *PLOTS)
         )
         for box in shown:  # it covers nothing of what it changes
             assert box["height"] > 90
