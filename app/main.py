@@ -17,6 +17,7 @@ from .edge import policies
 from .edge.connections import Connections
 from .edge.limits import SocketCounts, read_in_small_parts
 from .edge.middleware import with_middleware
+from .edge.problem_page import problem_page
 from .jobs.compute import Compute
 from .ops.cached_files import CachedFiles
 from .ops.metrics import Metrics
@@ -115,7 +116,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(robustness.build_router(compute, metrics))
     app.include_router(scene.build_views_router())
     app.include_router(scene.build_router(sessions, metrics, settings.frame_ancestors))
-    problems.install(app)
+    problems.install(app, problem_page(settings.frame_ancestors))
     examples.install(app)
 
     _add_pages(app, settings, files)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from json import JSONDecodeError
 from typing import Any
 
@@ -20,6 +20,7 @@ from ..jobs.fair_queue import BusyError, OverdueError
 from ..ops.logs import request_id
 from .encoding import json_bytes
 
+Page = Callable[[Request, Mapping[str, Any]], Response | None]
 _log = logging.getLogger(__name__)
 
 _CODES = {
@@ -100,8 +101,13 @@ def problem_response(body: Mapping[str, Any], headers: Mapping[str, str] | None 
     return Response(json_bytes(body), body["status"], headers=headers, media_type=MEDIA_TYPE)
 
 
-def install(app: FastAPI) -> None:
-    """Makes every error of the app a problem object."""
+def install(app: FastAPI, page: Page = lambda _request, _body: None) -> None:
+    """Makes every error of the app a problem object.
+
+    Args:
+        app: the application.
+        page: makes a page of it where a person asks in a browser, else None.
+    """
 
     async def answer(request: Request, error: Exception) -> Response:
         body = problem_of(error)
@@ -112,7 +118,7 @@ def install(app: FastAPI) -> None:
         headers = error.headers if isinstance(error, HTTPException) else None
         if body["status"] == 503 and not headers:
             headers = {"Retry-After": str(getattr(error, "retry_after", 30))}
-        return problem_response(body, headers)
+        return page(request, body) or problem_response(body, headers)
 
     for kind in (Heli2DofError, RequestValidationError, HTTPException, BusyError, OverdueError, Exception):
         app.add_exception_handler(kind, answer)

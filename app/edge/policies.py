@@ -67,6 +67,11 @@ def login(ancestors: Iterable[str]) -> str:
     )
 
 
+def told(ancestors: Iterable[str]) -> str:
+    """Of the page that tells a person what is wrong."""
+    return _joined(ancestors, style_src="'self'", img_src="'self'")
+
+
 def viewer(ancestors: Iterable[str], scripts: Iterable[bytes]) -> str:
     """Of viser's page.
 

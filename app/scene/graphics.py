@@ -13,6 +13,7 @@ from . import markings
 from .glb import Material, Part
 from .machine import facing, fork, hub_position, placed
 from .shapes import Mesh, box, cylinder, lathe, merged, ring, sector, triangle
+from .views import first_view
 
 _PITCH_LIMIT = 60
 """Degrees that the pitch scale shows where no source gives the rig's travel."""
@@ -37,7 +38,8 @@ def yaw_scale(rig: RigGeometry) -> Mesh:
     """Return the scale of ψ on the ground."""
     radius = yaw_radius(rig)
     circle = ring(radius - 0.0018, radius, segments=96)
-    return merged([circle, markings.yaw_scale(radius)]).moved(z=0.0012)
+    x, y, _ = first_view(rig)["position"]
+    return merged([circle, markings.yaw_scale(radius, (x, y))]).moved(z=0.0012)
 
 
 def pitch_scale(rig: RigGeometry) -> Mesh:

@@ -53,11 +53,15 @@ def text(characters: str, height: float) -> Mesh:
     return merged(pieces)
 
 
-def yaw_scale(radius: float) -> Mesh:
+def yaw_scale(radius: float, viewer: tuple[float, float] = (0.0, -1.0)) -> Mesh:
     """Return the ground's scale for ψ: a tick every 10°, a number every 30° (radius in metres).
 
-    Positive ψ runs clockwise seen from above. Each number stands with its foot outwards, so that
-    whoever looks at the rig from outside reads the near ones upright.
+    Positive ψ runs clockwise seen from above. Each number stands with its foot towards the viewer:
+    outwards on the near side, inwards on the far one.
+
+    Args:
+        radius: of the scale.
+        viewer: direction in the plane from which the scale is looked at; its length does not matter.
     """
     pieces = []
     for degrees in range(-170, 181, 10):
@@ -66,7 +70,8 @@ def yaw_scale(radius: float) -> Mesh:
         angle = -math.radians(degrees)
         pieces.append(stroke([(radius, 0.0), (radius + length, 0.0)], width).turned("z", angle))
         if major:
-            number = text(f"{degrees}°", 0.033).turned("z", math.pi / 2)
+            near = math.cos(angle) * viewer[0] + math.sin(angle) * viewer[1] >= 0
+            number = text(f"{degrees}°", 0.033).turned("z", math.pi / 2 if near else -math.pi / 2)
             pieces.append(number.moved(x=radius + 0.046).turned("z", angle))
     return merged(pieces)
 

@@ -115,6 +115,7 @@ class Panel:
     def _build(self) -> GuiHtmlHandle:
         gui = self._server.gui
         gui.set_panel_label("heli2dof")
+        gui.main_panel.dock_right()  # beside the rig and its scales, not over them
         with gui.add_folder("Motion"):
             self._add("play", gui.add_button_group("Play", PLAY))
             self._add("speed", gui.add_dropdown("Speed", [*SPEEDS], initial_value="1×"))

@@ -7,7 +7,7 @@
  * @typedef {import('../types.js').Poles} Poles
  * @typedef {string|number|boolean|null|unknown[]} Leaf
  */
-import { complexIn, DEGREE } from '../text/index.js';
+import { complexIn, DEGREE, say, t } from '../text/index.js';
 import { LIMIT } from '../model/index.js';
 
 const NUMBER = String.raw`[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?`;
@@ -60,13 +60,29 @@ export function leafOf(text) {
 /** @param {readonly Complex[]} poles */
 export const polesLink = (poles) => poles.map((p) => complexIn(p, { number: String, minus: '-', gap: '' })).join(',');
 
+/** @param {string} part @returns {Complex|null} */
+function poleOf(part) {
+  const found = part ? IS_COMPLEX.exec(part.trim().replace(' ', '+')) : null; // where a plus was taken for a space
+  return found ? { re: Number(found[1] ?? 0), im: Number(found[2] ?? 0) } : null;
+}
+
+/** @param {Complex} p */
+const isNear = (p) => Math.abs(p.re) <= LIMIT && Math.abs(p.im) <= LIMIT;
+
+/** What is wrong with what are no four poles. @param {string} text */
+export function polesTrouble(text) {
+  const parts = text.split(',');
+  if (parts.length !== 4) return say`four poles are needed, not ${parts.length}`;
+  const wrong = parts.find((part) => !poleOf(part));
+  if (wrong !== undefined) return wrong.trim() ? say`“${wrong.trim()}” is no pole` : t('a pole is missing');
+  const far = parts.find((part) => !isNear(/** @type {Complex} */ (poleOf(part))));
+  return far ? say`${far.trim()} lies beyond ±${LIMIT} rad/s` : t('a complex pole needs its conjugate beside it');
+}
+
 /** @param {string} text @returns {Poles|undefined} undefined unless two pairs, real or conjugate */
 export function polesOf(text) {
-  const poles = text.split(',').map((part) => {
-    const found = part ? IS_COMPLEX.exec(part.trim().replace(' ', '+')) : null; // where a plus was taken for a space
-    return found ? { re: Number(found[1] ?? 0), im: Number(found[2] ?? 0) } : { re: NaN, im: NaN };
-  });
-  const near = poles.every((p) => Math.abs(p.re) <= LIMIT && Math.abs(p.im) <= LIMIT);
+  const poles = text.split(',').map((part) => poleOf(part) ?? { re: NaN, im: NaN });
+  const near = poles.every(isNear);
   const closed = [0, 2].every((i) =>
     poles[i]?.im === 0
       ? poles[i + 1]?.im === 0

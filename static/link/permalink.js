@@ -22,7 +22,7 @@
  * @typedef {{design?: Design, shown?: Shown, pins?: PinnedDesign[], place?: string, trouble: Trouble[]}} Link
  * @typedef {{presets: Preset[], methods: {name: string}[]}} Known
  */
-import { differences, escaped, leafOf, polesLink, polesOf, setLeaf, unescaped } from './link_values.js';
+import { differences, escaped, leafOf, polesLink, polesOf, polesTrouble, setLeaf, unescaped } from './link_values.js';
 import {
   allowed,
   asking,
@@ -36,7 +36,6 @@ import {
   viewOfPlace,
 } from '../model/index.js';
 
-const NO_POLES = 'not four poles in real or conjugate pairs';
 const VERSION = 1;
 /** Longer links are cut by some mail programs; pins that make it longer are left out. */
 export const MOST = 2000;
@@ -188,11 +187,11 @@ function readDesign(parts, known, trouble, where = '') {
     if (key === 'p') {
       const poles = polesOf(text);
       if (poles) design.poles = poles;
-      else complain('p', NO_POLES);
+      else complain('p', polesTrouble(text));
     } else if (key === 'q') {
       const poles = polesOf(text);
       if (poles) design.observer = { ...design.observer, poles };
-      else complain('q', NO_POLES);
+      else complain('q', polesTrouble(text));
     } else if (key === 'pi') {
       const [a, b, c, d] = text.split(',').map((v) => (v.trim() === '' ? NaN : Number(v)));
       const right =

@@ -84,11 +84,7 @@ export class LagPaths {
     const tau = `${significant(Math.max(...(lag?.tau ?? [0])), 3)} s`;
     setText(
       this.words,
-      !lag
-        ? ''
-        : lag.assumed
-          ? say`dashed: were the rotors to lag by 0 to ${tau}, as an Aero’s`
-          : say`dashed: the rotors’ lag from 0 to ${tau}`,
+      !lag ? '' : lag.assumed ? say`dashed: rotors’ lag up to ${tau} (Aero)` : say`dashed: rotors’ lag up to ${tau}`,
     );
   }
 

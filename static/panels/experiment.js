@@ -3,7 +3,7 @@
  * says what differs from the standard.
  */
 import { bringsIntegralAction, experimentWords, isStandard, presetOf, standard } from '../model/index.js';
-import { button, h, setAttr, setText } from '../ui/index.js';
+import { button, byId, h, setAttr, setText } from '../ui/index.js';
 import {
   AccuracyPart,
   DigitalPart,
@@ -16,6 +16,7 @@ import { folded } from './folded.js';
 
 /** Findings that are told at the fields that they speak of, too. */
 const TOLD_HERE = ['slow_sampling', 'fast_tracking'];
+const WIDE = '(min-width: 1180px)';
 const CONCERNED = /^scenario\.(?!reference|duration|samples)/;
 
 export class ExperimentPanel {
@@ -47,6 +48,11 @@ export class ExperimentPanel {
     });
     /** Takes parts that come later. */
     this.body = /** @type {HTMLElement} */ (details.lastElementChild);
+    // beside its button, in the column's flow: the plots make room, and show what an option does
+    const plots = byId('plots');
+    details.addEventListener('toggle', () =>
+      plots.classList.toggle('two-columns', details.open && matchMedia(WIDE).matches),
+    );
     root.append(h('div', { class: 'row experiment-row' }, details, this.words, this.reset));
   }
 

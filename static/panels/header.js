@@ -4,7 +4,7 @@
  */
 import { say } from '../text/index.js';
 import { changedWords, designOf, isOfRig, lockNames, presetOf } from '../model/index.js';
-import { button, h, setAttr, setText } from '../ui/index.js';
+import { button, h, setAttr, setText, svg } from '../ui/index.js';
 import { exportMenu } from './export_menu.js';
 import { ShareButtons } from './share.js';
 import { viewLinks } from './views.js';
@@ -27,12 +27,17 @@ export class HeaderPanel {
     this.source = h('span', { class: 'source', 'data-testid': 'source' });
     const tool = (
       /** @type {string} */ id,
-      /** @type {string} */ text,
+      /** @type {Node|string} */ text,
       /** @type {string} */ title,
       /** @type {() => void} */ act,
     ) => button({ 'data-testid': id, title, onclick: act }, text);
-    this.undo = tool('undo', 'Undo', 'Undo (Ctrl+Z)', () => store.undo());
-    this.redo = tool('redo', 'Redo', 'Redo (Ctrl+Shift+Z)', () => store.redo());
+    const turn = (/** @type {string} */ id, /** @type {string} */ name) => {
+      const drawing = svg('svg', { class: 'icon-tool turn', viewBox: '0 0 12 12', 'aria-hidden': 'true' });
+      drawing.append(svg('path', { d: 'M 4.5 1.5 L 1.5 4.5 L 4.5 7.5 M 1.5 4.5 H 7.5 A 2.9 2.9 0 0 1 7.5 10.5 H 4' }));
+      return h('span', { class: id }, drawing, h('span', { class: 'sr' }, name));
+    };
+    this.undo = tool('undo', turn('undo', 'Undo'), 'Undo (Ctrl+Z)', () => store.undo());
+    this.redo = tool('redo', turn('redo', 'Redo'), 'Redo (Ctrl+Shift+Z)', () => store.redo());
     this.reset = tool('reset', 'Reset', "Back to this preset's parameters, poles, loops and steps", () =>
       this.#reset(),
     );
@@ -45,6 +50,16 @@ export class HeaderPanel {
       'data-testid': 'rig',
       title: 'The rig’s parameters and limits',
     });
+    this.help = button(
+      {
+        'data-testid': 'help',
+        'aria-label': 'Help',
+        'aria-pressed': 'false',
+        title: 'Help (?): what is tapped or takes the focus explains itself',
+        onclick: () => this.#explain(),
+      },
+      '?',
+    );
     this.share = new ShareButtons(store, address);
     this.locked = h('span', { class: 'locked', hidden: true, 'data-testid': 'locked' });
     this.status = h(
@@ -64,6 +79,7 @@ export class HeaderPanel {
         h('span', { 'data-views': 'design compare rig derivation' }, this.pin),
         h('span', { 'data-views': 'design compare rig plant derivation' }, this.share.node),
         h('span', { 'data-views': 'design compare rig derivation' }, exportMenu(store, address)),
+        this.help,
       ),
       this.status,
     );
@@ -80,9 +96,17 @@ export class HeaderPanel {
     if (preset) this.store.edit(() => designOf(preset));
   }
 
+  async #explain() {
+    this.#turn ??= import('./help.js').then(({ help }) => help(this.help));
+    (await this.#turn)();
+  }
+
+  /** @type {Promise<() => void>|undefined} */ #turn;
+
   /** @param {KeyboardEvent} e */
   #key(e) {
     const field = e.target instanceof HTMLInputElement && e.target.type === 'text';
+    if (e.key === '?' && !field && !e.ctrlKey && !e.metaKey) this.#explain();
     if (!(e.ctrlKey || e.metaKey) || e.altKey || field) return;
     const key = e.key.toLowerCase();
     if (key !== 'z' && key !== 'y') return;

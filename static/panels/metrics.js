@@ -195,6 +195,7 @@ export class MetricsPanel {
     );
     this.more = button({
       class: 'quiet',
+      title: 'More figures of merit, or the most important alone',
       'data-testid': 'more-figures',
       onclick: () => this.#show(!this.root.classList.contains('all-figures')),
     });
@@ -227,7 +228,7 @@ export class MetricsPanel {
   #show(all) {
     this.root.classList.toggle('all-figures', all);
     this.more.setAttribute('aria-expanded', String(all));
-    setText(this.more, all ? 'Fewer figures' : 'More figures');
+    setText(this.more, all ? 'Fewer' : 'More');
     remember(OPEN, all ? 'all' : 'few');
   }
 

@@ -2,9 +2,11 @@
 import { fixed, messageOf, significant } from '../text/index.js';
 import { bodyOf, bringsIntegralAction } from '../model/index.js';
 import { suggestLoops } from '../net/index.js';
-import { button, GAIN, gainMatrix, h, relativeGains, setAttr, setText } from '../ui/index.js';
+import { button, GAIN, gainMatrix, h, recall, relativeGains, remember, setAttr, setText } from '../ui/index.js';
 
 /** @typedef {'diagonal'|'cross'} Pairing */
+
+const OPEN = 'rga';
 
 const NAMES = { diagonal: 'Diagonal', cross: 'Crosswise' };
 
@@ -73,6 +75,20 @@ export class NumbersPanel {
     this.store = store;
     this.k = gainMatrix('k-matrix', () => copied(store.state));
     this.rga = relativeGains('rga-matrix');
+    const opener = button(
+      {
+        class: 'quiet rga-opener',
+        'aria-expanded': String(recall(OPEN) === 'open'),
+        'data-testid': 'rga-opener',
+        title: 'The relative gain array: how much the two loops interact at rest',
+        onclick: () => show(opener.getAttribute('aria-expanded') !== 'true'),
+      },
+      'RGA',
+    );
+    const show = (/** @type {boolean} */ open) => {
+      opener.setAttribute('aria-expanded', String(open));
+      remember(OPEN, open ? 'open' : 'folded');
+    };
     this.words = h('span', { class: 'pairing-words', 'data-testid': 'pairing-words' });
     this.pair = button({
       class: 'pair-advised',
@@ -83,7 +99,7 @@ export class NumbersPanel {
     });
     this.note = h('p', { class: 'note', 'data-testid': 'pairing-note', role: 'status' });
     root.append(
-      h('div', { class: 'matrices' }, this.k.node, this.rga.node),
+      h('div', { class: 'matrices' }, this.k.node, opener, this.rga.node),
       h('p', { class: 'advice' }, this.words, ' ', this.pair),
       this.note,
     );

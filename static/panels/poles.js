@@ -1,5 +1,4 @@
 /** The two pairs as numbers: real or complex, two values each, with sliders. */
-import { say } from '../text/index.js';
 import {
   AXES,
   isComplex,
@@ -114,7 +113,8 @@ export class PairEditor {
     this.verdict.hidden = !verdict;
     if (!verdict) return;
     this.verdict.classList.toggle('missed', !verdict.met);
-    setText(this.verdict, verdict.met ? `✓ ${verdict.text}` : say`✕ step ${verdict.text}`);
+    setAttr(this.verdict, 'title', verdict.text);
+    setText(this.verdict, verdict.met ? `✓ ${verdict.text}` : `✕ ${verdict.text}`);
   }
 }
 

@@ -27,7 +27,7 @@ export class ScenarioPanel {
       mark: h(
         'span',
         { title: 'operating point: the pitch angle at which the rig rests and is linearized' },
-        'from ',
+        'From ',
         symbol('θ', '0'),
       ),
       unit: '°',
@@ -50,7 +50,6 @@ export class ScenarioPanel {
       h(
         'div',
         { class: 'row steps' },
-        h('span', { class: 'caption' }, 'Step'),
         this.theta0.node,
         h('span', { class: 'caption' }, 'to'),
         this.theta.node,
@@ -62,7 +61,7 @@ export class ScenarioPanel {
         { class: 'row legend', 'data-testid': 'legend' },
         key('pitch solid', 'pitch step', 'nonlinear rig, pitch reference stepped alone'),
         key('yaw solid', 'yaw step', 'nonlinear rig, yaw reference stepped alone'),
-        key('halo', 'shown in 3D', 'the motion that the 3D view shows'),
+        key('halo', 'in 3D', 'the motion that the 3D view shows'),
         h(
           'label',
           {

@@ -4,7 +4,7 @@
  */
 import { forField, say, t } from '../text/index.js';
 import { forbidden, isAsked, leastDamping, missesLag, missing, NONE, RANGES } from '../model/index.js';
-import { h, NumberField, setText, svg } from '../ui/index.js';
+import { button, h, NumberField, setText, svg } from '../ui/index.js';
 import { bounds, toPixel } from './math.js';
 
 /** @typedef {import('../types.js').Requirements} Requirements */
@@ -46,7 +46,7 @@ export function drawForbidden(layer, view, r) {
     nodes.push(svg('path', { class: 'forbidden-edge', d: `M ${border.join(' L ')}` }));
   }
   if (regions.settling && r.settling !== null) {
-    const [x, y] = [toPixel(view, regions.settling[0])[0] + 12, view.height - 24];
+    const [x, y] = [toPixel(view, regions.settling[0])[0] + 12, view.height - 48];
     nodes.push(
       svg(
         'text',
@@ -133,24 +133,42 @@ export class RequirementsBar {
     this.verdict = h('span', { class: 'asked-verdict', 'data-testid': 'requirements-verdict', role: 'status' });
     this.node = h(
       'div',
-      { class: 'asked', role: 'group', 'aria-label': 'Requirements on the response' },
+      { class: 'asked', id: 'asked', role: 'group', 'aria-label': 'Requirements on the response', hidden: true },
       this.settling.node,
       this.overshoot.node,
       this.lag.node,
       this.verdict,
     );
+    this.opener = button(
+      {
+        class: 'quiet',
+        'aria-controls': 'asked',
+        'aria-expanded': 'false',
+        'data-testid': 'requirements',
+        title: 'What the steps’ responses shall keep: settling time, overshoot, lag in the rotors',
+        onclick: () => this.#show(Boolean(this.node.hidden)),
+      },
+      'Requirements',
+    );
+  }
+
+  /** @param {boolean} open */
+  #show(open) {
+    this.node.hidden = !open;
+    this.opener.setAttribute('aria-expanded', String(open));
   }
 
   /** @param {import('../types.js').State} state */
   render({ reply, requirements: r }) {
+    const asked = isAsked(r) || r.lag !== null;
     if (r !== this.#shown) {
+      if (asked) this.#show(true); // a link may have brought them
       this.#shown = r;
       this.settling.set(r.settling ?? NaN);
       this.overshoot.set(r.overshoot ?? NaN);
       this.lag.set(r.lag ?? NaN);
     }
     const missed = [...missing(reply, r), ...(missesLag(reply, r) ? [t('lag margin')] : [])];
-    const asked = isAsked(r) || r.lag !== null;
     this.verdict.classList.toggle('missed', missed.length > 0);
     setText(this.verdict, !asked || !reply ? '' : missed.length ? `✕ ${missed.join(', ')}` : '✓ met');
   }

@@ -4,7 +4,6 @@
  * _pins and _requirements (drawing), _readout (words), _math (pure).
  * @typedef {import('../types.js').State} State
  */
-import { say } from '../text/index.js';
 import { handlesOf, pairAlone, placesPoles } from '../model/index.js';
 import { button, drawingUnit, h, setText, svg } from '../ui/index.js';
 import { loopPaths } from './loop_paths.js';
@@ -21,7 +20,7 @@ const SPREADS = [0, 0.05, 0.1, 0.2];
 
 /** @param {number} spread */
 const spreadOption = (spread) =>
-  h('option', { value: spread }, spread ? say`rigs ± ${Number((100 * spread).toPrecision(6))} %` : 'exact rig');
+  h('option', { value: spread }, spread ? `± ${Number((100 * spread).toPrecision(6))} %` : 'none');
 
 export class SPlane {
   view = { cx: -5, cy: 0, scale: 20, width: 0, height: 0 };
@@ -75,7 +74,6 @@ export class SPlane {
       'select',
       {
         'data-testid': 'spread',
-        'aria-label': 'Model uncertainty',
         title:
           'Model uncertainty: the same controller on rigs whose parameters differ by so much; their poles as dots, ' +
           'their responses as bands',
@@ -96,7 +94,6 @@ export class SPlane {
       tool('+', 'Zoom in', '+', 'zoom-in', () => this.#zoomBy(1.4)),
       tool('\u2212', 'Zoom out', '\u2212', 'zoom-out', () => this.#zoomBy(1 / 1.4)),
       tool('Fit', 'Fit all poles into view', 'F', 'fit', () => this.fit()),
-      this.spread,
       (this.more = h('span')),
       (this.key = h(
         'div',
@@ -111,7 +108,14 @@ export class SPlane {
       )),
     );
     this.bar = new RequirementsBar(store);
-    root.append(h('div', { class: 'splane-stage' }, this.backdrop, this.svg, this.readout.node), tools, this.bar.node);
+    const extra = h(
+      'div',
+      { class: 'splane-extra' },
+      h('label', { class: 'select' }, h('span', {}, 'Model uncertainty'), this.spread),
+      this.bar.opener,
+      this.bar.node,
+    );
+    root.append(h('div', { class: 'splane-stage' }, this.backdrop, this.svg, this.readout.node), tools, extra);
     this.gestures = new Gestures(this);
     new ResizeObserver(([entry]) => this.#resize(entry.contentRect.width, entry.contentRect.height)).observe(this.svg);
   }

@@ -10,7 +10,7 @@ export { GAIN, gainMatrix, integralMatrix, Matrix, relativeGains } from './matri
 export { recall, remember } from './memory.js';
 export { CALM, Turns } from './pace.js';
 export { drawingUnit, followsPage, pictureScale } from './picture_scale.js';
-export { icon, popupButton } from './popup.js';
+export { closePopup, icon, popupButton, showTip } from './popup.js';
 export { Projector, projectorWanted } from './projector.js';
 export { Stats } from './stats.js';
 export { groupedHead, head, keepingFocus, shape, wide } from './tables.js';

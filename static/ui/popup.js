@@ -104,6 +104,24 @@ export function togglePopup(anchor, label, content) {
   /** @type {HTMLElement|null} */ (panel.querySelector('button, input'))?.focus({ preventScroll: true });
 }
 
+/** Says a few words beside an element; the focus stays. @param {HTMLElement} anchor @param {string} words */
+export function showTip(anchor, words) {
+  panel ??= make();
+  closePopup();
+  owner?.setAttribute('aria-expanded', 'false');
+  owner = null;
+  panel.setAttribute('role', 'status');
+  panel.removeAttribute('aria-label');
+  panel.replaceChildren(h('p', { class: 'tip', 'data-testid': 'tip' }, words));
+  panel.showPopover();
+  place(anchor);
+}
+
+/** Closes what is open. */
+export function closePopup() {
+  if (panel?.matches(':popover-open')) panel.hidePopover();
+}
+
 /**
  * A button that opens a popup.
  * @param {{label: string, text: string|Node, testid?: string, kind?: string, content: () => (Node|string)[]}} how

@@ -74,6 +74,22 @@ def test_yaw_scale_puts_positive_angles_clockwise():
     assert left - right == len(text("-90°", 1.0).vertices) - len(text("90°", 1.0).vertices)
 
 
+@pytest.mark.parametrize("viewer", [(0.36, -0.94), (1.0, 0.0), (-0.5, 0.5)])
+def test_numbers_of_the_yaw_scale_stand_upright_for_their_viewer(viewer: tuple[float, float]):
+    vertices = yaw_scale(1.0, viewer).vertices[:, :2]
+    away = -np.array(viewer) / np.hypot(*viewer)
+    for degrees in (-150, -120, -90, -60, -30, 0, 30, 60, 90, 120, 150, 180):
+        out = np.array([np.cos(-np.radians(degrees)), np.sin(-np.radians(degrees))])
+        inside = vertices[(np.abs(vertices - 1.046 * out) < 0.06).all(axis=1) & (vertices @ out > 1.025)]
+        if abs(out @ away) < 0.1:
+            continue  # seen from the side
+        up = np.sign(out @ away) * out
+        right = np.array([up[1], -up[0]])
+        # the degree sign stands last, and raised
+        last = inside[inside @ right > np.quantile(inside @ right, 0.93)]
+        assert (last @ up).mean() > (inside @ up).mean(), degrees
+
+
 def test_glb_is_binary_gltf_whose_lengths_agree():
     red, blue = Material("#ff0000"), Material("#0000ff", opacity=0.5)
     cube = shapes.box(1, 1, 1)

@@ -34,6 +34,7 @@ def test_no_violation(chromium: Browser, app: App, size: tuple[int, int]):
         page.emulate_media(color_scheme="light")
         settled(page)
         assert page.evaluate(RUN) == []
+        page.get_by_test_id("requirements").click()
         page.get_by_test_id("require-settling").fill("0.4")
         page.get_by_test_id("require-overshoot").fill("5")
         page.get_by_test_id("mode-yaw-complex").click()

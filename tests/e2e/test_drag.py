@@ -253,6 +253,7 @@ def test_where_marks_overlap_the_one_on_top_is_taken(page: Page):
 def test_requirements_judge_the_response_and_hatch_the_plane_as_a_guide(page: Page):
     assert page.get_by_test_id("forbidden-settling").count() == 0
     page.get_by_test_id("mode-yaw-complex").click()
+    page.get_by_test_id("requirements").click()
     settling, overshoot = page.get_by_test_id("require-settling"), page.get_by_test_id("require-overshoot")
     settling.fill("0.38")
     overshoot.fill("0.01")
@@ -336,6 +337,7 @@ def test_a_complex_pole_is_typed_as_people_write_it(page: Page, field: int, text
 
 
 def test_a_requirement_that_is_no_number_is_told_and_changes_nothing(page: Page):
+    page.get_by_test_id("requirements").click()
     field = page.get_by_test_id("require-settling")
     field.fill("0")
     expect(page.locator("#require-settling-error")).to_have_text("must be positive")

@@ -269,7 +269,7 @@ def test_options_and_all_figures_fit_without_moving_the_instrument(
     chromium: Browser, app: App, size: tuple[int, int]
 ):
     with opened(chromium, app.url, size=size) as page:
-        still = ("splane", *PLOTS, "scenario", "k-matrix", "metrics")
+        still = ("splane", "scene", "k-matrix", "metrics")
         boxes = {name: page.locator(f"[data-testid={name}], #{name}").first.bounding_box() for name in still}
         page.get_by_test_id("experiment").click()
         page.get_by_test_id("experiment-digital").check()
@@ -282,6 +282,17 @@ def test_options_and_all_figures_fit_without_moving_the_instrument(
             assert box is not None, testid
             assert box["x"] >= 0 and box["x"] + box["width"] <= size[0], testid
             assert box["y"] >= 0 and box["y"] + box["height"] <= size[1], testid
+        (body, *shown) = (
+            page.get_by_test_id(name).first.bounding_box()
+            for name in ("experiment-body", "splane", "scene", *PLOTS)
+        )
+        for box in shown:  # it covers nothing of what it changes
+            assert box["height"] > 90
+            assert (
+                box["y"] >= body["y"] + body["height"]
+                or box["x"] >= body["x"] + body["width"]
+                or box["x"] + box["width"] <= body["x"]
+            )
         over = "n => n.scrollHeight - n.clientHeight"
         assert page.locator("#metrics").evaluate(over) <= 0
 

@@ -78,7 +78,7 @@ def test_a_first_visit_is_led_through_six_steps_by_hand(chromium: Browser, app: 
 
 def test_the_first_minute_is_for_yaw_too_and_by_keyboard(chromium: Browser, app: App):
     with opened(chromium, app.url, first=True) as page:
-        page.get_by_test_id("explore-pair").get_by_text("yaw").click()
+        page.get_by_test_id("explore-pair-psi").check()
         until_state(page, "s.motion === 'psi'")
         expect(page.get_by_test_id("step-ask")).to_contain_text("one pole of yaw")
         expect(page.locator("[data-testid=plot-psi]")).to_be_visible()

@@ -50,6 +50,7 @@ def test_saturation_leads_to_its_plot_and_a_slow_sample_time_opens_its_field(pag
 
 
 def test_a_missed_requirement_is_in_the_summary_and_leads_to_its_pole(page: Page):
+    page.get_by_test_id("requirements").click()
     page.get_by_test_id("require-settling").fill("0.78")
     finding = page.locator("#strip .list [data-code=requirement_missed] button")
     expect(finding).to_contain_text("Requirement missed: the yaw step settles in 0.85 s.")

@@ -106,6 +106,7 @@ def test_links_carry_the_machine_and_locks_hold_it(app: App, chromium: Browser):
 
 
 def test_a_lag_margin_can_be_asked_for(page: Page):
+    page.get_by_test_id("requirements").click()
     enter(page, "require-lag", 0.3)
     expect(page.get_by_test_id("requirements-verdict")).to_have_text("✕ lag margin")
     expect(page.locator("[data-code=lag_margin_missed]").first).to_be_visible()

@@ -255,6 +255,8 @@ def test_no_request_leaves_the_server(chromium: Browser, app: App):
 @pytest.mark.parametrize("size", [(1280, 800), (1920, 1080)])
 def test_the_main_loop_needs_no_scrolling(chromium: Browser, app: App, size: tuple[int, int]):
     with opened(chromium, app.url, size=size) as page:
+        if size[0] < 1600:
+            page.get_by_test_id("rga-opener").click()
         for testid in (
             "splane",
             *PLOTS,

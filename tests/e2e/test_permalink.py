@@ -155,6 +155,7 @@ def test_a_link_for_a_class_locks_what_was_ticked(page: Page, app: App):
 
 
 def test_a_link_restores_requirements(page: Page, app: App):
+    page.get_by_test_id("requirements").click()
     page.get_by_test_id("require-settling").fill("0.4")
     until_hash(page, "req.settling=0.4")
     link = page.url
@@ -184,7 +185,7 @@ def test_a_bad_part_is_told_and_the_rest_restored(page: Page, app: App):
     reopened(page, app.url + "#v1&p=-1,-2&duration=7&preset=quanser-2dof-manual")
     notice = page.get_by_test_id("notice")
     expect(notice).to_have_text(
-        "Not taken from this link: p (not four poles in real or conjugate pairs). The rest is restored."
+        "Not taken from this link: p (four poles are needed, not 2). The rest is restored."
     )
     assert state(page)["scenario"]["duration"] == 7
     page.get_by_test_id("notice-close").click()

@@ -182,6 +182,7 @@ def test_responses_are_held_to_the_requirements_as_well(page: Page):
       return count;
     }"""
     before = page.evaluate(amber)
+    page.get_by_test_id("requirements").click()
     page.get_by_test_id("require-overshoot").fill("4")
     page.wait_for_function(f"(n) => ({amber})() > n + 300", arg=before)
     expect(page.get_by_test_id("requirements-verdict")).to_have_text(re.compile("^✕ pitch"))

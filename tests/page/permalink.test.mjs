@@ -13,6 +13,7 @@ import {
   leaves,
   polesLink,
   polesOf,
+  polesTrouble,
   setLeaf,
 } from '../../static/link/link_values.js';
 import { LOCKS } from '../../static/model/locks.js';
@@ -365,6 +366,14 @@ test('values: exact numbers, degrees where exact, poles only as pairs', () => {
     '',
   ])
     assert.equal(polesOf(text), undefined, text);
+  for (const [text, why] of [
+    ['-1,-2,-3', 'four poles are needed, not 3'],
+    ['-1,-2,x,-3', '“x” is no pole'],
+    ['-1,,-2,-3', 'a pole is missing'],
+    ['-1,-2,-3,-2e5', '-2e5 lies beyond ±100000 rad/s'],
+    ['-1,-2+1j,-2-1j,-3', 'a complex pole needs its conjugate beside it'],
+  ])
+    assert.equal(polesTrouble(text), why);
   assert.deepEqual(leaves({ a: { b: 1, c: [1] }, d: undefined, e: null }), [
     ['a.b', 1],
     ['a.c', [1]],
