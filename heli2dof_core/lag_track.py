@@ -14,6 +14,8 @@ from .rotors import USUAL_LAG, Actuators
 from .signals import Complexes, Floats, fixed
 
 STEPS = 120
+HALVINGS = 14
+"""Of each step in which two poles meet on the real axis: there they move infinitely fast, and mirrored."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,7 @@ class LagTrack(Frozen):
     Attributes:
         tau: both rotors' time constants at the end, (2,), s: the rig's own, or `rotors.USUAL_LAG` where it has none.
         assumed: whether they are `rotors.USUAL_LAG`.
-        share: of these, (steps,), from nearly 0 to 1, finer where poles move fast.
+        share: of these, (steps,), from nearly 0 to 1, finer where poles move fast or meet on the real axis.
         poles: rad/s, (steps, n), each column the course of one pole.
     """
 
@@ -44,9 +46,21 @@ def lag_track(loop: Loop, steps: int = STEPS) -> LagTrack:
     A, places = A[np.ix_(kept, kept)], [places[i] for i in kept]
     rotors = [i for i, place in enumerate(places) if place in (6, 7)]
     share = np.linspace(0.0, 1.0, steps + 1)[1:] ** 2
-    stack = np.repeat(A[None], steps, axis=0)
+    poles = _poles(A, rotors, share)
+    for _ in range(HALVINGS):
+        real = np.count_nonzero(poles.imag == 0.0, axis=1)
+        meet = np.flatnonzero(np.diff(real))
+        between = 0.5 * (share[meet] + share[meet + 1])
+        share = np.insert(share, meet + 1, between)
+        poles = np.insert(poles, meet + 1, _poles(A, rotors, between), axis=0)
+    return LagTrack(tau, assumed, share, courses(poles))
+
+
+def _poles(A: Floats, rotors: list[int], share: Floats) -> Complexes:
+    """Of the loop at shares of its rotors' time constants, (steps, n), rad/s."""
+    stack = np.repeat(A[None], len(share), axis=0)
     stack[:, rotors] /= share[:, None, None]  # their rows are divided by τ
-    return LagTrack(tau, assumed, share, courses(np.linalg.eigvals(stack).astype(np.complex128)))
+    return np.linalg.eigvals(stack).astype(np.complex128)
 
 
 def _apart(loop: Loop) -> set[int]:

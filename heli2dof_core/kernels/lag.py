@@ -33,8 +33,9 @@ PARTS, PART_SIZES, HALVES, PRODUCTS, SOUGHT, SIZES, CHAIN, BEFORE, ROOTS = 0, 3,
 WIDE = (0,) * 16
 ALIKE = 10.0 * ROUNDING
 """Two τ at one frequency that differ by a root of this, as a share, are one: as of two axes with the same poles."""
-NEAR, FOUND = 1e-2, 1e-9
-"""How near a real number τ is where a search begins, and ends, as a share of τ."""
+NEAR, FOUND, ENOUGH = 1e-2, 1e-9, 1e-12
+"""How near a real number τ is where a search begins, what counts as one, and where the search ends, as shares of τ.
+Below the last, secants would follow rounding."""
 
 
 @entry_point(lambda: (examples.given(*POLYNOMIALS), 0.0, examples.zeros(*LAG_WORKSPACE)))
@@ -178,16 +179,20 @@ def quotient(a, b):
 @general
 def real_lag(p, w, lag):
     """The real τ near `lag` by secants on its imaginary part over ω; 0 where it has none."""
-    step = 1e-6 * w
+    step, best = 1e-6 * w, lag
     for _ in range(40):
+        if abs(best.imag) <= ENOUGH * best.real:
+            break
         one, other = lags(p, w + step)
         following = one if abs(one - lag) < abs(other - lag) else other
         slope = (following.imag - lag.imag) / step
         w, lag = w + step, following
+        if abs(lag.imag) < abs(best.imag):
+            best = lag
         if slope == 0.0:
             break
         step = -lag.imag / slope
         if abs(step) <= ROUNDING * w:
             break
         step = min(max(step, -0.1 * w), 0.1 * w)
-    return lag.real if abs(lag.imag) <= FOUND * lag.real else 0.0
+    return best.real if abs(best.imag) <= FOUND * best.real else 0.0

@@ -4,9 +4,9 @@
  * @typedef {import('../types.js').State} State
  * @typedef {import('./steps.js').Switch} Switch
  */
-import { say, t } from '../text/index.js';
-import { pairAlone } from '../model/index.js';
-import { button, Choice, h, Projector, recall, remember, setAttr, setText, shape } from '../ui/index.js';
+import { say, significant, t } from '../text/index.js';
+import { designOf, pairAlone } from '../model/index.js';
+import { button, Choice, h, Projector, recall, remember, setAttr, setText, shape, symbol } from '../ui/index.js';
 import { sideOf, STEPS, SWITCHES } from './steps.js';
 
 const MEMORY = 'explore';
@@ -51,11 +51,12 @@ export class Explore {
     this.dots = STEPS.map(({ title }, i) =>
       button({ class: 'dot', title, 'data-testid': `step-${i + 1}`, onclick: () => this.#go(i) }, String(i + 1)),
     );
-    this.title = h('h2', { 'data-testid': 'step-title' });
+    this.title = h('h2', { tabindex: -1, 'data-testid': 'step-title' });
     this.ask = h('p', { class: 'ask', 'data-testid': 'step-ask' });
     this.see = h('p', { class: 'see' });
+    this.now = h('span', { class: 'now', 'data-testid': 'step-now' });
     this.told = h('span', { class: 'well', role: 'status', 'data-testid': 'step-done' });
-    this.next = button({ class: 'primary', 'data-testid': 'step-next', onclick: () => this.#go(this.#at + 1) });
+    this.next = button({ class: 'primary', 'data-testid': 'step-next', onclick: () => this.#on() });
     const projector = new Projector();
     this.projector = button(
       {
@@ -66,21 +67,29 @@ export class Explore {
         'aria-pressed': String(projector.on),
         onclick: () => setAttr(this.projector, 'aria-pressed', String(projector.toggle())),
       },
-      'Aa',
+      'Large type',
     );
     this.end = h(
       'p',
       { class: 'onward' },
       h('a', { class: 'button primary', href: '#design', 'data-testid': 'explore-design' }, 'Design with all of it'),
-      h('a', { class: 'button', href: '#derivation' }, 'See where K comes from'),
+      h('a', { class: 'button', href: '#paper-feedback' }, 'See where K comes from'),
       button({ 'data-testid': 'explore-again', onclick: () => this.#again() }, 'Once more'),
+    );
+    this.volts = ['θ', 'ψ', 'θ̇', 'ψ̇'].map((state) => ({ k: h('span', { class: 'k' }), state: symbol(state) }));
+    this.motor = h('span');
+    this.gain = h(
+      'p',
+      { class: 'gain', 'data-testid': 'explore-K', title: 'A row of K, at the poles as they are: volts per radian' },
+      this.motor,
+      this.volts.map(({ k, state }) => [k, state]).flat(),
     );
     root.append(
       h(
         'p',
         { class: 'what-it-is', 'data-testid': 'what-it-is' },
         'Two motors hold this laboratory helicopter. Its poles, the crosses, say how it moves. Drag them: the ' +
-          'feedback u = −Kx that puts them there follows, and so does the rig.',
+          'gain K that puts them there follows, and so does the rig.',
       ),
       h(
         'div',
@@ -90,7 +99,7 @@ export class Explore {
         this.ask,
         this.see,
         this.end,
-        h('div', { class: 'step-foot' }, this.told, this.next),
+        h('div', { class: 'step-foot' }, this.told, this.now, this.next),
       ),
       h(
         'div',
@@ -99,6 +108,7 @@ export class Explore {
         this.seen.node,
         this.switches.map(({ node }) => node),
       ),
+      this.gain,
     );
     this.#show('angle');
     this.#go(this.#at);
@@ -122,8 +132,19 @@ export class Explore {
     this.store.edit((d) => turned(d, !on(this.store.state), this.store.state));
   }
 
+  /** The next step, in sight; its title has the focus, where the last one has no button to go on. */
+  #on() {
+    this.#go(this.#at + 1);
+    this.title.scrollIntoView({ block: 'nearest' });
+    if (!STEPS[this.#at]) this.title.focus({ preventScroll: true });
+  }
+
+  /** From the beginning: the first rig with the inner loop alone. */
   #again() {
+    const [preset] = this.store.state.presets;
     this.#done.clear();
+    this.store.edit(() => designOf(preset, { outer: 'none' }));
+    this.store.set({ motion: 'theta' });
     this.#go(0);
   }
 
@@ -131,7 +152,9 @@ export class Explore {
   #go(at) {
     this.#at = at;
     this.#goalOf = null;
-    this.#show(STEPS[at]?.volts ? 'volts' : 'angle');
+    const step = STEPS[at];
+    this.#show(step?.volts ? 'volts' : 'angle');
+    if (step?.pair !== undefined) this.store.set({ motion: sideOf(step.pair).axis });
     this.#keep();
     this.render(this.store.state);
   }
@@ -150,6 +173,7 @@ export class Explore {
     document.documentElement.dataset.pair = side.axis;
     const step = STEPS[this.#at];
     this.#switch(state);
+    if (reply) this.#gain(reply.gains.K[pair]);
     this.end.hidden = Boolean(step);
     if (!step) {
       setText(this.title, 'That is pole placement');
@@ -158,6 +182,7 @@ export class Explore {
         'You put the poles, K followed, and the motors, their lag and their pairing had the last word.',
       );
       setText(this.see, '');
+      setText(this.now, '');
     } else if (reply && answered === design) {
       if (this.#goalOf !== pair || Number.isNaN(this.#goal)) {
         this.#goalOf = pair;
@@ -165,7 +190,9 @@ export class Explore {
       }
       if (!Number.isNaN(this.#goal)) {
         setText(this.ask, step.ask(this.#goal, side));
-        if (!this.#done.has(step.name) && step.done(state, side, this.#goal)) {
+        setText(this.now, step.now?.(state, side) ?? '');
+        const lost = !reply.stable && !step.lost;
+        if (!this.#done.has(step.name) && !lost && step.done(state, side, this.#goal)) {
           this.#done.add(step.name);
           this.#keep();
         }
@@ -187,6 +214,15 @@ export class Explore {
       if (i === this.#at) dot.setAttribute('aria-current', 'step');
       else dot.removeAttribute('aria-current');
     }
+  }
+
+  /** What the motor of the pair does, by its row of K. @param {ArrayLike<number>} row */
+  #gain(row) {
+    if (this.motor.dataset.pair !== document.documentElement.dataset.pair) {
+      this.motor.dataset.pair = document.documentElement.dataset.pair;
+      this.motor.replaceChildren('K: ', symbol('V', this.motor.dataset.pair === 'psi' ? 'y' : 'p'), ' =');
+    }
+    this.volts.forEach(({ k }, i) => setText(k, ` ${row[i] > 0 ? '−' : '+'} ${significant(Math.abs(row[i]), 3)} `));
   }
 
   /** Those that the steps so far have brought. @param {State} state */

@@ -6,7 +6,7 @@
  * @typedef {{axis: 'theta'|'psi', motor: 'V_p'|'V_y', pair: 0|1}} Side  the pair that is seen, its angle and motor
  * @typedef {'pi'|'lag'|'first-aero'|'cross'} Switch
  */
-import { inField, say, t } from '../text/index.js';
+import { fixed, inField, percent, say, t } from '../text/index.js';
 import { designOf, isComplex, lagOf, presetOf } from '../model/index.js';
 
 /** Of an Aero's rotors, measured, s. */
@@ -57,11 +57,24 @@ const nice = (v) => Number((Math.floor(v * 20) / 20).toFixed(2));
  * @property {(state: State, side: Side) => number} [goal]  of the design that is there as the step begins; NaN while
  *   nothing is known of it
  * @property {(state: State, side: Side, goal: number) => boolean} done
+ * @property {(state: State, side: Side) => string} [now]  how far it is, in words
  * @property {Switch[]} [switches]  what the step brings along
  * @property {true} [volts]  that it is seen in the voltage
+ * @property {true} [lost]  that the loop may be unstable meanwhile, which nothing else counts as done
+ * @property {0|1} [pair]  that is looked at
  */
 
 const WHO = { theta: 'pitch', psi: 'yaw' };
+
+/** For which share of the time the motor is at its limit. @param {State} state @param {Side} side */
+const saturatedOf = (state, side) => metricsOf(state, side)?.[side.motor]?.saturated ?? 0;
+
+/** @param {State} state */
+const lagging = (state) =>
+  state.design !== null &&
+  /** @type {const} */ (['pitch', 'yaw']).every(
+    (axis) => lagOf(/** @type {Design} */ (state.design), presetOf(state), axis) >= 0.9 * AERO_LAG,
+  );
 
 /** @type {Step[]} */
 export const STEPS = [
@@ -69,8 +82,9 @@ export const STEPS = [
     name: 'swing',
     title: 'Make it swing',
     ask: (_goal, { axis }) =>
-      say`Drag one pole of ${t(WHO[axis])} onto the other, then both up, until the response swings past its end.`,
-    see: 'On the real axis poles creep. Off it they swing: the steeper the ray they are on, the larger the overshoot.',
+      say`Drag one pole of ${t(WHO[axis])} onto the other, then up: they part. Go on until it swings past its end.`,
+    see: 'On the real axis poles creep. Off it they swing: the steeper the ray they are on, the more.',
+    now: (state, side) => say`swings past its end by ${percent(swingOf(state, side), 1)}`,
     done: (state, side) => isComplex(state.design?.poles ?? [], side.pair) && swingOf(state, side) >= SWING,
   },
   {
@@ -79,43 +93,50 @@ export const STEPS = [
     ask: (goal, { axis }) => say`Drag the pair until ${t(WHO[axis])} is at rest within ${inField(goal)} s.`,
     see: 'Left is fast: a pole at −σ dies away like exp(−σt), which leaves 2 % after about 4/σ seconds.',
     goal: (state, side) => Math.max(0.2, nice(0.6 * restOf(state, side))),
+    now: (state, side) => say`at rest after ${fixed(restOf(state, side), 2)} s`,
     done: (state, side, goal) => restOf(state, side) <= goal,
   },
   {
     name: 'saturate',
     title: 'Run out of volts',
-    ask: () => t('Drag the pair to the left until the motor’s voltage reaches its limit.'),
-    see: 'Fast poles need large gains, and the motor cuts what is beyond the red line: more gain, no more speed.',
-    done: (state, side) => (metricsOf(state, side)?.[side.motor]?.saturated ?? 0) > 0,
+    ask: (goal) =>
+      goal > 0
+        ? say`The motor is at its limit already. Drag on to the left until it is for ${percent(goal)} of the time.`
+        : t('Drag the pair to the left until the motor’s voltage reaches its limit.'),
+    goal: (state, side) => nice(1.5 * saturatedOf(state, side) + (saturatedOf(state, side) > 0 ? 0.05 : 0)),
+    see: 'Fast poles need a large K, and the motor cuts what is beyond the red line: from there on poles do little.',
+    now: (state, side) => say`at the limit for ${percent(saturatedOf(state, side), 1)} of the time`,
+    done: (state, side, goal) => saturatedOf(state, side) > 0 && saturatedOf(state, side) >= goal,
     volts: true,
   },
   {
     name: 'pi',
     title: 'Add PI, and see the poles move',
-    ask: () => t('Switch the PI loops on.'),
-    see: 'They remove what error lasts, but the poles that you placed move: the diamonds are where they are now.',
+    ask: () => t('Switch the PI loops on, then touch a pole.'),
+    see: 'PI removes the error that stays. But your poles move: a dotted line leads from each to where it is now.',
     done: ({ design }) => design?.outer === 'pi',
     switches: ['pi'],
   },
   {
     name: 'lag',
     title: 'Let the rotors lag',
-    ask: () => say`Give both rotors the lag of a real Aero’s, ${inField(AERO_LAG)} s.`,
-    see: 'Placement knew of no lag. The dashed track shows where it takes the poles: right of the axis all is lost.',
-    done: (state) =>
-      state.design !== null &&
-      /** @type {const} */ (['pitch', 'yaw']).every(
-        (axis) => lagOf(/** @type {Design} */ (state.design), presetOf(state), axis) >= 0.9 * AERO_LAG,
-      ),
+    ask: () =>
+      say`Give both rotors a real rig’s lag, ${inField(AERO_LAG)} s; then move the pair until the loop is stable.`,
+    see: 'Placement knew of no lag. Dashes show where it takes poles: near the axis they ring, beyond it all is lost.',
+    now: (state) => (lagging(state) ? t(state.reply?.stable ? 'stable' : 'unstable') : ''),
+    done: (state) => lagging(state) && state.reply?.stable === true,
+    lost: true,
     switches: ['lag'],
   },
   {
     name: 'cross',
     title: 'Pair crosswise',
-    ask: () => t('Take the first Aero, then lead each angle’s error to the other motor.'),
-    see: 'Its relative gain λ₁₁ is 0.30, nearer to 0 than to 1: there each motor moves the other angle more.',
+    ask: () => t('Change to another rig, the first Quanser Aero, look at yaw, and lead each error to the other motor.'),
+    see: 'Its relative gain λ₁₁ is 0.30, nearer 0 than 1: each motor moves the other angle more. Yaw calms down.',
+    now: (state, side) => say`swings past its end by ${percent(swingOf(state, side), 0)}`,
     done: ({ design, reply }) => design?.pairing === 'cross' && (reply?.rga?.rga?.[0][0] ?? 1) < 0.5,
     switches: ['first-aero', 'cross'],
+    pair: 1,
   },
 ];
 
@@ -132,7 +153,7 @@ export const SWITCHES = {
   },
   lag: {
     text: 'rotors lag',
-    on: (state) => STEPS[4].done(state, sideOf(0), NaN),
+    on: lagging,
     turned: (d, on) => ({
       ...d,
       rotors: {

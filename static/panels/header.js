@@ -120,6 +120,7 @@ export class HeaderPanel {
     const { presets, design, connection, canUndo, canRedo, locks, problem } = state;
     const changed = design ? changedWords(design) : '';
     setText(this.rig, changed || 'Parameters');
+    this.rig.hidden = !changed && !isOfRig(problem?.field); // else the view's own link is enough
     this.rig.classList.toggle('changed', Boolean(changed));
     this.rig.classList.toggle('refused', isOfRig(problem?.field));
     if (this.select.querySelectorAll(':scope > option').length !== presets.length)

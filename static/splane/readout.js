@@ -14,6 +14,7 @@ import {
   isComplex,
   kindOf,
   numeralOf,
+  pairAlone,
   partner,
 } from '../model/index.js';
 import { h, setText } from '../ui/index.js';
@@ -21,7 +22,7 @@ import { toPixel } from './math.js';
 
 const NAMES = ['pitch', 'yaw'];
 
-/** @typedef {Pick<import('../types.js').State, 'design'|'reply'|'answered'|'requirements'>} Known */
+/** @typedef {Pick<import('../types.js').State, 'design'|'reply'|'answered'|'requirements'|'view'|'motion'>} Known */
 
 /** The figures of a motion in few words. @param {number|undefined} settling @param {number|undefined} overshoot */
 const figures = (settling, overshoot) =>
@@ -34,7 +35,7 @@ const figures = (settling, overshoot) =>
  * @param {import('../types.js').Complex} [to] where the PI loops take it
  * @returns {string[]}
  */
-export function readoutLines({ design, reply, requirements }, index, to) {
+export function readoutLines({ design, reply, requirements, view, motion }, index, to) {
   const p = design && handlesOf(design)[index];
   if (!design || !p) return [];
   const pair = axisOf(index);
@@ -60,15 +61,18 @@ export function readoutLines({ design, reply, requirements }, index, to) {
   const pi = design?.outer === 'pi';
   const step = !metrics
     ? ''
-    : metrics.settling_time === undefined
-      ? say`not settled, overshoot ${fixed(metrics.overshoot, 0)} %`
-      : figures(metrics.settling_time, metrics.overshoot);
+    : reply?.stable === false
+      ? t('unstable')
+      : metrics.settling_time === undefined
+        ? say`not settled, overshoot ${fixed(metrics.overshoot, 0)} %`
+        : figures(metrics.settling_time, metrics.overshoot);
   return [
     two ? say`${NAMES[pair]} poles ${first}, ${second}` : say`${NAMES[pair]} pole ${numeralOf(index)}`,
     ...own,
     settling === undefined ? t('alone: grows, unstable') : say`alone: ${figures(settling, overshoot)}`,
     pi && to ? say`with PI: goes to ${pairText(to)} rad/s` : '',
-    step && (pi ? say`with PI: ${step}` : say`step: ${step}`),
+    // the first minute judges a step by where it ends, which need not be where it was asked to
+    step && pairAlone({ view, motion }) === null ? (pi ? say`with PI: ${step}` : say`step: ${step}`) : '',
     guide && say`guide: alone ${guide} than asked`,
   ];
 }

@@ -9,9 +9,12 @@ from scipy.optimize import linear_sum_assignment
 from heli2dof_core import Spec
 from heli2dof_core.evaluate import loop_of
 from heli2dof_core.lag_track import lag_track
+from heli2dof_core.poles import PoleSet
 from heli2dof_core.rotors import USUAL_LAG, Rotor, Rotors
 
 LAGGING = Rotors(Rotor(0.165), Rotor(0.165))
+NEAR = PoleSet([-10 + 9.0000000827726197j, -10 - 9.0000000827726197j, -9.25, -8.76])
+"""Their root is known to 6e-14 at once; secants went astray from there."""
 CASES = {
     "the first design": {},
     "with its lag": {"rotors": LAGGING},
@@ -54,3 +57,42 @@ def test_paths_run_on_and_do_not_jump_to_one_another(name):
     poles = lag_track(loop_of(Spec.from_preset(**CASES[name]))).poles
     steps = np.abs(np.diff(poles, axis=0)) / np.maximum(1.0, np.abs(poles[1:]))
     assert np.all(np.quantile(steps[12:], 0.98, axis=0) < 0.25)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_where_poles_meet_on_the_real_axis_both_are_seen_to_meet(name):
+    """Conjugates leave the axis at one point: the tracks are mirror images there, too."""
+    poles = lag_track(loop_of(Spec.from_preset(**CASES[name]))).poles
+    for k in range(1, len(poles)):
+        left = np.flatnonzero((poles[k - 1].imag == 0) & (poles[k].imag > 0))
+        for i in left:
+            j = int(np.argmin(np.abs(poles[k] - poles[k, i].conjugate())))
+            gap = abs(poles[k - 1, i] - poles[k - 1, j])
+            assert gap < 0.05 * max(1.0, abs(poles[k, i]))
+
+
+def test_margins_of_loops_that_are_decoupled_are_not_missed():
+    """There each axis has a root of its own, which is found to rounding before any search begins."""
+    rng = np.random.default_rng(19)
+    loops = [loop_of(Spec.from_preset("quanser-2dof-manual", outer="none", poles=NEAR))]
+    for _ in range(150):
+        pitch, yaw = -rng.uniform(3.0, 14.0, 2) + 1j * rng.uniform(0.0, 12.0, 2)
+        poles = PoleSet([pitch, pitch.conjugate(), yaw, yaw.conjugate()])
+        loops.append(loop_of(Spec.from_preset("quanser-2dof-manual", outer="none", poles=poles)))
+    limited = 0
+    for loop in loops:
+        design, margin = loop.design, loop.lag_margin
+
+        def largest(tau, design=design):
+            """The real part of the rightmost pole, by NumPy, where both rotors lag by τ."""
+            A = np.zeros((6, 6))
+            A[:4, :4], A[:4, 4:] = design.plant.A, design.plant.B
+            A[4:, :4], A[4:, 4:] = -design.K / tau, -np.eye(2) / tau
+            return float(np.max(np.linalg.eigvals(A).real))
+
+        below = np.geomspace(1e-4, 50.0 if margin is None else 0.999 * margin, 60)
+        assert all(largest(tau) < 0.0 for tau in below), (loop.design.poles, margin)
+        if margin is not None:
+            limited += 1
+            assert largest(1.001 * margin) > 0.0
+    assert limited > 100

@@ -25,7 +25,7 @@ def test_rotors_that_lag_are_the_fault_and_placing_them_the_remedy(page: Page):
     """The first design stands at the edge of instability where both rotors need 0.1648 s (theory, section 8)."""
     assert state(page)["lagMargin"] == pytest.approx(0.1648, abs=5e-5)
     expect(page.get_by_test_id("rotor-poles")).to_be_hidden()
-    page.get_by_test_id("rig").click()
+    view(page, "rig")
     for axis in ("pitch", "yaw"):
         enter(page, f"rig-rotors.{axis}.tau", 0.165)
     until_state(page, "s.settled && s.stable === false")
@@ -97,7 +97,7 @@ def test_links_carry_the_machine_and_locks_hold_it(app: App, chromium: Browser):
         assert now["rotors"] == {"pitch": {"tau": 0.165}, "yaw": {"tau": 0.165}}
         assert now["friction"] == {"pitch": {"coulomb": 0.01}}
         assert sorted(p["re"] for p in now["observerPoles"]) == pytest.approx([-33, -32, -31, -30], rel=1e-5)
-        page.get_by_test_id("rig").click()
+        view(page, "rig")
         expect(page.get_by_test_id("rig-rotors.pitch.tau")).to_be_disabled()
         view(page, "design")
         page.get_by_test_id("experiment").click()

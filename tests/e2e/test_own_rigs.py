@@ -7,14 +7,14 @@ from pathlib import Path
 
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser import EMPTY, SEEN, opened, settled, state, visited
+from tests.browser import EMPTY, SEEN, opened, settled, state, view, visited
 from tests.e2e.conftest import App
 from tests.e2e.test_axe import violations
 
 
 def kept(page: Page, name: str, K_pp: str) -> None:
     if not page.get_by_test_id("own-name").is_visible():
-        page.get_by_test_id("rig").click()
+        view(page, "rig")
     page.get_by_test_id("rig-K_pp").fill(K_pp)
     page.get_by_test_id("rig-K_pp").press("Enter")
     page.get_by_test_id("own-name").fill(name)
@@ -87,7 +87,7 @@ def test_files_are_judged_field_by_field(chromium: Browser, app: App, tmp_path: 
         visit.forgive("422")
         page = visit.page
         page.goto(app.url)
-        page.get_by_test_id("rig").click()
+        view(page, "rig")
         told = page.get_by_test_id("own-told")
         for change, words in (
             ({"parameters": {**rig["parameters"], "m": -1}}, "parameters.m"),

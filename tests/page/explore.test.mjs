@@ -77,9 +77,10 @@ test('its switches do what the steps ask for, and undo it', () => {
     ['pi', 'pi'],
     ['lag', 'lag'],
   ]) {
-    const [before, on] = [state(), turned(state(), name, true)];
+    const [before, on] = [state(), turned({ ...state(), reply: { ...state().reply, stable: true } }, name, true)];
     assert.deepEqual([step(asked).done(before, pitch), SWITCHES[name].on(before)], [false, false]);
     assert.deepEqual([step(asked).done(on, pitch), SWITCHES[name].on(on)], [true, true]);
+    if (asked === 'lag') assert.equal(step(asked).done({ ...on, reply: { ...on.reply, stable: false } }, pitch), false);
     const off = turned(on, name, false);
     assert.deepEqual([step(asked).done(off, pitch), SWITCHES[name].on(off)], [false, false]);
   }
@@ -95,8 +96,14 @@ test('its switches do what the steps ask for, and undo it', () => {
 });
 
 test('saturation is of the motor of the pair that is seen', () => {
-  const { done } = step('saturate');
-  assert.equal(done(state({ V_p: { saturated: 0 } }), pitch), false);
-  assert.equal(done(state({ V_p: { saturated: 0.02 } }), pitch), true);
-  assert.equal(done(state({ V_p: { saturated: 0.02 } }), sideOf(1)), false);
+  const { goal, done } = step('saturate');
+  assert.equal(goal(state({ V_p: { saturated: 0 } }), pitch), 0);
+  assert.equal(done(state({ V_p: { saturated: 0 } }), pitch, 0), false);
+  assert.equal(done(state({ V_p: { saturated: 0.02 } }), pitch, 0), true);
+  assert.equal(done(state({ V_p: { saturated: 0.02 } }), sideOf(1), 0), false);
+  for (const saturated of [0.001, 0.05, 0.3]) {
+    const asked = goal(state({ V_p: { saturated } }), pitch); // it asks for more than there is
+    assert.equal(done(state({ V_p: { saturated } }), pitch, asked), false);
+    assert.equal(done(state({ V_p: { saturated: asked } }), pitch, asked), true);
+  }
 });

@@ -111,7 +111,18 @@ test("a pole's tip says both, alone and with PI, and the guide without a verdict
   const poles = [{ re: -12, im: 0 }, { re: -2, im: 0 }, ...pair(-5, 20)];
   const reply = replyOf({ settling_time: 2.96, overshoot: 65.2 }, { overshoot: 3 });
   const lines = (outer, index, r, to) =>
-    readoutLines({ design: { poles, outer, scenario: {} }, reply, answered: null, requirements: r }, index, to);
+    readoutLines(
+      {
+        design: { poles, outer, scenario: {} },
+        reply,
+        answered: null,
+        requirements: r,
+        view: 'design',
+        motion: 'both',
+      },
+      index,
+      to,
+    );
   assert.deepEqual(lines('pi', 2, both, { re: -4.1, im: -2.61 }), [
     'yaw poles 3, 4',
     '−5.00 ± 20.00j rad/s',
