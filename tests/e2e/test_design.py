@@ -57,7 +57,7 @@ def test_all_that_is_read_has_fourteen_pixels_in_every_view(
             ("explore", "[data-testid=step-ask]"),
             ("compare", "[data-testid=splits-table] td"),
             ("rig", "[data-testid=rig-B_y]"),
-            ("derivation", ".symbols math"),
+            ("derivation", ".paper .mark"),
         ):
             view(page, name)
             page.locator(there).first.wait_for()
