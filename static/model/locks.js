@@ -33,6 +33,7 @@ export const LOCKS = {
   },
   observer: { name: 'observer', keys: ['observer'], controls: '.pole.observer, [data-field^=observer]' },
   scenario: { name: 'steps', keys: ['scenario'], controls: '#scenario [data-field^=scenario]' },
+  requirements: { name: 'requirements', keys: [], controls: '.asked input' }, // they are no part of the design
 };
 
 /**
