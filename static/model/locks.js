@@ -34,6 +34,7 @@ export const LOCKS = {
   weights: { name: 'weights', keys: ['weights'], controls: '[data-field^=weights]' },
   observer: { name: 'observer', keys: ['observer'], controls: '.pole.observer, [data-field^=observer]' },
   scenario: { name: 'steps', keys: ['scenario'], controls: '#scenario [data-field^=scenario]' },
+  requirements: { name: 'requirements', keys: [], controls: '.asked input' }, // they are no part of the design
 };
 
 /**

@@ -57,7 +57,7 @@ def test_all_that_is_read_has_fourteen_pixels_in_every_view(
             ("explore", "[data-testid=step-ask]"),
             ("compare", "[data-testid=splits-table] td"),
             ("rig", "[data-testid=rig-B_y]"),
-            ("derivation", ".symbols math"),
+            ("derivation", ".paper .mark"),
         ):
             view(page, name)
             page.locator(there).first.wait_for()
@@ -141,3 +141,12 @@ def test_requirements_and_relative_gains_unfold_where_they_are_wanted(chromium: 
         assert violations(page) == []
         page.emulate_media(color_scheme="dark")
         assert page.evaluate(RUN) == []
+
+
+def test_a_link_can_lock_what_is_asked_of_the_response(chromium: Browser, app: App):
+    with opened(chromium, app.url + "#v1&view=design&req.settling=0.9&lock=requirements") as page:
+        expect(page.get_by_test_id("require-settling")).to_have_value("0.9")
+        expect(page.get_by_test_id("locked")).to_have_text("locked: requirements")
+        for key in ("settling", "overshoot", "lag"):
+            expect(page.get_by_test_id(f"require-{key}")).to_be_disabled()
+        expect(page.get_by_test_id("pole-field-0")).to_be_enabled()
