@@ -9,7 +9,7 @@ const FLOORS = [
   ['ui', 'link', 'kernel'],
   ['charts'],
   ['rigs'],
-  ['plots', 'splane', 'scene', 'recordings', 'explore', 'panels'],
+  ['plots', 'splane', 'scene', 'recordings', 'explore', 'exports', 'panels'],
   ['paper', 'compare', 'rig', 'machine', 'clouds', 'plant'],
   ['optimal'],
 ];

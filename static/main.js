@@ -246,8 +246,9 @@ async function furtherDown() {
   );
   schedule();
   computeHere().catch(console.warn);
-  const [compare, { RigPanel }, { RecordingsPanel }, paper, { OwnRigs }] = await fetched(() =>
+  const [{ exportMenu }, compare, { RigPanel }, { RecordingsPanel }, paper, { OwnRigs }] = await fetched(() =>
     Promise.all([
+      import('./exports/index.js'),
       import('./compare/index.js'),
       import('./rig/index.js'),
       import('./recordings/index.js'),
@@ -257,6 +258,7 @@ async function furtherDown() {
       ...['recordings', 'rigs', 'paper', 'math'].map(styles),
     ]),
   );
+  byId('exports').replaceChildren(exportMenu(store, address));
   await paper.formulaFont(); // before any formula is drawn, so that none moves
   views.figures.unshift(
     drawn([new compare.PinsPanel(byId('pins'), store), byId('pins')]),

@@ -206,8 +206,8 @@ export const SIGNATURES = {
 };
 
 /** Checksums of what it was made from, and of kernels.wasm. */
-export const SOURCES = '4138464ebc5a79878ce55d0748c3a3a507a54247ae953fd1afc71da0494f78a8';
-export const MODULE = '74ef673fbd7ed60375455438ead7cf6e433308fe1c8f0a3a8ff8b43a4ee81785';
+export const SOURCES = 'b3be580303cd34dc27aa29fd948f666187213109d40f38d1e05f94b4d303714c';
+export const MODULE = 'e71fffe714bc73bf094ffad983f7b87fc3b21fc42e979aff2b6e4b3a09456c98';
 
 /** What made it. */
 export const TOOLS = {

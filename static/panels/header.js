@@ -4,12 +4,18 @@
  */
 import { say } from '../text/index.js';
 import { changedWords, designOf, isOfRig, lockNames, presetOf } from '../model/index.js';
-import { button, h, setAttr, setText, svg } from '../ui/index.js';
-import { exportMenu } from './export_menu.js';
+import { button, h, icon, setAttr, setText, svg } from '../ui/index.js';
 import { ShareButtons } from './share.js';
 import { viewLinks } from './views.js';
 
 const STATUS = { connecting: 'connecting…', open: 'live', lost: 'connection lost' };
+
+/** In place of the menu of exports, which is not of the first view, and as wide. */
+const exportsToCome = () =>
+  button(
+    { disabled: true, 'aria-label': 'Export this design as a file' },
+    h('span', { class: 'export' }, icon('save'), h('span', { class: 'word' }, 'Export')),
+  );
 
 export class HeaderPanel {
   /**
@@ -78,7 +84,7 @@ export class HeaderPanel {
         h('span', { 'data-views': 'explore design compare rig derivation' }, this.undo, this.redo, this.reset),
         h('span', { 'data-views': 'design compare rig derivation' }, this.pin),
         h('span', { 'data-views': 'design compare rig plant derivation' }, this.share.node),
-        h('span', { 'data-views': 'design compare rig derivation' }, exportMenu(store, address)),
+        h('span', { 'data-views': 'design compare rig derivation', id: 'exports' }, exportsToCome()),
         this.help,
       ),
       this.status,

@@ -1,5 +1,5 @@
 /** A plot over time as a picture: what is seen, with its words. */
-import { TITLES, unitOf } from './export.js';
+import { TITLES } from './export.js';
 import { say, t } from '../text/index.js';
 import { isVoltage } from '../model/index.js';
 
@@ -31,6 +31,3 @@ export function pictureOf(signal, lines, pins, { x, y, subtitle, rules, regions,
     y: { range: y, title: isVoltage(signal) ? `${symbol} in V` : say`${symbol} in degrees` },
   };
 }
-
-/** @param {Signal} signal */
-export const fileName = (signal) => `heli2dof-${signal}-${unitOf(signal)}`;

@@ -1,9 +1,7 @@
 /** The small menu of a plot: its picture and its numbers as files. */
 import { polesText, say } from '../text/index.js';
-import { nameOf } from '../model/index.js';
+import { isVoltage, nameOf } from '../model/index.js';
 import { button, h, icon, popupButton, saveFile } from '../ui/index.js';
-import { csvOf, linesOf, tableOf } from './export.js';
-import { fileName, pictureOf } from './image.js';
 
 /**
  * @typedef {import('../model/traces.js').Signal} Signal
@@ -26,22 +24,23 @@ const WORDS = {
   CSV: 'Numbers: time and every line, units in the header',
 };
 
-/** The pictures of the plots that the page always has. @type {Map<Signal, () => Picture>} */ const always = new Map();
+/** The pictures of the plots that the page always has. @type {Map<Signal, () => Promise<Picture>>} */ const always =
+  new Map();
 
 /**
  * The button that saves as a picture or as numbers.
  * @param {string} testid
  * @param {string} title
  * @param {string} name of the files
- * @param {() => Picture} picture
- * @param {() => string} csv
+ * @param {() => Promise<Picture>} picture
+ * @param {() => Promise<string>} csv
  * @param {boolean} [all] whether the other plots are saved from here, too
  */
 function saveButton(testid, title, name, picture, csv, all = false) {
   const save = {
-    PNG: () => savePicture(picture(), name),
-    SVG: () => saveDrawing([picture()], name),
-    CSV: () => saveFile(`${name}.csv`, new Blob([csv()], { type: 'text/csv;charset=utf-8' })),
+    PNG: async () => savePicture(await picture(), name),
+    SVG: async () => saveDrawing([await picture()], name),
+    CSV: async () => saveFile(`${name}.csv`, new Blob([await csv()], { type: 'text/csv;charset=utf-8' })),
   };
   const row = (/** @type {string} */ what, /** @type {Node[]} */ ...buttons) =>
     h('div', { class: 'row' }, h('span', { class: 'caption' }, what), ...buttons);
@@ -61,11 +60,8 @@ function saveButton(testid, title, name, picture, csv, all = false) {
                 title: WORDS.SVG,
                 'aria-label': 'Save all plots as SVG',
                 'data-testid': 'save-all-SVG',
-                onclick: () =>
-                  saveDrawing(
-                    [...always.values()].map((make) => make()),
-                    'heli2dof-plots',
-                  ),
+                onclick: async () =>
+                  saveDrawing(await Promise.all([...always.values()].map((make) => make())), 'heli2dof-plots'),
               },
               'SVG',
             ),
@@ -82,7 +78,8 @@ function saveButton(testid, title, name, picture, csv, all = false) {
 }
 
 /** What draws pictures; the first view does not need it, but it shall be there when the server is not. */
-export const draughtsman = () => Promise.all([import('./picture.js'), import('./vector.js')]);
+export const draughtsman = () =>
+  Promise.all([import('./picture.js'), import('./vector.js'), import('./export.js'), import('./image.js')]);
 
 /** @param {Picture} picture @param {string} name */
 async function savePicture(picture, name) {
@@ -107,10 +104,16 @@ async function saveDrawing(pictures, name) {
  * @param {() => Seen} seen
  */
 export function plotMenu(store, signal, title, seen) {
-  const lines = () => linesOf(store.state, signal);
-  const picture = () => pictureOf(signal, lines(), store.state.pins, { ...seen(), subtitle: subtitle(store) });
+  const picture = async () => {
+    const [, , { linesOf }, { pictureOf }] = await draughtsman();
+    return pictureOf(signal, linesOf(store.state, signal), store.state.pins, { ...seen(), subtitle: subtitle(store) });
+  };
+  const csv = async () => {
+    const [, , { csvOf, linesOf }] = await draughtsman();
+    return csvOf(signal, linesOf(store.state, signal));
+  };
   always.set(signal, picture);
-  return saveButton(signal, title, fileName(signal), picture, () => csvOf(signal, lines()), true);
+  return saveButton(signal, title, `heli2dof-${signal}-${isVoltage(signal) ? 'V' : 'deg'}`, picture, csv, true);
 }
 
 /**
@@ -126,8 +129,8 @@ export const linesMenu = (name, title, signal, lines, seen) =>
     name,
     title,
     name,
-    () => pictureOf(signal, lines, [], seen),
-    () => csvOf(signal, lines),
+    async () => (await draughtsman())[3].pictureOf(signal, lines, [], seen),
+    async () => (await draughtsman())[2].csvOf(signal, lines),
   );
 
 /**
@@ -138,4 +141,10 @@ export const linesMenu = (name, title, signal, lines, seen) =>
  * @param {string} over header of what the lines are over
  */
 export const pictureMenu = (name, title, picture, over) =>
-  saveButton(name, title, name, picture, () => tableOf(picture().lines, over, (line) => line));
+  saveButton(
+    name,
+    title,
+    name,
+    async () => picture(),
+    async () => (await draughtsman())[2].tableOf(picture().lines, over, (line) => line),
+  );

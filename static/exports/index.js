@@ -1,0 +1,2 @@
+/** What other rooms may import of exports/. */
+export { exportMenu } from './export_menu.js';
