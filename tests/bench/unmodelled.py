@@ -1,4 +1,4 @@
-"""How often intervals hold the truth where the model leaves something out: `python -m tests.bench.unmodelled [runs]`.
+"""How often intervals hold the truth where the model leaves something out: `python -m tests.bench.unmodelled [runs [case [seed]]]`.
 
 The rigs' rotors lag and their axes rub; the model that is fitted knows neither. A third of each recording is held
 out. Beside the intervals that are told stand those of noise alone, which are those of a model that is right.
@@ -48,14 +48,14 @@ def counted(done: list[tuple[Truth, Identification]]) -> list[tuple[str, int, in
     return rows
 
 
-def main(runs: int, only: str) -> None:
+def main(runs: int, only: str, first: int) -> None:
     """Prints a table per case."""
     warm_up()
     for name, case in CASES.items():
         if only not in name:
             continue
-        rows = counted([found(case, seed) for seed in range(runs)])
-        print(f"{name}, {runs} runs")
+        rows = counted([found(case, seed) for seed in range(first, first + runs)])
+        print(f"{name}, {runs} runs from seed {first}")
         for parameter, inside, noise, width in rows:
             print(f"  {parameter:5} inside {inside}, by noise alone {noise}; ± {width:.2g} %")
         count = runs * len(rows) / 100
@@ -66,4 +66,9 @@ def main(runs: int, only: str) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else RUNS, sys.argv[2] if len(sys.argv) > 2 else "")
+    given = sys.argv[1:]
+    main(
+        int(given[0]) if given else RUNS,
+        given[1] if len(given) > 1 else "",
+        int(given[2]) if len(given) > 2 else 0,
+    )
