@@ -212,7 +212,9 @@ def _poles(
             return poles
         remarks.append(
             Finding(
-                "poles_passed_over", "info", f"{name} was not read as desired poles: these are {n} numbers."
+                "poles_passed_over",
+                "info",
+                f"{name} has {len(words)} entries; as desired poles this system needs {n} numbers.",
             )
         )
     return None

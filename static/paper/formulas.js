@@ -2,9 +2,9 @@
  * K and the RGA as typeset formulas, each entry of K beside its present value: of four states, or of six where the
  * rotors are placed; with an observer its L. Fetched once per structure, when first seen.
  */
-import { messageOf } from '../text/index.js';
-import { bodyOf, FULL_RANK, presetOf } from '../model/index.js';
-import { formula, h, Lazy, whileSeen } from '../ui/index.js';
+import { messageOf, say } from '../text/index.js';
+import { bodyOf, FULL_RANK, nameOf, presetOf } from '../model/index.js';
+import { formula, h, Lazy, setText, whileSeen } from '../ui/index.js';
 import { ofObserver, ofPaper, ofRotors } from './derived.js';
 import { watchEnds } from './ends.js';
 import { copying, defined, Entries, nonzero } from './entries.js';
@@ -45,7 +45,8 @@ export class FormulasPanel {
   constructor(root, store) {
     this.store = store;
     this.body = h('div', { class: 'formulas-body', 'data-testid': 'formulas' });
-    root.append(this.body);
+    this.whose = h('p', { class: 'caption', role: 'status', 'data-testid': 'formulas-whose' });
+    root.append(this.whose, this.body);
     watchEnds(root);
     this.cards = new SymbolCards(root, () => ({
       parameters: { ...presetOf(store.state)?.parameters, ...store.state.design?.parameters },
@@ -85,6 +86,12 @@ export class FormulasPanel {
     }
     // another method's K is not this formula's, and neither is that of the other model
     const own = reply && design.method === FULL_RANK && wanted.six === this.#six;
+    setText(
+      this.whose,
+      design.method === FULL_RANK
+        ? ''
+        : say`The full-rank method’s formulas. The present design’s K is ${nameOf(design)}’s, which has none like these.`,
+    );
     this.#K?.render(own ? reply.gains.K : undefined);
     this.#L?.render(design.observer?.method === 'kalman' ? undefined : observer?.L);
   }

@@ -292,10 +292,14 @@ export class PlantPanel {
   async #ask({ read, wish, exactly }) {
     try {
       /** @type {SystemDesign} */ const design = await call('api/v1/system/design', this.#body(read, wish, exactly));
-      if (read === this.#read) this.#answered(design, read);
+      if (read === this.#read) {
+        this.root.classList.remove('refused');
+        this.#answered(design, read);
+      }
     } catch (error) {
       if (read === this.#read) {
         this.#design = null;
+        this.root.classList.add('refused'); // what is below is another system's
         this.results.refuse(problemOf(error));
         this.results.remark(read.findings);
         this.pin.disabled = true;

@@ -1,4 +1,6 @@
-"""How often intervals hold the truth where the model leaves something out: `python -m tests.bench.unmodelled [runs [case [seed]]]`.
+"""How often intervals hold the truth where the model leaves something out.
+
+`python -m tests.bench.unmodelled [runs [case [seed]]]`
 
 The rigs' rotors lag and their axes rub; the model that is fitted knows neither. A third of each recording is held
 out. Beside the intervals that are told stand those of noise alone, which are those of a model that is right.
