@@ -63,7 +63,6 @@ export class Explore {
         class: 'quiet',
         'data-testid': 'projector',
         title: 'For a lecture hall: large type',
-        'aria-label': 'Projector',
         'aria-pressed': String(projector.on),
         onclick: () => setAttr(this.projector, 'aria-pressed', String(projector.toggle())),
       },

@@ -101,9 +101,9 @@ export const STEPS = [
     title: 'Run out of volts',
     ask: (goal) =>
       goal > 0
-        ? say`The motor is at its limit already. Drag on to the left until it is for ${percent(goal)} of the time.`
+        ? say`The motor is at its limit already. Drag on to the left until it is for ${percent(goal, 1)} of the time.`
         : t('Drag the pair to the left until the motor’s voltage reaches its limit.'),
-    goal: (state, side) => nice(1.5 * saturatedOf(state, side) + (saturatedOf(state, side) > 0 ? 0.05 : 0)),
+    goal: (state, side) => Math.ceil(300 * saturatedOf(state, side)) / 200,
     see: 'Fast poles need a large K, and the motor cuts what is beyond the red line: from there on poles do little.',
     now: (state, side) => say`at the limit for ${percent(saturatedOf(state, side), 1)} of the time`,
     done: (state, side, goal) => saturatedOf(state, side) > 0 && saturatedOf(state, side) >= goal,

@@ -25,7 +25,7 @@ TARGETS = """() => {
   const all = 'button, a[href], select, summary, input, label.check, label.key, .choice label';
   const pressed = [...document.querySelectorAll(all)].filter(
     (n) => n.checkVisibility({ visibilityProperty: true }) && n.getBoundingClientRect().width
-      && !n.closest('.skip, .mark-point, p, td, li .message, .caption, .prose')
+      && !n.closest('.skip, .sr, .mark-point, p, td, li .message, .caption, .prose')
       && !(n.matches('input') && n.closest('label')));
   const boxes = pressed.map((n) => [n, n.getBoundingClientRect()]);
   const name = (n) => n.dataset.testid || n.className || n.textContent;

@@ -28,6 +28,7 @@ def poles(page: Page, app: App, **more: object) -> list[dict]:
 
 def slide(page: Page, testid: str, share: float) -> None:
     """Drags a slider to a share of its length, as a hand does."""
+    page.get_by_test_id(testid).scroll_into_view_if_needed()
     box = page.get_by_test_id(testid).bounding_box()
     assert box is not None
     y = box["y"] + box["height"] / 2
