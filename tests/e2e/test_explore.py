@@ -40,6 +40,7 @@ def test_a_first_visit_is_led_through_six_steps_by_hand(chromium: Browser, app: 
             "none",
             "theta",
         )
+        expect(page.get_by_test_id("explore-K")).to_contain_text("51.2")  # the K that all this is about
         assert page.locator(".pole:visible").count() == 2
         assert page.locator(".plot:visible").count() == 1
         expect(page.get_by_test_id("step-done")).to_be_empty()
@@ -58,7 +59,15 @@ def test_a_first_visit_is_led_through_six_steps_by_hand(chromium: Browser, app: 
         page.get_by_test_id("explore-pi").click()
         gone_on(page, 4)
         page.get_by_test_id("explore-lag").click()
-        until_state(page, "s.rotors.pitch?.tau === 0.16 && s.rotors.yaw?.tau === 0.16")
+        until_state(page, "s.rotors.pitch?.tau === 0.16 && s.rotors.yaw?.tau === 0.16 && s.stable === false")
+        expect(page.get_by_test_id("step-now")).to_have_text("unstable")
+        expect(page.get_by_test_id("step-done")).to_be_empty()
+        page.get_by_test_id("pole-0").focus()
+        for _ in range(60):  # slower poles bear more lag
+            if state(page)["stable"]:
+                break
+            page.keyboard.press("ArrowRight")
+            settled(page)
         gone_on(page, 5)
         page.get_by_test_id("explore-first-aero").click()
         until_state(page, "s.preset === 'quanser-aero'")
@@ -69,7 +78,11 @@ def test_a_first_visit_is_led_through_six_steps_by_hand(chromium: Browser, app: 
         page.reload()
         settled(page)
         expect(page.get_by_test_id("step-title")).to_have_text("That is pole placement")  # it is remembered
-        page.get_by_test_id("explore-design").click()
+        page.get_by_test_id("explore-again").click()  # with the first rig and the inner loop alone
+        until_state(page, "s.preset === 'quanser-2dof-manual' && s.outer === 'none' && !s.rotors.pitch")
+        expect(page.get_by_test_id("step-ask")).to_contain_text("Drag one pole of pitch onto the other")
+        expect(page.get_by_test_id("step-done")).to_be_empty()
+        page.get_by_test_id("view-design").click()
         until_state(page, "s.view === 'design' && s.motion === 'both'")
         reopened(page, app.url)  # without a link, where one has been
         assert state(page)["view"] == "design"
