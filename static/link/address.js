@@ -70,6 +70,7 @@ export class Address {
   #shown = '';
   #step = -1;
   /** @type {string|null} */ #place = null;
+  /** Whether the address names a whole view, which begins at its top. */ toTop = false;
   /** @type {unknown[]} */ #seen = [];
   /** @type {{state: State, step: number}|null} */ #pending = null;
   /** @type {Timer|null} */ #timer = null;
@@ -125,6 +126,7 @@ export class Address {
 
   /** @param {string|null} [place] */
   #at(place) {
+    this.toTop = isView(place);
     this.#place = place && !isView(place) ? place : null;
   }
 

@@ -91,6 +91,6 @@ export class ViewSwitch {
     document.title = view === 'explore' ? this.title : `${t(VIEWS[view].title)} · ${this.title}`;
     const place = this.address.place;
     if (place) document.getElementById(place)?.scrollIntoView();
-    else if (!first) scrollTo(0, 0);
+    else if (!first || this.address.toTop) scrollTo(0, 0);
   }
 }

@@ -240,6 +240,7 @@ test('an address without a design opens the view that is wanted first; the first
   assert.deepEqual(first('', 'explore'), ['explore', 'none']);
   assert.deepEqual(first('', 'rig'), ['rig', 'pi']);
   assert.deepEqual(first('#compare', 'explore'), ['compare', 'pi']);
+  assert.equal(address.toTop, true);
   assert.deepEqual(first('#v1', 'explore'), ['design', 'pi']); // links of the time before views
   assert.deepEqual(first('#v1&view=explore', 'design'), ['explore', 'pi']);
   assert.deepEqual(first('#v1&view=nonsense', 'explore'), ['design', 'pi']);
