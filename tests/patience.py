@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
-PATIENCE = 20.0
+PATIENCE = 120.0
 """Seconds. Far more than a busy machine takes: whoever meets this bound waits for what does not come."""
 
 

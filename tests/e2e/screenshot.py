@@ -11,7 +11,6 @@ from tests.e2e.conftest import running_app
 from tests.e2e.test_page import scene, seek
 from tests.e2e.test_scene import rendered
 
-
 SEEN = "#v1&view=explore&outer=none&p=-6+6.5j,-6-6.5j,-9.25,-8.76"
 """The first minute, its first step done."""
 

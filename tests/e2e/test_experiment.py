@@ -269,6 +269,9 @@ def test_options_and_all_figures_fit_without_moving_the_instrument(
     chromium: Browser, app: App, size: tuple[int, int]
 ):
     with opened(chromium, app.url, size=size) as page:
+        page.wait_for_function(
+            "() => [...document.fonts].some((font) => font.status === 'loaded')"
+        )  # the symbols'
         still = ("splane", "scene", "k-matrix", "metrics")
         boxes = {name: page.locator(f"[data-testid={name}], #{name}").first.bounding_box() for name in still}
         page.get_by_test_id("experiment").click()
