@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
+import re
 from collections.abc import Callable, Mapping
 from json import JSONDecodeError
 from typing import Any
@@ -65,11 +66,21 @@ def problem(status: int, detail: str, code: str, **more: Any) -> dict[str, Any]:
     return {**known, "detail": detail, "code": code, **extra}
 
 
+def _path_of(field: str) -> str:
+    """The path in a request of what the core calls `field`, in a pinned design, too."""
+    pin = _PINNED.match(field)
+    begin = pin.end() if pin else 0
+    return field[:begin] + path_of(field[begin:])
+
+
+_PINNED = re.compile(r"pins\.\d+\.")
+
+
 def problem_of(error: Exception) -> dict[str, Any]:  # noqa: PLR0911
     """The problem object of whatever a request may raise."""
     match error:
         case Heli2DofError():
-            error.name_field(path_of(error.field))
+            error.name_field(_path_of(error.field))
             return problem(
                 422, f"{error}.", error.code, field=error.field, value=error.value, hint=error.hint
             )

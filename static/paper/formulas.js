@@ -90,7 +90,7 @@ export class FormulasPanel {
       this.whose,
       design.method === FULL_RANK
         ? ''
-        : say`The full-rank method’s formulas. The present design’s K is ${nameOf(design)}’s, which has none like these.`,
+        : say`The full-rank method’s formulas. The present K is ${nameOf(design)}’s, which has none like these.`,
     );
     this.#K?.render(own ? reply.gains.K : undefined);
     this.#L?.render(design.observer?.method === 'kalman' ? undefined : observer?.L);

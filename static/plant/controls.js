@@ -10,6 +10,8 @@ import { polesIn, polesLine } from './poles.js';
 
 /** A line of text that becomes a value where it is left, or Enter is pressed; at it what is wrong. @template T */
 class Line {
+  /** Whether something is typed that is not taken yet. */ #typed = false;
+
   /**
    * @param {string} label @param {string} testid
    * @param {{read: (text: string) => T|string, take: (value: T) => void}} how read: the value, or what is wrong
@@ -24,7 +26,14 @@ class Line {
       'aria-label': label,
       'aria-describedby': `${testid}-error`,
       'data-testid': testid,
+      oninput: () => {
+        this.#typed = true;
+      },
+      onblur: () => {
+        this.#typed = false;
+      },
       onchange: () => {
+        this.#typed = false;
         const value = read(this.input.value);
         this.complain(typeof value === 'string' ? value : '');
         if (typeof value !== 'string') take(value);
@@ -43,6 +52,7 @@ class Line {
 
   /** @param {string} text */
   set(text) {
+    if (this.#typed) return; // an answer that comes late takes no word from who is typing
     if (document.activeElement === this.input && this.input.getAttribute('aria-invalid')) return;
     if (this.input.value !== text) this.input.value = text;
     this.complain('');

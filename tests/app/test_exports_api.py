@@ -149,5 +149,8 @@ def test_a_pin_that_is_no_design_is_refused_by_its_place(client):
         "/api/v1/export/report", json={"pins": [{"name": "A"}, {"name": "B", "poles": [1, 2]}]}
     )
     assert reply.status_code == 422 and reply.json()["field"] == "pins.1.poles"
+    shifted = {"name": "A", "coupling": "axis-decoupled", "shift": 0.1}
+    reply = client.post("/api/v1/export/report", json={"pins": [shifted]})
+    assert reply.status_code == 422 and reply.json()["field"] == "pins.0.shift"  # as it stands in the request
     seven = [{"name": "A"}] * 7
     assert client.post("/api/v1/export/report", json={"pins": seven}).status_code == 422

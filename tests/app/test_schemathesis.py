@@ -178,7 +178,8 @@ def refusal(case, response) -> bool:
     if response.status_code != 422 or not case.meta.generation.mode.is_positive:
         return False
     problem = response.json()
-    said = f"{problem['code']} {problem.get('field', '')}".strip()
+    field = re.sub(r"^pins\.\d+\.", "", problem.get("field") or "")  # a pin is a design like another
+    said = f"{problem['code']} {field}".strip()
     rules = RULES.get(case.operation.label, {})
     return any(re.fullmatch(rule if " " in rule else f"{rule}( .*)?", said) for rule in rules)
 
