@@ -155,7 +155,11 @@ def test_a_link_can_lock_what_is_asked_of_the_response(chromium: Browser, app: A
 def test_a_slow_server_does_not_end_a_first_visit(chromium: Browser, app: App):
     with visited(chromium, EMPTY) as visit:
         held: list[Route] = []
-        visit.page.route("**/api/v1/presets*", lambda route: held.append(route))
+
+        def hold(route: Route) -> None:
+            held.append(route)
+
+        visit.page.route("**/api/v1/presets*", hold)
         visit.page.goto(app.url)
         # drawn before it knows of any rig
         visit.page.wait_for_function("() => document.documentElement.dataset.view")
