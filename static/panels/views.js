@@ -39,6 +39,7 @@ const isTyping = (target) =>
 
 export class ViewSwitch {
   /** @type {View|null} */ #shown = null;
+  /** @type {View|null} what is remembered */ #kept = null;
   #led = -Infinity;
 
   /** @param {import('../link/address.js').Address} address */
@@ -72,12 +73,13 @@ export class ViewSwitch {
     this.#led = key === 'G' ? e.timeStamp : -Infinity;
   }
 
-  /** @param {{view: View}} state */
-  render({ view }) {
+  /** @param {{view: View, design: import('../types.js').Design|null}} state */
+  render({ view, design }) {
+    // before there is a design, nobody has chosen: what is remembered then would end a first visit
+    if (design && view !== this.#kept) remember('view', (this.#kept = view));
     const first = this.#shown === null;
     if (view === this.#shown) return;
     this.#shown = view;
-    remember('view', view);
     const page = document.documentElement;
     page.dataset.view = view;
     page.classList.toggle('reading', isRead(view));

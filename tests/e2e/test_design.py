@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Page, Route, expect
 
-from tests.browser import opened, settled, state, view
+from tests.browser import EMPTY, opened, settled, state, view, visited
 from tests.e2e.conftest import App
 from tests.e2e.test_axe import RUN, violations
 
@@ -150,3 +150,18 @@ def test_a_link_can_lock_what_is_asked_of_the_response(chromium: Browser, app: A
         for key in ("settling", "overshoot", "lag"):
             expect(page.get_by_test_id(f"require-{key}")).to_be_disabled()
         expect(page.get_by_test_id("pole-field-0")).to_be_enabled()
+
+
+def test_a_slow_server_does_not_end_a_first_visit(chromium: Browser, app: App):
+    with visited(chromium, EMPTY) as visit:
+        held: list[Route] = []
+
+        def hold(route: Route) -> None:
+            held.append(route)
+
+        visit.page.route("**/api/v1/presets*", hold)
+        visit.page.goto(app.url)
+        # drawn before it knows of any rig
+        visit.page.wait_for_function("() => document.documentElement.dataset.view")
+        held[0].continue_()
+        expect(visit.page.get_by_test_id("step-ask")).to_contain_text("swings")
