@@ -8,7 +8,7 @@ import re
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser import opened, settled, state, until_state, view
+from tests.browser import FRAME, opened, settled, state, until_state, view
 from tests.e2e.conftest import App
 
 LAG = "#v1&rotors.pitch.tau=0.165&rotors.yaw.tau=0.165"
@@ -80,7 +80,11 @@ def test_a_drag_of_an_observers_pole_is_a_drag(app: App, chromium: Browser):
         x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
         before = state(page)["observerPoles"]
         page.mouse.move(x, y)
+        partner = page.get_by_test_id("pole-mark-7").bounding_box()
+        assert partner is not None
         page.mouse.down()
+        page.mouse.move(partner["x"] + partner["width"] / 2, y)  # where both leave the axis together
+        page.evaluate(FRAME)
         page.mouse.move(x - 30, y - 25, steps=4)
         page.mouse.up()
         until_state(page, "s.settled && s.dragging === false && s.observer?.poles.some(p => p.im > 0)")
