@@ -151,6 +151,18 @@ export interface Pin {
   refused?: string;
 }
 
+/** A plant that is kept with its design. */
+export interface PlantPin {
+  id: number;
+  /** its letter and colour */
+  index: number;
+  /** as a link has it */
+  plant: string;
+  /** null until it is computed */
+  design: contract.SystemDesign | null;
+  refused?: string;
+}
+
 type Units = 'time_unit' | 'unit' | 'units' | 'voltage_unit';
 /** What the controls hold of a recording's columns. */
 export interface RecordingColumns
@@ -240,6 +252,7 @@ export interface State {
   locks: string[];
   /** any system, as a link has it (plant/link_text.js) */
   plant: string | null;
+  plantPins: PlantPin[];
   recorded: Recorded;
   /** null: no recording is shown beside the design */
   beside: Beside | null;

@@ -5,7 +5,7 @@
  * @typedef {import('../types.js').State} State
  * @typedef {import('./permalink.js').Known} Known
  */
-import { isView, viewOfPlace } from '../model/index.js';
+import { initialState, isView, viewOfPlace } from '../model/index.js';
 import { linkOf, placeIn, readLink } from './permalink.js';
 import { troubleWords } from './trouble.js';
 
@@ -47,6 +47,7 @@ const held = (s) => [
   s.locks,
   s.plant,
   pinKey(s.pins),
+  s.plantPins.map((p) => p.id).join(),
 ];
 /** Their replies are no part of it. @param {State['pins']} pins */
 const pinKey = (pins) => pins.map((p) => `${p.id} ${p.index} ${p.name}`).join('\n');
@@ -112,6 +113,7 @@ export class Address {
     const alone = this.store.state.view === 'explore' ? { ...fresh, outer: /** @type {const} */ ('none') } : fresh;
     this.store.load(link.design ?? alone);
     if (link.pins?.length) this.store.addPins(link.pins.map((pin) => ({ ...pin, reply: null })));
+    this.store.addPlantPins(link.plantPins ?? []);
     this.store.set({ notice: troubleWords(link.trouble) });
     this.#at(link.place);
     this.#step = this.store.step;
@@ -146,20 +148,24 @@ export class Address {
       return;
     }
     this.#cancel();
-    this.store.set({ ...link.shown, notice: troubleWords(link.trouble) });
+    const { plant = null, ...shown } = link.shown ?? {};
+    this.store.set({ ...shown, notice: troubleWords(link.trouble) });
     if (!link.design) return;
     this.#at(link.place);
     this.#shown = hash;
-    if (linkOf(this.store.state, this.#known, link.place) === hash) {
-      this.#seen = held(this.store.state); // the design is the same one: there is nothing to undo
-      return;
-    }
     const known = new Set(this.store.state.pins.map((p) => p.name));
     // going back takes no pin away
     this.store.addPins((link.pins ?? []).filter((p) => !known.has(p.name)).map((pin) => ({ ...pin, reply: null })));
-    this.store.restore(link.design);
+    this.store.addPlantPins(link.plantPins ?? []);
+    this.store.editPlant(plant);
+    if (this.#words(link.design) !== this.#words(this.store.state.design)) this.store.restore(link.design);
     this.#step = this.store.step;
     this.#seen = held(this.store.state);
+  }
+
+  /** A design alone, as a link has it. @param {import('../types.js').Design|null} design */
+  #words(design) {
+    return linkOf({ ...initialState(), design }, this.#known);
   }
 
   /** @param {State} state */

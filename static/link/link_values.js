@@ -150,3 +150,15 @@ export function setLeaf(target, path, leaf) {
   else Object.defineProperty(own, key, { value: nested, writable: true, enumerable: true, configurable: true });
   return true;
 }
+
+/** What stands there. @param {unknown} object @param {string} path @returns {unknown} */
+export const at = (object, path) =>
+  path
+    .split('.')
+    .reduce(
+      (/** @type {unknown} */ inner, key) =>
+        inner !== null && typeof inner === 'object' && Object.hasOwn(inner, key)
+          ? /** @type {Record<string, unknown>} */ (inner)[key]
+          : undefined,
+      object,
+    );

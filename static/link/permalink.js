@@ -6,7 +6,7 @@
  * pitch, k_p, T_i of yaw. `rig`: the name of a rig of one's own; `set.…`: parameters; `limits.…`; `step.…`: references;
  * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`,
  * `lag`, `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`.
- * `plant`: any system. `view`: the view, `at`: the place on the page. A part that cannot be read is named and left out;
+ * `plant`: any system; `plant.pin`: another that is kept, by what differs from it. `view`: the view, `at`: the place on the page. A part that cannot be read is named and left out;
  * the rest is restored.
  *
  * The format is part of the page's contract: a change that an old reader would misread takes a new version, and the
@@ -19,19 +19,32 @@
  * @typedef {{index: number, name: string, design: Design}} PinnedDesign
  * @typedef {Pick<State, 'view'|'motion'|'showLinear'|'showMarks'|'showLag'|'spread'|'requirements'|'locks'> &
  *   Partial<Pick<State, 'plant'>>} Shown
- * @typedef {{design?: Design, shown?: Shown, pins?: PinnedDesign[], place?: string, trouble: Trouble[]}} Link
+ * @typedef {{index: number, plant: string}} PinnedPlant
+ * @typedef {{design?: Design, shown?: Shown, pins?: PinnedDesign[], plantPins?: PinnedPlant[], place?: string, trouble: Trouble[]}} Link
  * @typedef {{presets: Preset[], methods: {name: string}[]}} Known
  */
-import { differences, escaped, leafOf, polesLink, polesOf, polesTrouble, setLeaf, unescaped } from './link_values.js';
 import {
-  allowed,
+  at,
+  differences,
+  escaped,
+  leafOf,
+  polesLink,
+  polesOf,
+  polesTrouble,
+  setLeaf,
+  unescaped,
+} from './link_values.js';
+import { objection } from './objection.js';
+import {
   asking,
   designOf,
   isView,
   LOCKS,
+  MOST_PLANTS,
   NONE,
   observerPoles,
-  QUANTITIES,
+  plantDifference,
+  plantOf,
   STANDARD_VIEW,
   viewOfPlace,
 } from '../model/index.js';
@@ -39,9 +52,7 @@ import {
 const VERSION = 1;
 /** Longer links are cut by some mail programs; pins that make it longer are left out. */
 export const MOST = 2000;
-const LIMITS = ['V_p', 'V_y', 'theta'];
 const MOTIONS = ['both', 'theta', 'psi'];
-const MACHINE = ['rotors', 'friction', 'observer', 'weights'];
 const OUTER = ['loops.pitch.kp', 'loops.pitch.ti', 'loops.yaw.kp', 'loops.yaw.ti'];
 const SHORT = /** @type {const} */ ([
   ['scenario.reference.', 'step.'],
@@ -90,7 +101,7 @@ const joined = (parts, separator) => parts.map(([key, text]) => `${key}=${escape
  * @returns {string} with its #; empty while there is no design
  */
 export function linkOf(state, { presets }, place = null, most = MOST) {
-  const { design, view, motion, showLinear, showMarks, showLag, spread, requirements, locks, pins, plant } = state;
+  const { design, view, motion, showLinear, showMarks, showLag, spread, requirements, locks, plant } = state;
   if (!design) return '';
   const parts = designParts(design, presets);
   if (motion !== 'both') parts.push(['motion', motion]);
@@ -104,68 +115,16 @@ export function linkOf(state, { presets }, place = null, most = MOST) {
   if (view !== STANDARD_VIEW) parts.push(['view', view]);
   if (place) parts.push(['at', place]);
   const link = `#v${VERSION}&${joined(parts, '&')}`;
-  const pinned = pins
-    .map((pin) => `&pin=${pin.index}~${escaped(pin.name)}~${joined(designParts(pin.design, presets), '~')}`)
-    .join('');
-  return link.length + pinned.length <= most ? link + pinned : link;
+  const pinned = state.pins.map(
+    (pin) => `&pin=${pin.index}~${escaped(pin.name)}~${joined(designParts(pin.design, presets), '~')}`,
+  );
+  const plants = state.plantPins.map(
+    (pin) => `&plant.pin=${pin.index}~${escaped(plantDifference(pin.plant, plant ?? ''))}`,
+  );
+  const kept = [pinned, plants].map((pins) => pins.join(''));
+  if (view === 'plant') kept.reverse(); // where not all have room, those that are seen come first
+  return kept.reduce((all, pins) => (all.length + pins.length <= most ? all + pins : all), link);
 }
-
-/**
- * Why a leaf cannot be what the link says, or nothing.
- * @param {string} path
- * @param {Leaf|undefined} leaf
- * @param {unknown} base what the preset proposes there
- * @param {Known} known
- * @param {Preset} preset
- */
-function objection(path, leaf, base, { methods }, preset) {
-  const [top, key] = path.split('.');
-  if (typeof leaf === 'number' && !Number.isFinite(leaf)) return 'not a finite number';
-  const quantity = QUANTITIES[path];
-  const machine = MACHINE.includes(top);
-  if (quantity?.words && (machine || !path.includes('.')))
-    // the scenario's are the server's to judge
-    return quantity.words.some((word) => word === leaf) ? '' : `neither ${quantity.words.join(' nor ')}`;
-  if (path === 'rig') return typeof leaf === 'string' && leaf && leaf.length <= 60 ? '' : 'no name of a rig';
-  if (path === 'rotor_poles')
-    return Array.isArray(leaf) && leaf.length === 2 && leaf.every(Number.isFinite) ? '' : 'not two real poles';
-  if (machine && quantity && leaf !== undefined) return inRange(leaf, quantity) ? '' : 'not a number in its range';
-  if (path === 'method')
-    return !methods.length || methods.some((m) => m.name === leaf) ? '' : 'no method of this server';
-  if (top === 'parameters')
-    return !(key in preset.parameters) ? 'no parameter of this rig' : typeof leaf !== 'number' ? 'not a number' : '';
-  if (top === 'limits')
-    return !LIMITS.includes(key)
-      ? 'no limit of this rig'
-      : typeof leaf === 'number' || (leaf === null && key === 'theta')
-        ? ''
-        : 'not a number';
-  if (path === 'theta0')
-    return typeof leaf === 'number' && Math.abs(leaf) <= allowed('operating_point.theta').max
-      ? ''
-      : 'not an angle within ±85°';
-  if (path === 'scenario.duration')
-    return typeof leaf === 'number' && leaf > 0 && leaf <= 60 ? '' : 'not between 0 and 60 s';
-  if (base !== undefined && base !== null && leaf !== undefined && leaf !== null && typeof base !== typeof leaf)
-    return `not a ${typeof base}`;
-  return base !== undefined || top === 'scenario' ? '' : 'unknown here';
-}
-
-/** @param {Leaf} leaf @param {import('../model/quantities.js').Quantity} quantity */
-const inRange = (leaf, { min = -Infinity, max = Infinity }) =>
-  leaf === null || (typeof leaf === 'number' && leaf >= min && leaf <= max);
-
-/** @param {unknown} object @param {string} path @returns {unknown} */
-const at = (object, path) =>
-  path
-    .split('.')
-    .reduce(
-      (/** @type {unknown} */ inner, key) =>
-        inner !== null && typeof inner === 'object' && Object.hasOwn(inner, key)
-          ? /** @type {Record<string, unknown>} */ (inner)[key]
-          : undefined,
-      object,
-    );
 
 /**
  * @param {[string, string][]} parts those of a design
@@ -255,6 +214,15 @@ function readPin(raw, known, trouble, order) {
   ];
 }
 
+/** @param {string} raw @param {string} base @param {Trouble[]} trouble @returns {PinnedPlant[]} */
+function readPlantPin(raw, base, trouble) {
+  const [index, difference] = raw.split('~');
+  const plant = plantOf(unescaped(difference ?? ''), base);
+  if (/^\d$/.test(index) && Number(index) < MOST_PLANTS && plant) return [{ index: Number(index), plant }];
+  trouble.push({ part: 'plant.pin', why: 'not readable' });
+  return [];
+}
+
 /** @param {string} body @param {Known} known @returns {Link} */
 function readFirst(body, known) {
   /** @type {Trouble[]} */ const trouble = [];
@@ -275,7 +243,8 @@ function readFirst(body, known) {
   const raw = body.split(/&(?:amp;)?/).filter(Boolean);
   for (const text of raw.filter((part) => part.startsWith('pin=')))
     pins.push(...readPin(text.slice(4), known, trouble, pins.length));
-  for (const [key, value] of raw.filter((part) => !part.startsWith('pin=')).flatMap((part) => split(part, '&'))) {
+  const others = raw.filter((part) => !/^(plant\.)?pin=/.test(part));
+  for (const [key, value] of others.flatMap((part) => split(part, '&'))) {
     const refuse = (/** @type {string} */ why) => trouble.push({ part: key, why });
     if (key === 'motion')
       MOTIONS.includes(value)
@@ -300,7 +269,10 @@ function readFirst(body, known) {
     } else design.push([key, value]);
   }
   shown.view = view ?? viewOfPlace(place) ?? STANDARD_VIEW;
-  return { design: readDesign(design, known, trouble), shown, pins, place, trouble };
+  const plantPins = raw
+    .filter((part) => part.startsWith('plant.pin='))
+    .flatMap((part) => readPlantPin(part.slice(10), shown.plant ?? '', trouble));
+  return { design: readDesign(design, known, trouble), shown, pins, plantPins, place, trouble };
 }
 
 /** @type {Record<number, (body: string, known: Known) => Link>} a reader for every version that ever was */

@@ -1,5 +1,5 @@
 /**
- * Computes what pinned designs come to, and keeps them over a reload of the tab. Pins stand in the tab's storage in the
+ * Computes what pinned designs come to, and keeps them over a reload of the tab, with pinned plants. Pins stand in the tab's storage in the
  * words of a link, so that an older page's are read as an older link is.
  * @typedef {import('../types.js').State} State
  */
@@ -14,6 +14,7 @@ const identity = ({ name, design }) => JSON.stringify([name, design]);
 
 export class PinKeeper {
   /** @type {State['pins']} */ #seen = [];
+  /** @type {State['plantPins']} */ #plants = [];
   #opened = false;
   #busy = false;
   #failed = false;
@@ -28,7 +29,7 @@ export class PinKeeper {
   /** Brings back the tab's own pins, beside those of the link. */
   open() {
     const { presets, methods, pins } = this.store.state;
-    const kept = readLink(this.storage.getItem(KEY) ?? '', { presets, methods }).pins ?? [];
+    const { pins: kept = [], plantPins = [] } = readLink(this.storage.getItem(KEY) ?? '', { presets, methods });
     const there = new Set(pins.map(identity));
     const letters = new Set(pins.map((p) => p.index));
     const free = () => {
@@ -45,6 +46,7 @@ export class PinKeeper {
           return { ...pin, index, reply: null };
         }),
     );
+    this.store.addPlantPins(plantPins);
     this.#opened = true;
   }
 
@@ -52,8 +54,9 @@ export class PinKeeper {
   render(state) {
     if (!this.#opened) return;
     if (state.connection !== 'open') this.#failed = false; // asked again when it is back
-    if (state.pins !== this.#seen) {
+    if (state.pins !== this.#seen || state.plantPins !== this.#plants) {
       this.#seen = state.pins;
+      this.#plants = state.plantPins;
       this.#keep(state);
     }
     if (!this.#busy && !this.#failed && !state.dragging && state.connection === 'open') this.#compute();
@@ -62,7 +65,7 @@ export class PinKeeper {
   /** @param {State} state */
   #keep(state) {
     try {
-      if (state.pins.length)
+      if (state.pins.length || state.plantPins.length)
         this.storage.setItem(KEY, linkOf(state, { presets: state.presets, methods: state.methods }, null, Infinity));
       else this.storage.removeItem(KEY);
     } catch {

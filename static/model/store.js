@@ -1,28 +1,29 @@
 /**
  * The page's one state, and the only place that changes it. Knows no DOM and no network.
  *
- * `edit` changes the design (what the user chose) and can be undone; `set` changes everything else. Views listen to
- * `change` and read; whoever sends the design listens to `design`.
+ * `edit` changes the design (what the user chose), `editPlant` the plant of view Plant: each can be undone, in its own
+ * view. `set` changes everything else. Views listen to `change` and read; whoever sends the design listens to `design`.
  * @typedef {import('../types.js').State} State
  * @typedef {import('../types.js').Design} Design
  * @typedef {import('../types.js').Preset} Preset
  * @typedef {import('../types.js').Pin} Pin
  * @typedef {import('../types.js').Choices} Choices
+ * @typedef {{index?: number, plant: string, design?: import('../contract.js').SystemDesign|null}} PinnedPlant
  */
 /**
  * @template T
  * @typedef {import('../types.js').Asked<T>} Asked
  */
 import { scenarioBody } from './experiment.js';
+import { History } from './history.js';
 import { guarded } from './locks.js';
 import { FULL_RANK } from './methods.js';
 import { letterOf } from './pins.js';
+import { MOST_PLANTS, samePlant } from './plant_pins.js';
 import { fromWire } from './poles.js';
 import { OUTER, ROTORS, STRUCTURE } from './quantities.js';
 import { NONE } from './requirements.js';
 import { STANDARD_VIEW } from './views.js';
-
-const DEPTH = 200;
 
 /** @returns {State} */
 export const initialState = () => ({
@@ -49,6 +50,7 @@ export const initialState = () => ({
   pins: [],
   locks: [],
   plant: null,
+  plantPins: [],
   notice: null,
   fault: null,
   recorded: {
@@ -145,16 +147,21 @@ function motionIn(before, { view = before.view, motion }) {
 
 export class Store extends EventTarget {
   /** @type {State} */ state = initialState();
-  /** @type {Design[]} */ #past = [];
-  /** @type {Design[]} */ #future = [];
-  /** @type {string|null} */ #gesture = null;
+  /** @type {History<Design>} */ #designs = new History();
+  /** @type {History<string|null>} */ #plants = new History();
   #pinned = 0;
   /** Counts the steps of undo: the edits of one gesture share a number. */
   step = 0;
 
+  /** What a step back goes back in: a plant is seen in a view of its own. @param {Partial<State>} [part] */
+  #history({ view = this.state.view } = {}) {
+    return view === 'plant' ? this.#plants : this.#designs;
+  }
+
   /** Changes what is not the design. @param {Partial<State>} part */
   set(part) {
-    this.state = { ...this.state, ...part, ...motionIn(this.state, part) };
+    const { canUndo, canRedo } = this.#history(part);
+    this.state = { ...this.state, ...part, ...motionIn(this.state, part), canUndo, canRedo };
     this.dispatchEvent(new Event('change'));
   }
 
@@ -168,33 +175,34 @@ export class Store extends EventTarget {
     if (!before) return;
     const after = guarded(before, change(before), this.state.locks);
     if (after === before) return;
-    if (!gesture || gesture !== this.#gesture) {
-      this.step += 1;
-      this.#past.push(before);
-      if (this.#past.length > DEPTH) this.#past.shift();
-    }
-    this.#gesture = gesture ?? null;
-    this.#future = [];
+    if (this.#designs.keep(before, gesture)) this.step += 1;
     this.#put(after, stamp);
+  }
+
+  /** Changes the plant, likewise. @param {string|null} plant @param {string} [gesture] */
+  editPlant(plant, gesture) {
+    if (plant === this.state.plant) return;
+    if (this.#plants.keep(this.state.plant, gesture)) this.step += 1;
+    this.set({ plant });
   }
 
   /** Ends a gesture: the next edit is a new step of undo. */
   commit() {
-    if (this.#gesture === null) return;
-    this.#gesture = null;
+    if (this.#designs.gesture === null && this.#plants.gesture === null) return;
+    this.#designs.gesture = null;
+    this.#plants.gesture = null;
     this.dispatchEvent(new Event('change')); // who waits for the hand to rest looks again
   }
 
   /** Whether a gesture goes on. */
   get busy() {
-    return this.#gesture !== null || this.state.dragging;
+    return this.#designs.gesture !== null || this.#plants.gesture !== null || this.state.dragging;
   }
 
   /** Starts afresh, without history. @param {Design} design */
   load(design) {
-    this.#past = [];
-    this.#future = [];
-    this.#gesture = null;
+    this.#designs.clear();
+    this.#plants.clear();
     this.step += 1;
     this.#put(design);
   }
@@ -202,34 +210,32 @@ export class Store extends EventTarget {
   /** Takes a design as it is, whatever is locked; it can be undone. @param {Design} design */
   restore(design) {
     if (!this.state.design) return this.load(design);
-    this.#past.push(this.state.design);
-    this.#future = [];
-    this.#gesture = null;
+    this.#designs.keep(this.state.design);
     this.step += 1;
     return this.#put(design);
   }
 
   undo() {
-    this.#travel(this.#past, this.#future);
+    this.#travel('undo');
   }
 
   redo() {
-    this.#travel(this.#future, this.#past);
+    this.#travel('redo');
   }
 
-  /** @param {Design[]} from @param {Design[]} to */
-  #travel(from, to) {
-    const design = from.pop();
-    if (!design || !this.state.design) return;
-    to.push(this.state.design);
-    this.#gesture = null;
+  /** @param {'undo'|'redo'} way */
+  #travel(way) {
+    const { design, plant, view, canUndo, canRedo } = this.state;
+    if (!design || !(way === 'undo' ? canUndo : canRedo)) return;
     this.step += 1;
-    this.#put(design);
+    if (view === 'plant') this.set({ plant: this.#plants[way](plant) });
+    else this.#put(this.#designs[way](design));
   }
 
   /** @param {Design} design @param {number} [stamp] */
   #put(design, stamp) {
-    this.state = { ...this.state, design, canUndo: this.#past.length > 0, canRedo: this.#future.length > 0 };
+    const { canUndo, canRedo } = this.#history();
+    this.state = { ...this.state, design, canUndo, canRedo };
     this.dispatchEvent(new CustomEvent('design', { detail: { stamp } }));
     this.dispatchEvent(new Event('change'));
   }
@@ -261,6 +267,28 @@ export class Store extends EventTarget {
   usePin(id) {
     const pin = this.state.pins.find((p) => p.id === id);
     if (pin) this.edit(() => pin.design);
+  }
+
+  /** Keeps plants beside those that follow, as many as there is room for. @param {PinnedPlant[]} pins */
+  addPlantPins(pins) {
+    const { plantPins: kept } = this.state;
+    const next = [...kept];
+    for (const { index, plant, design = null } of pins) {
+      const free = [...Array(MOST_PLANTS).keys()].filter((i) => next.every((pin) => pin.index !== i));
+      if (!free.length || next.some((pin) => samePlant(pin.plant, plant))) continue;
+      next.push({ index: free.includes(index ?? -1) ? Number(index) : free[0], id: ++this.#pinned, plant, design });
+    }
+    if (next.length > kept.length) this.set({ plantPins: next });
+  }
+
+  /** @param {number} id @param {Partial<import('../types.js').PlantPin>} part */
+  changePlantPin(id, part) {
+    this.set({ plantPins: this.state.plantPins.map((p) => (p.id === id ? { ...p, ...part } : p)) });
+  }
+
+  /** @param {number} id */
+  unpinPlant(id) {
+    this.set({ plantPins: this.state.plantPins.filter((p) => p.id !== id) });
   }
 
   /** @returns {Preset|undefined} */

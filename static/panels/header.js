@@ -81,7 +81,8 @@ export class HeaderPanel {
       h(
         'div',
         { class: 'buttons' },
-        h('span', { 'data-views': 'explore design compare rig derivation' }, this.undo, this.redo, this.reset),
+        h('span', {}, this.undo, this.redo),
+        h('span', { 'data-views': 'explore design compare rig derivation' }, this.reset),
         h('span', { 'data-views': 'design compare rig derivation' }, this.pin),
         h('span', { 'data-views': 'design compare rig plant derivation' }, this.share.node),
         h('span', { 'data-views': 'design compare rig derivation', id: 'exports' }, exportsToCome()),
@@ -111,7 +112,9 @@ export class HeaderPanel {
 
   /** @param {KeyboardEvent} e */
   #key(e) {
-    const field = e.target instanceof HTMLInputElement && e.target.type === 'text';
+    const { target } = e;
+    const field =
+      target instanceof HTMLTextAreaElement || (target instanceof HTMLInputElement && target.type === 'text');
     if (e.key === '?' && !field && !e.ctrlKey && !e.metaKey) this.#explain();
     if (!(e.ctrlKey || e.metaKey) || e.altKey || field) return;
     const key = e.key.toLowerCase();

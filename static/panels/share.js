@@ -51,7 +51,7 @@ export class ShareButtons {
   }
 
   #panel() {
-    const { locks, pins } = this.store.state;
+    const { locks, pins, plantPins } = this.store.state;
     const boxes = Object.entries(LOCKS).map(([name, { name: words }]) => ({
       name,
       ...check({ checked: locks.includes(name), 'data-testid': `lock-${name}`, onchange: () => show() }, words),
@@ -75,10 +75,10 @@ export class ShareButtons {
     const link = () => this.address.linkWith(boxes.filter((b) => b.box.checked).map((b) => b.name));
     const show = () => {
       address.value = `${location.origin}${location.pathname}${location.search}${link()}`;
-      const missing =
-        pins.length && !link().includes('&pin=')
-          ? ` The pins are left out: with them the link would exceed ${MOST}.`
-          : '';
+      const left = [...(pins.length ? ['&pin='] : []), ...(plantPins.length ? ['&plant.pin='] : [])];
+      const missing = left.some((part) => !link().includes(part))
+        ? ` The pins are left out: with them the link would exceed ${MOST}.`
+        : '';
       setText(words, `${address.value.length} characters.${missing}`);
     };
     show();
