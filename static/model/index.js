@@ -49,7 +49,7 @@ export { COUPLINGS, LEADS, STRUCTURES } from './method_names.js';
 export { bringsIntegralAction, FULL_RANK, keyOf, nameOf, partOf, placesPoles } from './methods.js';
 export { colorOf, COLORS, differenceTable, FIGURES, letterOf } from './pins.js';
 export { MOST_PLANTS, plantDifference, plantOf, samePlant } from './plant_pins.js';
-export { character, fromWire, isComplex, LIMIT, partner, setComplex, setMode, setReal, tidy } from './poles.js';
+export { character, fromWire, isComplex, LIMIT, meets, partner, setComplex, setMode, setReal, tidy } from './poles.js';
 export {
   asking,
   AXES,

@@ -54,8 +54,18 @@ export function setReal(poles, index, re) {
 }
 
 /**
+ * Whether a pole on the real axis has met another on its way, as it stands there now or has passed it since: a quick
+ * hand goes far from one event to the next.
+ * @param {number} other where the other stands @param {number} from @param {number} to
+ * @param {number} [within] how near is met
+ */
+export const meets = (other, from, to, within = 0) =>
+  Math.abs(to - other) <= within || (from - other) * (to - other) <= 0;
+
+/**
  * One step of a drag. A complex pair follows the pointer and turns into a double real pole within `snap` of the axis; a
- * real pole slides along the axis and, once it has met its partner (within `meet`), leaves the axis together with it.
+ * real pole slides along the axis and, once it has met its partner (within `meet`, or passed it), leaves the axis
+ * together with it.
  * `together` remembers within one gesture that the pair moves as one.
  * @param {readonly Complex[]} poles
  * @param {number} index
@@ -69,7 +79,7 @@ export function drag(poles, index, to, { snap, meet, together }) {
   if (together || isComplex(poles, pair)) {
     return { poles: setComplex(poles, index, onAxis ? { re: to.re, im: 0 } : to), together: true };
   }
-  const met = Math.abs(to.re - poles[partner(index)].re) <= meet;
+  const met = meets(poles[partner(index)].re, poles[index].re, to.re, meet);
   if (met && !onAxis) return { poles: setComplex(poles, index, to), together: true };
   return { poles: setReal(poles, index, to.re), together: false };
 }

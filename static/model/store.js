@@ -181,8 +181,9 @@ export class Store extends EventTarget {
 
   /** Changes the plant, likewise. @param {string|null} plant @param {string} [gesture] */
   editPlant(plant, gesture) {
-    if (plant === this.state.plant) return;
-    if (this.#plants.keep(this.state.plant, gesture)) this.step += 1;
+    const before = this.state.plant;
+    if (plant === before || (plant !== null && before !== null && samePlant(plant, before))) return;
+    if (this.#plants.keep(before, gesture)) this.step += 1;
     this.set({ plant });
   }
 

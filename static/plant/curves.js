@@ -2,7 +2,7 @@
  * A chart of as many lines as a system has outputs: the present ones, and those of pinned designs, faint. Values are
  * read under the pointer or by the arrow keys.
  * @typedef {{name: string, values: ArrayLike<number>}} Line
- * @typedef {{x: ArrayLike<number>, lines: Line[]}} Ghost of a pinned design, on a grid of its own
+ * @typedef {{pin: number, x: ArrayLike<number>, lines: Line[]}} Ghost of a pinned design, on a grid of its own
  */
 import { forField, inField, say, significant } from '../text/index.js';
 import { h, setText } from '../ui/index.js';
@@ -122,7 +122,7 @@ export class Curves {
     });
   }
 
-  /** @param {ArrayLike<number>} x @param {Line[]} lines @param {readonly Ghost[]} [ghosts] in the pins' order */
+  /** @param {ArrayLike<number>} x @param {Line[]} lines @param {readonly Ghost[]} [ghosts] */
   show(x, lines, ghosts = []) {
     const chart = (this.#chart ??= this.#build());
     this.#x = x;
@@ -132,9 +132,9 @@ export class Curves {
     const own = this.lines.map((line) => known(line.values));
     const nothing = Array.from(x, () => null);
     /** @type {(number|null)[][]} */ const faint = Array.from({ length: GHOSTS }, () => nothing);
-    ghosts.slice(0, 4).forEach((ghost, pin) =>
+    ghosts.forEach((ghost) =>
       ghost.lines.slice(0, GHOSTS / 4).forEach((line, k) => {
-        faint[4 * k + pin] = resampled(
+        faint[4 * k + ghost.pin] = resampled(
           ghost.x,
           known(line.values).map((v) => v ?? NaN),
           x,

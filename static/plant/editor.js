@@ -17,8 +17,14 @@ export class Editor {
   /** @type {SystemExample[]} */ #examples = [];
   /** @type {Map<string, HTMLInputElement>} */ #fields = new Map();
 
-  /** @param {{onText: (text: string) => void, onExample: (example: SystemExample) => void}} how */
-  constructor({ onText, onExample }) {
+  /** @type {SystemExample|null} the one that is shown as it stands in its book */ example = null;
+  /** What is typed before the field is left belongs together. */ session = 0;
+
+  /**
+   * @param {{onText: (text: string, session?: number) => void, onExample: (example: SystemExample) => void,
+   *   onLeave: () => void}} how  session: of typing; none where a value was given at once
+   */
+  constructor({ onText, onExample, onLeave }) {
     this.onText = onText;
     this.area = h('textarea', {
       class: 'plant-text',
@@ -31,6 +37,10 @@ export class Editor {
       'aria-describedby': 'plant-help plant-trouble',
       'data-testid': 'plant-text',
       oninput: () => this.#later(),
+      onblur: () => {
+        this.session += 1;
+        onLeave();
+      },
     });
     this.menu = h(
       'select',
@@ -97,16 +107,19 @@ export class Editor {
   /** @param {string} text @param {SystemExample|null} [example] */
   set(text, example = null) {
     clearTimeout(this.#timer);
-    this.area.value = text;
+    this.example = example;
+    if (this.area.value !== text) this.area.value = text;
     this.menu.value = example?.name ?? '';
     setText(this.source, example?.source ?? '');
   }
 
   #later() {
+    this.example = null;
     this.menu.value = '';
     setText(this.source, '');
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => this.onText(this.area.value), DELAY_MS);
+    const { session } = this;
+    this.#timer = setTimeout(() => this.onText(this.area.value, session), DELAY_MS);
   }
 
   /**
@@ -176,7 +189,7 @@ export class Editor {
       return;
     }
     field.removeAttribute('aria-invalid');
-    this.area.value = withLetter(this.area.value, name, value);
+    this.set(withLetter(this.area.value, name, value));
     this.onText(this.area.value);
   }
 }

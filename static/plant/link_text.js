@@ -2,19 +2,19 @@
  * A system in a link, and as text of MATLAB. Pure.
  *
  * In a link: parts with `::` between them, each a name and its rows, entries with commas: `A:0,1:-k/m,-b/m::B:0:1/m`.
- * A letter's value is `.m:2`; `p` and `q` are the desired poles and the observer's, `by` the method, `Q` and `R` the
- * weights of a quadratic one. No blanks, and nothing that links must escape.
- * @typedef {import('../types.js').Complex} Complex
- * @typedef {{rows: Record<string, string[][]>, letters: Record<string, number>, poles: Complex[]|null,
- *   observer: Complex[]|null, method: string, weights: {states: number[], inputs: number[]}|null}} Plant
+ * A letter's value is `.m:2`; `p` and `q` are the desired poles and the observer's, `by` the method, `Q`, `R` and `Qz`
+ * the weights of a quadratic one, `x` the initial state. No blanks, and nothing that links must escape.
+ * @typedef {Omit<import('./wish.js').Wish, 'poles'> & {rows: Record<string, string[][]>,
+ *   letters: Record<string, number>, poles: import('../types.js').Complex[]|null}} Plant
  */
 import { polesIn, polesWord } from './poles.js';
 
 const MATRICES = ['A', 'B', 'C', 'D'];
-const LONGEST = 4000;
+const LISTS = ['Q', 'R', 'Qz', 'x'];
+const LONGEST = 20_000;
 
 /** @param {Plant} plant */
-export function linkText({ rows, letters, poles, observer, method, weights }) {
+export function linkText({ rows, letters, poles, observer, method, weights, x0 }) {
   const parts = MATRICES.filter((name) => rows[name]).map(
     (name) => `${name}:${rows[name].map((row) => row.map((v) => v.replace(/\s+/g, '')).join()).join(':')}`,
   );
@@ -23,6 +23,8 @@ export function linkText({ rows, letters, poles, observer, method, weights }) {
   if (observer) parts.push(`q:${polesWord(observer)}`);
   if (method !== 'full-rank') parts.push(`by:${method}`);
   if (weights) parts.push(`Q:${weights.states.join()}`, `R:${weights.inputs.join()}`);
+  if (weights?.integrals) parts.push(`Qz:${weights.integrals.join()}`);
+  if (x0) parts.push(`x:${x0.join()}`);
   return parts.join('::');
 }
 
@@ -30,8 +32,8 @@ export function linkText({ rows, letters, poles, observer, method, weights }) {
 export function plantIn(text) {
   if (text.length > LONGEST) return null;
   /** @type {Plant} */
-  const plant = { rows: {}, letters: {}, poles: null, observer: null, method: 'full-rank', weights: null };
-  /** @type {Record<string, number[]>} */ const weights = {};
+  const plant = { rows: {}, letters: {}, poles: null, observer: null, method: 'full-rank', weights: null, x0: null };
+  /** @type {Record<string, number[]>} */ const lists = {};
   for (const part of text.replaceAll(' ', '+').split('::')) {
     // some programs take a plus for a blank
     const [name, ...rest] = part.split(':');
@@ -41,12 +43,20 @@ export function plantIn(text) {
     else if (name === 'p') plant.poles = polesIn(first);
     else if (name === 'q') plant.observer = polesIn(first);
     else if (name === 'by') plant.method = first;
-    else if (name === 'Q' || name === 'R') weights[name] = first.split(',').map(Number);
+    else if (LISTS.includes(name)) {
+      const values = first.split(',').map((v) => (v ? Number(v) : NaN));
+      if (values.every(Number.isFinite)) lists[name] = values;
+    }
   }
-  if (weights.Q?.every(Number.isFinite) && weights.R?.every(Number.isFinite))
-    plant.weights = { states: weights.Q, inputs: weights.R };
+  const { Q, R, Qz, x = null } = lists;
+  if (Q && R) plant.weights = { states: Q, inputs: R, ...(Qz && { integrals: Qz }) };
+  plant.x0 = x;
   return plant.rows.A && plant.rows.B ? plant : null;
 }
+
+/** The system alone, with no wish. @param {Pick<Plant, 'rows'|'letters'>} plant */
+export const systemText = ({ rows, letters }) =>
+  linkText({ rows, letters, poles: null, observer: null, method: 'full-rank', weights: null, x0: null });
 
 /** As it is typed into MATLAB. @param {Pick<Plant, 'rows'|'letters'>} plant */
 export function matlabText({ rows, letters }) {

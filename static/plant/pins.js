@@ -1,20 +1,41 @@
-/** Up to four designs that are kept: their curves faint beside the present ones, their gains in a table. */
+/**
+ * Up to four designs that are kept: their curves faint beside the present ones, their gains in a table. The store has
+ * them as links do; what each comes to is computed here where it is not known.
+ * @typedef {import('../types.js').PlantPin} PlantPin
+ */
+import { letterOf, MOST_PLANTS } from '../model/index.js';
+import { call, ProblemError } from '../net/index.js';
 import { say, significant, t } from '../text/index.js';
-import { button, copyButton, h } from '../ui/index.js';
+import { button, copyButton, h, keepingFocus } from '../ui/index.js';
+import { matlabText, plantIn } from './link_text.js';
 import { polesLine } from './poles.js';
+import { bodyOf, fitting } from './wish.js';
 
-export const MOST_PINS = 4;
-const LETTERS = 'ABCD';
+const COLUMNS = ['Pin', 'Poles, rad/s', 'Method', '‖K‖', 'K'];
 
-/** @typedef {{letter: string, plant: string, method: string, design: import('../contract.js').SystemDesign}} Pinned */
+/** The design of a plant as a link has it. @param {string} text @param {typeof call} [ask] */
+export async function designOf(text, ask = call) {
+  const plant = plantIn(text);
+  if (!plant) throw new ProblemError({ detail: t('This plant cannot be read.') });
+  /** @type {import('../contract.js').SystemRead} */
+  const read = await ask('api/v1/system/read', { text: matlabText(plant) });
+  const wish = fitting(read, { ...plant, poles: plant.poles ?? [] }, true);
+  /** @type {import('../contract.js').SystemDesign} */
+  const design = await ask('api/v1/system/design', bodyOf(read, wish));
+  return design;
+}
 
 export class Pins {
-  /** @type {Pinned[]} */ list = [];
+  /** @type {readonly PlantPin[]} */ #shown = [];
+  #titles = '';
+  #busy = false;
+  #failed = false;
 
-  /** @param {{onChange: () => void, onLoad: (plant: string) => void}} how */
-  constructor({ onChange, onLoad }) {
+  /** @param {import('../model/store.js').Store} store @param {{onChange: () => void, ask?: typeof designOf}} how */
+  constructor(store, { onChange, ask = designOf }) {
+    this.store = store;
     this.onChange = onChange;
-    this.onLoad = onLoad;
+    this.ask = ask;
     this.body = h('tbody');
     this.node = h(
       'div',
@@ -34,7 +55,7 @@ export class Pins {
           h(
             'tr',
             {},
-            ['Pin', 'Poles, rad/s', 'Method', '‖K‖', 'K'].map((words) => h('th', { scope: 'col' }, words)),
+            COLUMNS.map((words) => h('th', { scope: 'col' }, words)),
             h('td'),
           ),
         ),
@@ -44,49 +65,86 @@ export class Pins {
   }
 
   get full() {
-    return this.list.length >= MOST_PINS;
+    return this.#shown.length >= MOST_PLANTS;
   }
 
-  /** @param {Omit<Pinned, 'letter'>} pin */
-  add(pin) {
-    const letter = [...LETTERS].find((own) => this.list.every((known) => known.letter !== own));
-    if (!letter) return;
-    this.list = [...this.list, { ...pin, letter }];
-    this.#draw();
+  /** Those that are computed. */
+  get designs() {
+    return this.#shown.flatMap(({ index, design }) => (design ? [{ index, design }] : []));
   }
 
-  /** @param {Pinned} pin */
-  #remove(pin) {
-    this.list = this.list.filter((own) => own !== pin);
-    this.#draw();
+  /** @param {Pick<import('../types.js').State, 'plantPins'|'methods'|'connection'>} state */
+  render({ plantPins, methods, connection }) {
+    if (connection !== 'open') this.#failed = false; // asked again when it is back
+    const titles = methods.map(({ title }) => title).join('\n');
+    if (plantPins !== this.#shown || titles !== this.#titles) {
+      this.#shown = plantPins;
+      this.#titles = titles;
+      this.node.hidden = plantPins.length === 0;
+      keepingFocus(this.body, () => this.body.replaceChildren(...plantPins.map((pin) => this.#row(pin, methods))));
+      this.onChange();
+    }
+    if (!this.#busy && !this.#failed && connection === 'open') this.#compute();
   }
 
-  #draw() {
-    this.node.hidden = this.list.length === 0;
-    this.body.replaceChildren(
-      ...this.list.map((pin, i) =>
-        h(
-          'tr',
-          {},
-          h('th', { scope: 'row' }, h('span', { class: `plant-pin pin-${i}` }, pin.letter)),
-          h('td', { translate: 'no' }, polesLine(pin.design.poles)),
-          h('td', {}, t(pin.method)),
-          h('td', { translate: 'no' }, significant(pin.design.norm, 4)),
+  async #compute() {
+    const pin = this.store.state.plantPins.find((p) => !p.design && !p.refused);
+    if (!pin) return;
+    this.#busy = true;
+    /** @type {Partial<PlantPin>|null} */ let part = null;
+    try {
+      part = { design: await this.ask(pin.plant) };
+    } catch (error) {
+      if (error instanceof ProblemError) part = { refused: error.message };
+      else this.#failed = true;
+    }
+    this.#busy = false;
+    if (part) this.store.changePlantPin(pin.id, part);
+  }
+
+  /** @param {PlantPin} pin @param {readonly import('../contract.js').Method[]} methods */
+  #row({ id, index, plant, design, refused }, methods) {
+    const letter = letterOf(index);
+    const by = plantIn(plant)?.method;
+    const method = methods.find((own) => own.name === by)?.title ?? by ?? '';
+    const cells = design
+      ? [
+          h('td', { translate: 'no' }, polesLine(design.poles)),
+          h('td', {}, t(method)),
+          h('td', { translate: 'no' }, significant(design.norm, 4)),
           h(
             'td',
             { translate: 'no' },
-            pin.design.K.map((row) => row.map((v) => significant(v, 4)).join('  ')).join('; '),
-            copyButton(`plant-pin-${pin.letter}`, () => [{ name: 'K', matrix: pin.design.K }]),
+            design.K.map((row) => row.map((v) => significant(v, 4)).join('  ')).join('; '),
+            copyButton(`plant-pin-${letter}`, () => [{ name: 'K', matrix: design.K }]),
           ),
-          h(
-            'td',
-            {},
-            button({ 'aria-label': say`Use pin ${pin.letter}`, onclick: () => this.onLoad(pin.plant) }, 'Use'),
-            button({ 'aria-label': say`Remove pin ${pin.letter}`, onclick: () => this.#remove(pin) }, 'Remove'),
-          ),
+        ]
+      : [h('td', { colspan: COLUMNS.length - 1, class: refused ? 'failure' : 'caption' }, refused ?? 'Computing …')];
+    return h(
+      'tr',
+      {},
+      h('th', { scope: 'row' }, h('span', { class: `plant-pin pin-${index}` }, letter)),
+      cells,
+      h(
+        'td',
+        {},
+        button(
+          {
+            'data-testid': `plant-use-${letter}`,
+            'aria-label': say`Use pin ${letter}`,
+            onclick: () => this.store.editPlant(plant),
+          },
+          'Use',
+        ),
+        button(
+          {
+            'data-testid': `plant-remove-${letter}`,
+            'aria-label': say`Remove pin ${letter}`,
+            onclick: () => this.store.unpinPlant(id),
+          },
+          'Remove',
         ),
       ),
     );
-    this.onChange();
   }
 }

@@ -7,7 +7,7 @@
  */
 import { complexIn, fixed, say, significant } from '../text/index.js';
 import { button, h, setAttr, setText, svg } from '../ui/index.js';
-import { drawGrid, fit, keyStep, outgrown, pick, pinch, toPixel, toPlane, zoom } from '../splane/index.js';
+import { actOf, drawGrid, fit, keyStep, outgrown, pick, pinch, toPixel, toPlane, zoom } from '../splane/index.js';
 import { moved } from './poles.js';
 
 const REACH = 28; // px: how near a press must be to take a pole
@@ -17,16 +17,7 @@ const SMALL = 'M -4 -4 L 4 4 M -4 4 L 4 -4';
 const DIAMOND = 'M 0 -5.5 L 5.5 0 L 0 5.5 L -5.5 0 Z';
 const HINT =
   'Drag a pole, or move it by the arrow keys (Shift: fine, Page keys: coarse). A real pole that leaves the axis ' +
-  'takes the nearest real one with it.';
-/** @type {Record<string, [number, number]>} */
-const KEYS = {
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-  ArrowUp: [0, 1],
-  ArrowDown: [0, -1],
-  PageUp: [10, 0],
-  PageDown: [-10, 0],
-};
+  'takes a real one with it: what it has just passed, or else the nearest.';
 const written = (/** @type {Complex} */ p) => complexIn(p, { number: (v) => significant(v, 4) });
 
 export class Plane {
@@ -35,6 +26,7 @@ export class Plane {
   /** @type {SVGGElement[]} */ handles = [];
   /** @type {number[]} from the lowest to the topmost */ order = [];
   /** @type {{i: number, id: number, dx: number, dy: number}|null} */ #drag = null;
+  /** @type {number|null} which pole a drag or keys are moving */ #moving = null;
   /** @type {Map<number, {x: number, y: number}>} */ #fingers = new Map();
   /** @type {{view: import('../splane/math.js').View, from: [{x: number, y: number}, {x: number, y: number}]}|null} */
   #pinch = null;
@@ -199,8 +191,9 @@ export class Plane {
           'aria-valuemin': -1e9,
           'aria-valuemax': 1e9,
           onkeydown: (/** @type {KeyboardEvent} */ e) => this.#key(e, i),
-          onkeyup: (/** @type {KeyboardEvent} */ e) => KEYS[e.key] && this.#move(i, this.#all[i], false),
+          onkeyup: () => this.#rest(),
           onfocus: () => this.#raise(i),
+          onblur: () => this.#rest(),
         },
         svg('circle', { class: 'reach', r: REACH }),
         svg('circle', { class: 'hit', r: 19 }),
@@ -241,13 +234,21 @@ export class Plane {
     setText(this.readout, `${this.#name(i)}: ${written(p)} rad/s${more}`);
   }
 
-  /** @param {number} i @param {Complex} to @param {boolean} held */
-  #move(i, to, held) {
+  /** @param {number} i @param {Complex} to */
+  #move(i, to) {
     const { poles, observer } = this.scene;
     const own = i < poles.length;
-    const snap = this.#drag ? SNAP / this.view.scale : held ? keyStep(this.view) / 20 : 0;
-    const next = moved(own ? poles : observer, own ? i : i - poles.length, to, snap);
-    this.onMove(own ? 'poles' : 'observer', next, held);
+    const snap = this.#drag ? SNAP / this.view.scale : keyStep(this.view) / 20;
+    this.#moving = i;
+    this.onMove(own ? 'poles' : 'observer', moved(own ? poles : observer, own ? i : i - poles.length, to, snap), true);
+  }
+
+  /** The hand rests. */
+  #rest() {
+    if (this.#moving === null) return;
+    const which = this.#moving < this.scene.poles.length ? 'poles' : 'observer';
+    this.#moving = null;
+    this.onMove(which, this.scene[which], false);
   }
 
   /** @param {MouseEvent} e */
@@ -314,7 +315,7 @@ export class Plane {
         Math.max(6, Math.min(most - 6, value));
       const raw = toPlane(v, inside(at.x + dx, v.width), inside(at.y + dy, v.height));
       const grain = 10 ** Math.floor(Math.log10(1 / v.scale)); // pixels carry no more digits than this
-      this.#move(i, { re: Math.round(raw.re / grain) * grain, im: Math.round(raw.im / grain) * grain }, true);
+      this.#move(i, { re: Math.round(raw.re / grain) * grain, im: Math.round(raw.im / grain) * grain });
     } else if (this.#pinch && this.#fingers.size === 2) {
       const [a, b] = [...this.#fingers.values()];
       this.#look(pinch(this.#pinch.view, this.#pinch.from, [a, b]));
@@ -330,22 +331,18 @@ export class Plane {
     if (this.#fingers.size < 2) this.#pinch = null;
     this.#pan = null;
     if (this.#drag?.id !== e.pointerId) return;
-    const { i } = this.#drag;
     this.#drag = null;
-    this.#move(i, this.#all[i], false);
+    this.#rest();
   }
 
   /** @param {KeyboardEvent} e @param {number} i */
   #key(e, i) {
-    if (e.altKey || e.ctrlKey || e.metaKey) return;
-    const way = KEYS[e.key];
-    if (way) {
-      const step = keyStep(this.view) * (e.shiftKey ? 0.1 : 1);
-      const p = this.#all[i];
-      this.#move(i, { re: p.re + way[0] * step, im: p.im + way[1] * step }, true);
-    } else if (e.key === '+' || e.key === '-') this.#zoom(e.key === '+' ? 1.4 : 1 / 1.4);
-    else if (e.key.toLowerCase() === 'f') this.fit();
-    else return;
+    const act = actOf(e, this.view);
+    if (!act) return;
+    const { re, im } = this.#all[i];
+    if ('view' in act) this.#look(act.view);
+    else if ('fit' in act) this.fit();
+    else this.#move(i, { re: re + act.by.re, im: im + act.by.im });
     e.preventDefault();
   }
 }

@@ -3,7 +3,7 @@
  * @typedef {import('../types.js').Complex} Complex
  */
 import { complexIn, inField, parseComplex, parseNumber } from '../text/index.js';
-import { tidy } from '../model/index.js';
+import { meets, tidy } from '../model/index.js';
 
 const SAME = 1e-9;
 
@@ -24,8 +24,22 @@ export function conjugateOf(poles, i) {
 }
 
 /**
+ * Which real pole goes along with one that leaves the axis; itself where there is none.
+ * @param {readonly Complex[]} poles @param {number} i @param {number} to
+ */
+function companion(poles, i, to) {
+  const from = poles[i].re;
+  const real = [...poles.keys()].filter((k) => k !== i && poles[k].im === 0);
+  const met = real.filter((k) => meets(poles[k].re, from, to));
+  const near = met.length ? from : to;
+  const far = (/** @type {number} */ k) => Math.abs(poles[k].re - near);
+  return (met.length ? met : real).sort((a, b) => far(a) - far(b))[0] ?? i;
+}
+
+/**
  * A pole goes somewhere, and its conjugate with it. A complex pair that comes near the real axis turns real; a real
- * pole that leaves the axis takes the nearest real one with it.
+ * pole that leaves the axis takes a real one with it: the first that it meets on its way, else the nearest to where it
+ * leaves.
  * @param {readonly Complex[]} poles
  * @param {number} i
  * @param {Complex} to
@@ -36,10 +50,7 @@ export function moved(poles, i, to, snap) {
   const next = poles.map((p) => ({ ...p }));
   const at = { re: tidy(to.re), im: tidy(to.im) };
   let j = conjugateOf(poles, i);
-  if (j === i && Math.abs(at.im) > snap) {
-    const real = [...poles.keys()].filter((k) => k !== i && poles[k].im === 0);
-    j = real.sort((a, b) => Math.abs(poles[a].re - poles[i].re) - Math.abs(poles[b].re - poles[i].re))[0] ?? i;
-  }
+  if (j === i && Math.abs(at.im) > snap) j = companion(poles, i, at.re);
   if (j === i) next[i] = { re: at.re, im: 0 };
   else if (Math.abs(at.im) <= snap) {
     next[i] = { re: at.re, im: 0 };

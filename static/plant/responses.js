@@ -3,9 +3,11 @@
  * @typedef {import('../contract.js').SystemDesign} SystemDesign
  * @typedef {import('./curves.js').Line} Line
  */
-import { DEGREE, say, t } from '../text/index.js';
+import { DEGREE, inField, say, t } from '../text/index.js';
 import { h, setText } from '../ui/index.js';
 import { Curves } from './curves.js';
+import { Line as Field } from './line.js';
+import { reader } from './numbers.js';
 
 const LETTERS = '₀₁₂₃₄₅₆₇₈₉';
 /** @param {string} name @param {number} i from 0 */
@@ -59,10 +61,21 @@ export function overFrequency({ bode }, view) {
 
 export class Responses {
   /** @type {SystemDesign|null} */ #design = null;
-  /** @type {readonly SystemDesign[]} */ #pins = [];
+  /** @type {readonly {index: number, design: SystemDesign}[]} */ #pins = [];
   #shape = '';
 
-  constructor() {
+  /** @param {(x0: number[]|null) => void} onStart */
+  constructor(onStart) {
+    const read = reader(() => this.#design?.courses.x0.length ?? 0);
+    /** @type {Field<number[]|null>} */ this.start = new Field('Initial state x₀', 'plant-x0', {
+      read: (text) => (text.trim() ? read(text) : null),
+      take: (x0) => {
+        this.time.value = 'initial';
+        this.#draw();
+        onStart(x0);
+      },
+    });
+    this.start.input.title = 'One number per state, as 1 0 0 0 or [1; 0; 0; 0]; empty: 1 for the first';
     const select = (/** @type {string} */ label, /** @type {string} */ testid) =>
       h('select', { 'aria-label': label, 'data-testid': testid, onchange: () => this.#draw() });
     this.time = select('Response', 'plant-time-view');
@@ -79,15 +92,16 @@ export class Responses {
     this.node = h(
       'section',
       { class: 'card plant-responses', 'aria-label': 'Responses of the plant' },
-      h('div', { class: 'plant-row' }, h('h3', {}, 'Responses over time'), this.time),
+      h('div', { class: 'plant-row' }, h('h3', {}, 'Responses over time'), this.start.node, this.time),
       h('div', { class: 'plant-charts' }, this.y.node, this.u.node),
       h('div', { class: 'plant-row' }, h('h3', {}, 'Over frequency'), this.frequency),
       h('div', { class: 'plant-charts' }, this.gain.node, this.phase.node),
     );
   }
 
-  /** @param {SystemDesign} design @param {readonly SystemDesign[]} pins */
-  show(design, pins) {
+  /** @param {SystemDesign} design @param {readonly {index: number, design: SystemDesign}[]} pins
+   * @param {number[]|null} x0 exactly, where it was given */
+  show(design, pins, x0) {
     this.#design = design;
     this.#pins = pins;
     const m = design.courses.step_y.length;
@@ -95,6 +109,7 @@ export class Responses {
     const shape = [m, p, design.scaling, Boolean(design.bode.rga)].join();
     if (shape !== this.#shape) this.#offer(design);
     this.#shape = shape;
+    this.start.set((x0 ?? Array.from(design.courses.x0)).map((v) => inField(v)).join(' '));
     this.#draw();
   }
 
@@ -128,13 +143,21 @@ export class Responses {
     const initial = this.time.value === 'initial';
     this.y.name(initial ? 'States' : 'Outputs');
     const ghosts = (/** @type {'y'|'u'} */ part) =>
-      this.#pins.map((pin) => ({ x: pin.courses.t, lines: overTime(pin, this.time.value)[part] }));
+      this.#pins.map(({ index, design: kept }) => ({
+        pin: index,
+        x: kept.courses.t,
+        lines: overTime(kept, this.time.value)[part],
+      }));
     this.y.show(design.courses.t, own.y, ghosts('y'));
     this.u.show(design.courses.t, own.u, ghosts('u'));
     const { value } = this.frequency;
     const over = overFrequency(design, value);
     const faint = (/** @type {'gain'|'phase'} */ part) =>
-      this.#pins.map((pin) => ({ x: pin.bode.frequencies, lines: overFrequency(pin, value)[part] }));
+      this.#pins.map(({ index, design: kept }) => ({
+        pin: index,
+        x: kept.bode.frequencies,
+        lines: overFrequency(kept, value)[part],
+      }));
     setText(this.gain.what, value === 'rga' ? t('Relative gains, magnitude') : t('Gain'));
     this.phase.node.hidden = value === 'rga';
     this.gain.show(design.bode.frequencies, over.gain, faint('gain'));

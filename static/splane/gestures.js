@@ -6,22 +6,12 @@
  * @typedef {{x: number, y: number}} Point  pixels of the view
  */
 import { dragHandle, handlesOf, nudgeHandle, pairAlone, tidy } from '../model/index.js';
-import { keyStep, pick, pinch, toPixel, toPlane, zoom } from './math.js';
+import { actOf } from './keys.js';
+import { pick, pinch, toPixel, toPlane, zoom } from './math.js';
 
 export const REACH = 28; // px: how near a press must be to take a pole
 const SNAP = 9; // px: how near the real axis a complex pair turns real
 const MEET = 13; // px: how near two real poles count as met
-const PAN = 40; // px per press of a key
-/** @type {Record<string, [number, number]>} direction in the plane, in keyboard steps */
-const KEYS = {
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-  ArrowUp: [0, 1],
-  ArrowDown: [0, -1],
-  PageUp: [10, 0],
-  PageDown: [-10, 0],
-};
-
 /**
  * @typedef {object} Plane  what the gestures act on
  * @property {SVGSVGElement} svg
@@ -196,29 +186,18 @@ export class Gestures {
 
   /** @param {KeyboardEvent} e @param {number} index */
   #key(e, index) {
-    if (e.altKey || (e.metaKey && !e.ctrlKey)) return;
     const { plane } = this;
-    const v = plane.view;
-    const direction = KEYS[e.key];
-    if (direction && e.ctrlKey) {
-      plane.look({
-        ...v,
-        cx: v.cx + (Math.sign(direction[0]) * PAN) / v.scale,
-        cy: v.cy + (direction[1] * PAN) / v.scale,
-      });
-    } else if (direction) {
-      const step = keyStep(v) * (e.shiftKey ? 0.1 : 1);
-      const by = { re: direction[0] * step, im: direction[1] * step };
-      plane.store.edit((d) => nudgeHandle(d, index, by), {
+    const act = actOf(e, plane.view);
+    if (!act) {
+      if (!/^[1-6]$/.test(e.key) || e.altKey || e.ctrlKey || e.metaKey) return;
+      plane.marks.handles[Number(e.key) - 1].focus();
+    } else if ('view' in act) plane.look(act.view);
+    else if ('fit' in act) plane.fit();
+    else
+      plane.store.edit((d) => nudgeHandle(d, index, act.by), {
         gesture: `key-${index}`,
         stamp: e.timeStamp,
       });
-    } else if (e.ctrlKey) return;
-    else if ('123456'.includes(e.key)) plane.marks.handles[Number(e.key) - 1].focus();
-    else if (e.key === '+' || e.key === '-')
-      plane.look(zoom(v, e.key === '+' ? 1.4 : 1 / 1.4, v.width / 2, v.height / 2));
-    else if (e.key.toLowerCase() === 'f') plane.fit();
-    else return;
     e.preventDefault();
   }
 
