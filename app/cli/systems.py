@@ -7,7 +7,7 @@ from typing import Any, TextIO
 import click
 
 from .output import print_json, refusals, show
-from .values import Poles
+from .values import Numbers, Poles
 
 
 class Matrix(click.ParamType):
@@ -70,12 +70,18 @@ def _in_symbols(A: list[list[str]], B: list[list[str]], poles: list[Any] | None,
 @click.option("--poles", type=Poles(), help="n, as -1,-2±3j; those of the file where left out.")
 @click.option("--observer-poles", type=Poles(), help="n, likewise; no observer where there are none.")
 @click.option("--method", default=None, help="Of placement; full-rank where left out.")
+@click.option(
+    "--x0",
+    type=Numbers(),
+    help="n, as 1,0: where the states begin in the responses that --json prints; 1,0,… where left out.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the REST API's replies, one a line.")
 def system(
     file: TextIO,
     poles: list[Any] | None,
     observer_poles: list[Any] | None,
     method: str | None,
+    x0: list[float] | None,
     *,
     as_json: bool,
 ) -> None:
@@ -103,6 +109,7 @@ def system(
             "poles": wanted,
             "observer_poles": observer_poles or _as_asked(pasted.observer_poles),
             **({"method": method} if method else {}),
+            "x0": x0,
         }
         request = SystemDesignRequest.model_validate(body)
         if as_json:

@@ -17,6 +17,8 @@ from .loop import ClosedLoop
 SAMPLES = 241
 LONGEST, SHORTEST = 1e6, 1e-6
 """Seconds of a response."""
+FARTHEST = 1e12
+"""Of an initial state, each."""
 SETTLED = 6.0
 """A response lasts so many time constants of the slowest pole, in which exp(−t/τ) falls to 0.25 %."""
 FASTEST = 2000.0
@@ -52,18 +54,20 @@ def courses(loop: ClosedLoop, x0: ArrayLike | None = None, duration: float | Non
 
     Args:
         loop: the closed loop.
-        x0: n states at t = 0; 1 for the first and 0 for the others if not given.
+        x0: n states at t = 0, within ±`FARTHEST`; 1 for the first and 0 for the others if not given.
         duration: s; by default until the slowest pole has settled.
 
     Raises:
-        InvalidInputError: x0 has another size, or the duration is out of its range.
+        InvalidInputError: x0 has another size, or it or the duration is out of its range.
     """
     n, _, q = loop.system.sizes
     start = np.eye(n)[0] if x0 is None else np.asarray(x0, dtype=float)
-    if start.shape != (n,) or not np.all(np.isfinite(start)):
+    if start.shape != (n,):
         raise InvalidInputError(
             f"x0 has {start.size} entries", field="x0", hint=f"Give {n} numbers, one per state."
         )
+    for i, value in enumerate(start.tolist()):
+        require_within(value, f"x0.{i}", "", -FARTHEST, FARTHEST)
     A, B, C, D = loop.matrices()
     last = _duration(_all_poles(loop)) if duration is None else duration
     require_within(last, "duration", "s", SHORTEST, LONGEST)

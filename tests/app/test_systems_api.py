@@ -55,6 +55,23 @@ def test_design_is_the_books(client: TestClient):
     assert reply["scaling"] == "static" and reply["courses"]["step_y"][0][0][-1] == pytest.approx(1, abs=0.01)
 
 
+def test_an_initial_state_and_the_weight_of_the_integrals_are_python_controls(client: TestClient):
+    x0, weights = [0.3, -2], {"states": [2, 1], "inputs": [0.5], "integrals": [30]}
+    body = {name: OBSERVED[name] for name in ("A", "B", "C", "poles")} | {"x0": x0, "weights": weights}
+    reply = post(client, "system/design", body | {"method": "lqr-integral"})
+    A, B, C = (np.array(OBSERVED[name], dtype=float) for name in "ABC")
+    gain, *_ = ct.lqr(ct.ss(A, B, C, 0), np.diag([2, 1, 30]), [[0.5]], integral_action=C)
+    assert np.allclose(reply["K"], gain[:, :2]) and np.allclose(reply["K_z"], gain[:, 2:])
+    whole = ct.ss(np.block([[A - B @ gain[:, :2], -B @ gain[:, 2:]], [C, 0]]), np.zeros((3, 1)), np.eye(3), 0)
+    course = ct.initial_response(whole, reply["courses"]["t"], [*x0, 0]).outputs
+    assert np.allclose(reply["courses"]["initial_x"], course[:2], atol=1e-5)
+    assert reply["courses"]["x0"] == pytest.approx(x0)
+    other = post(
+        client, "system/design", body | {"method": "lqr-integral", "weights": weights | {"integrals": [3]}}
+    )
+    assert abs(other["K_z"][0][0]) < abs(reply["K_z"][0][0])
+
+
 def test_formulas(client: TestClient):
     asked = {"A": [["0", "1"], ["-k/m", "0"]], "B": [["0"], ["1/m"]], "C": [["1", "0"]]}
     reply = contract.SystemFormulas.model_validate(post(client, "system/formulas", asked))
@@ -75,6 +92,7 @@ def test_formulas(client: TestClient):
         ("design", OBSERVED | {"C": [[0, 0]]}, "C"),
         ("design", OBSERVED | {"B": [[0], [0]]}, "B"),
         ("design", OBSERVED | {"x0": [1]}, "x0"),
+        ("design", OBSERVED | {"x0": [1, -1e300]}, "x0.1"),
         ("design", OBSERVED | {"duration": 0}, "duration"),
         ("design", OBSERVED | {"method": "none"}, "method"),
         ("formulas", {"A": [["x("]], "B": [["1"]]}, "A.0.0"),
@@ -138,5 +156,9 @@ def test_the_command(tmp_path):
     assert shown.exit_code == 0 and "29.6" in shown.stdout and "84.6" in shown.stdout
     told = CliRunner().invoke(command, [str(file), "--json"]).stdout.splitlines()
     assert np.allclose(json.loads(told[1])["K"], [[29.6, 3.6]]) and "analysis" in json.loads(told[0])
+    started = CliRunner().invoke(command, [str(file), "--json", "--x0", "0,-2"]).stdout.splitlines()
+    assert json.loads(started[1])["courses"]["x0"] == [0, -2]
+    short = CliRunner().invoke(command, [str(file), "--json", "--x0", "1"])
+    assert short.exit_code == 2 and "x0 has 1 entries" in short.stderr
     refused = CliRunner().invoke(command, ["-"], input="A = [1")
     assert refused.exit_code == 2 and "line 1, column 5" in refused.stderr

@@ -246,3 +246,40 @@ test('an address without a design opens the view that is wanted first; the first
   assert.deepEqual(first('#v1&view=nonsense', 'explore'), ['design', 'pi']);
   assert.match(store.state.notice, /view \(no view of this page\)/);
 });
+
+test('changes of the plant are entries, Back and Forward walk through them, and the design is none the wiser', () => {
+  opened('#v1&plant=A:1&view=plant');
+  const edit = (plant) => {
+    store.editPlant(plant);
+    address.render(store.state);
+    browser.pass(1);
+  };
+  const { design } = store.state;
+  edit('A:2');
+  edit('A:3');
+  store.addPlantPins([{ plant: 'A:3::p:-1' }]);
+  address.render(store.state);
+  browser.pass(1);
+  assert.equal(browser.entries.length, 3);
+  assert.match(browser.hash(), /plant=A:3&view=plant&plant\.pin=0~p:-1$/);
+  go(-1);
+  assert.deepEqual([store.state.plant, store.state.plantPins.length], ['A:2', 1]);
+  go(-1);
+  assert.equal(store.state.plant, 'A:1');
+  go(2);
+  assert.deepEqual([store.state.plant, store.state.plantPins.length, browser.entries.length], ['A:3', 1, 3]);
+  assert.equal(store.state.design, design);
+  store.undo();
+  assert.equal(store.state.plant, 'A:1');
+  store.set({ view: 'design' });
+  assert.equal(store.state.canUndo, false);
+});
+
+test('a link without a plant has none, and what was there comes back by undo', () => {
+  opened('#v1&plant=A:1&view=plant');
+  browser.push('#v1&preset=quanser-2dof-manual&view=plant');
+  address.navigated();
+  assert.equal(store.state.plant, null);
+  store.undo();
+  assert.equal(store.state.plant, 'A:1');
+});

@@ -17,6 +17,7 @@ import {
   setLeaf,
 } from '../../static/link/link_values.js';
 import { LOCKS } from '../../static/model/locks.js';
+import { samePlant } from '../../static/model/plant_pins.js';
 import { NONE } from '../../static/model/requirements.js';
 import { designOf, initialState } from '../../static/model/store.js';
 import { VIEWS } from '../../static/model/views.js';
@@ -341,6 +342,66 @@ test('pins that make the link too long are left out, the design stays', () => {
   assert.equal(link, '#v1&preset=quanser-2dof-manual');
   assert.equal(readLink(linkOf({ ...initialState(), design, pins }, KNOWN, null, Infinity), KNOWN).pins.length, 60);
   assert.ok(linkOf({ ...initialState(), design, pins: pins.slice(0, 10) }, KNOWN).length <= MOST);
+});
+
+const PLANT = 'A:0,1:-k/m,-b/m::B:0:1/m::C:1,0::.k:3::.m:2::.b:1';
+const kept = (...plants) => plants.map((plant, index) => ({ id: index, index, plant, design: null }));
+const withPlants = (plantPins, plant = `${PLANT}::p:-3,-4`, more = {}) => ({
+  ...initialState(),
+  design: designOf(PRESETS[0]),
+  plant,
+  plantPins,
+  ...more,
+});
+
+test('pinned plants travel by what differs from the present one, and come back whole', () => {
+  const pins = kept(
+    `${PLANT}::p:-1+2j,-1-2j`,
+    `${PLANT}::p:-3,-4::q:-8,-9::by:lqr::Q:1,1::R:0.1::x:0,1`,
+    'A:0,1:0,0::B:0:1::p:-1,-~&2',
+    PLANT,
+  );
+  const told = (plant) => readLink(linkOf(withPlants(pins, plant), KNOWN), KNOWN);
+  for (const plant of [`${PLANT}::p:-3,-4`, 'A:1::B:1::by:lqr', null]) {
+    const { plantPins, trouble, shown } = told(plant);
+    assert.deepEqual(trouble, []);
+    assert.equal(shown.plant ?? null, plant);
+    assert.deepEqual(
+      plantPins.map(({ index }) => index),
+      [0, 1, 2, 3],
+    );
+    for (const [i, pin] of plantPins.entries()) assert.ok(samePlant(pin.plant, pins[i].plant), pin.plant);
+  }
+  const link = linkOf(withPlants(pins.slice(0, 1)), KNOWN);
+  assert.match(link, /&plant\.pin=0~p:-1\+2j,-1-2j$/);
+  assert.deepEqual(readLink(link.replaceAll('&', '&amp;'), KNOWN).plantPins, [{ index: 0, plant: pins[0].plant }]);
+});
+
+test('a pinned plant that cannot be read is named, and the rest is restored', () => {
+  const read = readLink(`#v1&plant=A:1::B:1&plant.pin=x~p:1&plant.pin=9~p:-1&plant.pin&plant.pin=1~p:-2`, KNOWN);
+  assert.deepEqual(read.plantPins, [{ index: 1, plant: 'A:1::B:1::p:-2' }]);
+  assert.ok(read.trouble.length === 3 && read.trouble.every(({ part }) => part === 'plant.pin'));
+});
+
+test('where not all pins have room in a link, those of the view come first', () => {
+  const large = (k) => `A:${Array(120).fill(k).join()}`;
+  const plants = kept(large(123456), large(234567));
+  const pins = Array.from({ length: 14 }, (_, i) => ({
+    id: i,
+    index: i,
+    name: 'a name of some length',
+    design: designOf(PRESETS[0]),
+    reply: null,
+  }));
+  const has = (more) => {
+    const link = linkOf(withPlants(plants, 'A:1', { pins, ...more }), KNOWN);
+    assert.ok(link.length <= MOST);
+    return ['&pin=', '&plant.pin='].map((part) => link.includes(part));
+  };
+  assert.deepEqual(has({ view: 'plant' }), [false, true]);
+  assert.deepEqual(has({ view: 'design' }), [true, false]);
+  assert.deepEqual(has({ pins: pins.slice(0, 3) }), [true, true]);
+  assert.deepEqual(has({ view: 'plant', plantPins: kept(large(1e12), large(2e12)) }), [true, false]);
 });
 
 test('values: exact numbers, degrees where exact, poles only as pairs', () => {

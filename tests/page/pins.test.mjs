@@ -223,3 +223,30 @@ test("a plot's numbers: units in the header, a column for each line, another tim
   assert.deepEqual(rows[2].split(',').map(Number), [0.5, 5.729578, 5.729578, 1, 5.729578, 0.5, 5.729578, 5.729578]);
   assert.match(csvOf('V_p', linesOf(store.state, 'V_p')), /^t \[s\],"V_p, pitch step \[V\]"/);
 });
+
+test('pinned plants outlast a reload beside those of the link, with the plant from which they differ', () => {
+  const storage = new FakeStorage();
+  const keeper = new PinKeeper(store, { storage });
+  keeper.open();
+  store.editPlant('A:1::B:1::p:-1');
+  store.addPlantPins([{ plant: 'A:1::B:1::p:-2' }, { plant: 'A:5::B:1' }]);
+  keeper.render(store.state);
+  store.editPlant('A:9::B:1'); // is not noted, and need not be
+  keeper.render(store.state);
+  const other = new Store();
+  other.set({ presets: PRESETS });
+  other.load(designOf(PRESETS[0]));
+  other.addPlantPins([{ plant: 'A:7::B:1' }, { plant: 'B:1::A:5' }]);
+  new PinKeeper(other, { storage }).open();
+  assert.deepEqual(
+    other.state.plantPins.map((p) => [p.index, p.plant]),
+    [
+      [0, 'A:7::B:1'],
+      [1, 'B:1::A:5'],
+      [2, 'A:1::B:1::p:-2'],
+    ],
+  );
+  for (const pin of store.state.plantPins) store.unpinPlant(pin.id);
+  keeper.render(store.state);
+  assert.equal(storage.items.size, 0);
+});

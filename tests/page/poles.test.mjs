@@ -17,9 +17,26 @@ function assertClosed(poles) {
 }
 
 test('a real pole slides along the axis and leaves the others alone', () => {
-  const { poles, together } = drag(START, 0, { re: -5, im: 3 }, how);
-  assert.deepEqual(poles, real(-5, -10, -9.25, -8.76));
+  const { poles, together } = drag(START, 0, { re: -15, im: 3 }, how);
+  assert.deepEqual(poles, real(-15, -10, -9.25, -8.76));
   assert.equal(together, false);
+  assert.deepEqual(drag(START, 0, { re: -5, im: 0.2 }, how).poles, real(-5, -10, -9.25, -8.76), 'past its partner');
+});
+
+test('a real pole that a quick hand takes over its partner has met it, from either side', () => {
+  for (const [index, re] of [
+    [0, -5],
+    [1, -14],
+    [2, -8],
+    [3, -20],
+  ]) {
+    const { poles, together } = drag(START, index, { re, im: 0.4 }, how);
+    assert.equal(together, true);
+    assert.equal(isComplex(poles, index < 2 ? 0 : 1), true);
+    assert.deepEqual(poles[index], { re, im: 0.4 });
+    assertClosed(poles);
+  }
+  assert.equal(drag(START, 1, { re: -8, im: 4 }, how).together, false, 'those of the other axis do not count');
 });
 
 test('a real pole that has met its partner leaves the axis together with it', () => {

@@ -118,3 +118,55 @@ test("a design's body is the request without number and experiment", () => {
   const { seq: _seq, scenario: _scenario, each_axis: _each, ...rest } = requestOf(store.state.design, 3);
   assert.deepEqual(rest, bodyOf(store.state.design));
 });
+
+test('a plant has a history of its own, which is that of its view', () => {
+  store.editPlant('a');
+  setKp(1);
+  const { step } = store;
+  store.set({ view: 'plant' });
+  assert.deepEqual([store.step, store.state.canUndo, store.state.canRedo], [step, true, false]);
+  store.editPlant('b');
+  store.editPlant('b');
+  assert.equal(store.step, step + 1);
+  store.undo();
+  assert.deepEqual([store.state.plant, kp(), store.state.canRedo], ['a', 1, true]);
+  store.undo();
+  store.undo();
+  assert.deepEqual([store.state.plant, store.state.canUndo, kp()], [null, false, 1]);
+  store.redo();
+  store.set({ view: 'design' });
+  assert.deepEqual([store.state.canUndo, store.state.canRedo], [true, false]);
+  store.undo();
+  assert.deepEqual([store.state.plant, kp()], ['a', 30]);
+  store.set({ view: 'plant' });
+  store.redo();
+  assert.equal(store.state.plant, 'b');
+});
+
+test('what is typed of a plant before its field is left is one step, and the same in another order is none', () => {
+  store.set({ view: 'plant' });
+  for (const plant of ['A:1', 'A:2', 'A:3']) store.editPlant(plant, 'text 0');
+  assert.equal(store.busy, true);
+  store.commit();
+  assert.equal(store.busy, false);
+  store.editPlant('A:4::B:1', 'text 0');
+  store.commit();
+  store.editPlant('B:1::A:4');
+  assert.equal(store.state.plant, 'A:4::B:1');
+  store.undo();
+  assert.equal(store.state.plant, 'A:3');
+  store.undo();
+  assert.equal(store.state.plant, null);
+});
+
+test('pinned plants are four at most, none twice, each with a letter of its own', () => {
+  const letters = () => store.state.plantPins.map(({ index, plant }) => `${index}${plant}`);
+  store.addPlantPins([{ plant: 'A:1' }, { index: 3, plant: 'A:2' }, { index: 0, plant: 'A:3' }, { plant: 'A:1' }]);
+  assert.deepEqual(letters(), ['0A:1', '3A:2', '1A:3']);
+  const [first] = store.state.plantPins;
+  store.changePlantPin(first.id, { refused: 'no' });
+  store.unpinPlant(store.state.plantPins[1].id);
+  store.addPlantPins([{ plant: 'A:5' }, { plant: 'A:6' }, { plant: 'A:7' }]);
+  assert.deepEqual(letters(), ['0A:1', '1A:3', '2A:5', '3A:6']);
+  assert.deepEqual([store.state.plantPins[0].refused, store.state.canUndo], ['no', false]);
+});
