@@ -3,9 +3,10 @@
  * @typedef {import('./wish.js').Wish} Wish
  * @typedef {import('./wish.js').Weights} Weights
  */
-import { say } from '../text/index.js';
-import { check, h, setText } from '../ui/index.js';
+import { say, t } from '../text/index.js';
+import { check, h, setAttr, setText } from '../ui/index.js';
 import { Line } from './line.js';
+import { methodName } from './wish.js';
 import { reader } from './numbers.js';
 import { polesIn, polesLine } from './poles.js';
 
@@ -75,7 +76,7 @@ export class Controls {
   offer(methods) {
     if (this.methods.length || !methods.length) return;
     this.methods = methods;
-    this.method.append(...methods.map(({ name, title }) => h('option', { value: name }, title)));
+    this.method.append(...methods.map((own) => h('option', { value: own.name }, methodName(own))));
   }
 
   /** @param {string} name of a method @returns {Partial<import('../contract.js').Method>} */
@@ -85,12 +86,13 @@ export class Controls {
 
   /** @param {Wish} wish @param {{n: number, p: number, q: number}} sizes q: 0 where there is no C */
   show(wish, sizes) {
-    const { weighted, integrates, places_poles } = this.about(wish.method);
+    const { title, weighted, integrates, places_poles } = this.about(wish.method);
     this.#given = wish.weights;
     this.sizes = sizes;
     this.poles.set(polesLine(wish.poles));
     setText(this.poles.label, places_poles === false ? 'Poles, rad/s (LQR chooses its own)' : 'Poles, rad/s');
     this.method.value = wish.method;
+    setAttr(this.method, 'title', t(title ?? ''));
     this.states.node.hidden = this.inputs.node.hidden = !weighted;
     this.integrals.node.hidden = !integrates || !sizes.q;
     const { states, inputs, integrals } = this.#weights;

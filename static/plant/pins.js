@@ -9,7 +9,7 @@ import { say, significant, t } from '../text/index.js';
 import { button, copyButton, h, keepingFocus } from '../ui/index.js';
 import { matlabText, plantIn } from './link_text.js';
 import { polesLine } from './poles.js';
-import { bodyOf, fitting } from './wish.js';
+import { bodyOf, fitting, methodName } from './wish.js';
 
 const COLUMNS = ['Pin', 'Poles, rad/s', 'Method', '‖K‖', 'K'];
 
@@ -105,8 +105,8 @@ export class Pins {
   /** @param {PlantPin} pin @param {readonly import('../contract.js').Method[]} methods */
   #row({ id, index, plant, design, refused }, methods) {
     const letter = letterOf(index);
-    const by = plantIn(plant)?.method;
-    const method = methods.find((own) => own.name === by)?.title ?? by ?? '';
+    const by = plantIn(plant)?.method ?? '';
+    const method = methodName(methods.find((own) => own.name === by) ?? { name: by });
     const cells = design
       ? [
           h('td', { translate: 'no' }, polesLine(design.poles)),

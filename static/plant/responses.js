@@ -75,6 +75,7 @@ export class Responses {
         onStart(x0);
       },
     });
+    this.start.node.classList.add('plant-start');
     this.start.input.title = 'One number per state, as 1 0 0 0 or [1; 0; 0; 0]; empty: 1 for the first';
     const select = (/** @type {string} */ label, /** @type {string} */ testid) =>
       h('select', { 'aria-label': label, 'data-testid': testid, onchange: () => this.#draw() });

@@ -6,10 +6,14 @@
  * @typedef {{poles: Complex[], observer: Complex[]|null, method: string, weights: Weights|null,
  *   x0: number[]|null}} Wish  null: no observer; ones; 1 for the first state
  */
+import { nameOf } from '../model/index.js';
 import { proposal } from './poles.js';
 
 /** @type {Wish} */
 export const NO_WISH = { poles: [], observer: null, method: 'full-rank', weights: null, x0: null };
+
+/** In few words. @param {{name: string, title?: string}} method */
+export const methodName = ({ name, title }) => nameOf({ method: name, title });
 
 /** @param {SystemRead} read */
 export const sizesOf = ({ matrices: { A, B, C } }) => ({
