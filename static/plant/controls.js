@@ -90,7 +90,7 @@ export class Controls {
     this.#given = wish.weights;
     this.sizes = sizes;
     this.poles.set(polesLine(wish.poles));
-    setText(this.poles.label, places_poles === false ? 'Poles, rad/s (LQR chooses its own)' : 'Poles, rad/s');
+    setText(this.poles.label, places_poles === false ? 'Poles (LQR chooses its own)' : 'Poles, rad/s');
     this.method.value = wish.method;
     setAttr(this.method, 'title', t(title ?? ''));
     this.states.node.hidden = this.inputs.node.hidden = !weighted;

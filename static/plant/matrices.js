@@ -17,6 +17,7 @@ export class NumberMatrix {
     this.letters = letters;
     /** @type {number[][]} */ this.values = [];
     this.table = h('table', { class: 'matrix plant-matrix', 'data-testid': `plant-${name}` });
+    this.about = h('span', { class: 'caption' }, about);
     this.node = h(
       'figure',
       { class: 'plant-number' },
@@ -24,7 +25,7 @@ export class NumberMatrix {
         'figcaption',
         {},
         h('b', { translate: 'no' }, name),
-        h('span', { class: 'caption' }, about),
+        this.about,
         copyButton(`plant-${name}`, () => (this.values.length ? [{ name, matrix: this.values }] : [])),
       ),
       h('div', { class: 'sideways', tabindex: 0, role: 'group', 'aria-label': about }, this.table),

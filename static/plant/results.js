@@ -12,6 +12,8 @@ import { polesLine } from './poles.js';
 
 const LONG = 240; // characters of LaTeX from which on a matrix is shown entry by entry
 const LARGE = /\d{7}/; // a number that nobody reads
+/** The law where references are not weighed by F. @type {Record<string, string>} */
+const FED = { integral: 'u = −Kx + K_z ∫ (r − y) dt', inputs: 'u = −Kx + v' };
 const SIGNS = { error: '✕', warning: '!', info: 'i' };
 
 export class Results {
@@ -24,7 +26,7 @@ export class Results {
     ) => new NumberMatrix(name, letters, about, exact);
     this.K = matrix('K', ['u', 'x'], 'u = −Kx + F r');
     this.L = matrix('L', ['x', 'y'], 'x̂′ = Ax̂ + Bu + L (y − ŷ)');
-    this.Kz = matrix('K_z', ['u', 'z'], 'of ∫ (r − y) dt');
+    this.Kz = matrix('K_z', ['u', 'z'], 'of the integrated errors');
     this.F = matrix('F', ['u', 'r'], 'how references enter');
     this.T = matrix('T', ['z', 'x'], 'x̄ = Tx, Luenberger’s canonical form', true);
     this.Q = matrix('Q', ['u', 'u'], 'the nonzero rows of TB', true);
@@ -87,8 +89,9 @@ export class Results {
     this.K.show(design?.K);
     this.Kz.show(design?.K_z);
     this.L.show(design?.observer?.L);
-    this.F.show(design?.scaling === 'inputs' ? undefined : design?.F);
+    this.F.show(FED[design?.scaling ?? ''] ? undefined : design?.F);
     if (!design) return;
+    setText(this.K.about, FED[design.scaling] ?? 'u = −Kx + F r');
     const parts = [
       say`Closed loop: ${polesLine(design.poles)} rad/s.`,
       design.pole_error === undefined

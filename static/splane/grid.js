@@ -9,6 +9,8 @@ import { bounds, DAMPING, rayEnd, toPixel } from './math.js';
 
 const WN_DIRECTION = [Math.cos(0.87), Math.sin(0.87)];
 
+const LABEL = 36; // px: how wide a damping ratio is
+
 /** @param {number} step */
 const decimalsOf = (step) => Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
 
@@ -67,12 +69,16 @@ export function drawGrid(layer, view, pattern = 'hatch') {
         ),
       );
   }
+  let [free, low] = [x0, 0]; // where the next damping ratio has room: left of that along the top, below it along the side
   for (const zeta of DAMPING) {
     const end = rayEnd(view, zeta);
     if (!end) continue;
     const [x, y] = end;
     nodes.push(svg('path', { class: 'grid', d: `M ${x} ${y} L ${x0} ${y0} L ${x} ${2 * y0 - y}` }));
     const atTop = y < 1;
+    if (atTop ? x + 4 + LABEL > free : y < low) continue;
+    if (atTop) free = x;
+    else low = y + 18;
     nodes.push(
       svg('text', { class: 'zeta-label', x: atTop ? x + 4 : 5, y: atTop ? 12 : y + 13 }, `ζ ${fixed(zeta, 1)}`),
     );

@@ -112,6 +112,102 @@ def test_letters_observer_methods_and_formulas(plant: Page):
     plant.get_by_test_id("plant-R").fill("0.01")
     plant.get_by_test_id("plant-R").press("Enter")
     expect(plant.get_by_test_id("plant-plane").locator(".loop-poles path")).to_have_count(2)
+    expect(plant.get_by_test_id("plant-Q_z")).to_be_hidden()
+    plant.get_by_test_id("plant-method").select_option("lqr-integral")
+    expect(plant.get_by_test_id("plant-plane").locator(".loop-poles path")).to_have_count(3)
+    shows(plant, "K_z", "10.000")  # the root of Q_z over R
+    entered(plant, "Q_z", "4")
+    shows(plant, "K_z", "20.000")
+    entered(plant, "Q_z", "0")
+    expect(plant.locator("#plant-Q_z-error")).to_contain_text("from")
+
+
+def entered(page: Page, field: str, text: str) -> None:
+    page.get_by_test_id(f"plant-{field}").fill(text)
+    page.get_by_test_id(f"plant-{field}").press("Enter")
+
+
+def test_undo_goes_back_in_the_plant_and_in_nothing_else(plant: Page):
+    undo, redo = plant.get_by_test_id("undo"), plant.get_by_test_id("redo")
+    poles, text = plant.get_by_test_id("plant-poles"), plant.get_by_test_id("plant-text")
+    first = text.input_value()
+    handle = plant.get_by_test_id("plant-pole-0")
+    handle.click()  # moves nothing
+    expect(undo).to_be_disabled()
+    commented = SPRING + "  % a spring"
+    typed(plant, commented.replace("m = 2", "m = 3"))
+    expect(plant.get_by_test_id("plant-letter-m")).to_have_value("3")
+    typed(plant, commented)  # and is one step with what was typed before
+    expect(poles).to_have_value("−1 ± 2j")
+    expect(plant.get_by_test_id("plant-letter-m")).to_have_value("2")
+    entered(plant, "poles", "-3, -4")
+    entered(plant, "x0", "[2; -1]")
+    at = handle.bounding_box()
+    plant.mouse.move(at["x"] + at["width"] / 2, at["y"] + at["height"] / 2)
+    plant.mouse.down()
+    plant.mouse.move(at["x"] + 20, at["y"] + at["height"] / 2, steps=6)
+    plant.mouse.up()
+    expect(poles).not_to_have_value("−3, −4")
+    dragged = poles.input_value()
+    view(plant, "design")
+    expect(undo).to_be_disabled()
+    view(plant, "plant")
+    plant.keyboard.press("Control+z")
+    expect(poles).to_have_value("−3, −4")
+    expect(plant.get_by_test_id("plant-x0")).to_have_value("2 −1")
+    undo.click()
+    expect(plant.get_by_test_id("plant-x0")).to_have_value("1 0")
+    undo.click()
+    expect(poles).to_have_value("−1 ± 2j")
+    expect(text).to_have_value(commented)
+    shows(plant, "K", "7.0000", "3.0000")
+    undo.click()
+    expect(text).to_have_value(first)
+    expect(undo).to_be_disabled()
+    for _ in range(4):
+        plant.keyboard.press("Control+Shift+Z")
+    expect(poles).to_have_value(dragged)
+    expect(text).to_have_value(commented)
+    expect(redo).to_be_disabled()
+    plant.go_back()
+    expect(poles).to_have_value("−3, −4")
+
+
+def test_a_response_begins_where_one_says(plant: Page):
+    typed(plant, "A = [0 1; 0 0]; B = [0; 1]; C = [1 0]; p = [-1 -2]")
+    shows(plant, "K", "2.0000", "3.0000")
+    entered(plant, "x0", "0 -5")
+    expect(plant.get_by_test_id("plant-time-view")).to_have_value("initial")
+    plant.get_by_test_id("plant-y").locator("[tabindex]").focus()
+    plant.keyboard.press("Home")
+    expect(plant.get_by_test_id("plant-y").locator(".value").nth(1)).to_have_text(re.compile("−5"))
+    expect(plant.get_by_test_id("plant-u").locator(".value").first).to_have_text(re.compile("15"))  # −K x₀
+    entered(plant, "x0", "1 2 3")
+    expect(plant.locator("#plant-x0-error")).to_contain_text("3")
+    entered(plant, "x0", "")
+    expect(plant.get_by_test_id("plant-x0")).to_have_value("1 0")
+
+
+def test_pins_are_in_the_link_and_outlast_a_reload(chromium: Browser, app: App, plant: Page):
+    typed(plant, SPRING)
+    shows(plant, "K", "7.0000", "3.0000")
+    plant.get_by_test_id("plant-pin").click()
+    entered(plant, "poles", "-3, -4")
+    shows(plant, "K", "21.000", "13.000")
+    plant.wait_for_function("() => /p:-3,-4.*&plant\\.pin=0~p:-1\\+2j,-1-2j$/.test(location.hash)")
+    with opened(chromium, plant.url) as other:
+        pins = plant_of(other).get_by_test_id("plant-pins")
+        expect(pins.locator("tbody tr")).to_have_count(1)
+        expect(pins).to_contain_text("7.000 3.000")
+        other.get_by_test_id("plant-use-A").click()
+        shows(other, "K", "7.0000", "3.0000")
+        other.keyboard.press("Control+z")
+        shows(other, "K", "21.000", "13.000")
+        other.reload()
+        expect(plant_of(other).get_by_test_id("plant-pins")).to_contain_text("7.000 3.000")
+        other.get_by_test_id("plant-remove-A").click()
+        other.wait_for_function("() => !location.hash.includes('pin')")
+        expect(pins).to_be_hidden()
 
 
 def test_pins_links_and_files(chromium: Browser, app: App, plant: Page, tmp_path: Path):
