@@ -6,8 +6,8 @@
  * pitch, k_p, T_i of yaw. `rig`: the name of a rig of one's own; `set.…`: parameters; `limits.…`; `step.…`: references;
  * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`,
  * `lag`, `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`.
- * `plant`: any system; `plant.pin`: another that is kept, by what differs from it. `view`: the view, `at`: the place on the page. A part that cannot be read is named and left out;
- * the rest is restored.
+ * `plant`: any system; `plant.pin`: another that is kept, by what differs from it. `view`: the view, `at`: the place on
+ * the page. A part that cannot be read is named and left out; the rest is restored.
  *
  * The format is part of the page's contract: a change that an old reader would misread takes a new version, and the
  * reader of the old one stays.
@@ -20,7 +20,8 @@
  * @typedef {Pick<State, 'view'|'motion'|'showLinear'|'showMarks'|'showLag'|'spread'|'requirements'|'locks'> &
  *   Partial<Pick<State, 'plant'>>} Shown
  * @typedef {{index: number, plant: string}} PinnedPlant
- * @typedef {{design?: Design, shown?: Shown, pins?: PinnedDesign[], plantPins?: PinnedPlant[], place?: string, trouble: Trouble[]}} Link
+ * @typedef {{design?: Design, shown?: Shown, pins?: PinnedDesign[], plantPins?: PinnedPlant[], place?: string,
+ *   trouble: Trouble[]}} Link
  * @typedef {{presets: Preset[], methods: {name: string}[]}} Known
  */
 import {
@@ -28,13 +29,13 @@ import {
   differences,
   escaped,
   leafOf,
+  objection,
   polesLink,
   polesOf,
   polesTrouble,
   setLeaf,
   unescaped,
 } from './link_values.js';
-import { objection } from './objection.js';
 import {
   asking,
   designOf,

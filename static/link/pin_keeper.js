@@ -1,6 +1,6 @@
 /**
- * Computes what pinned designs come to, and keeps them over a reload of the tab, with pinned plants. Pins stand in the tab's storage in the
- * words of a link, so that an older page's are read as an older link is.
+ * Computes what pinned designs come to, and keeps them over a reload of the tab, with pinned plants. Pins stand in the
+ * tab's storage in the words of a link, so that an older page's are read as an older link is.
  * @typedef {import('../types.js').State} State
  */
 import { evaluationOf } from '../model/index.js';

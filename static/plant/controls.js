@@ -5,9 +5,8 @@
  */
 import { say, t } from '../text/index.js';
 import { check, h, setAttr, setText } from '../ui/index.js';
-import { Line } from './line.js';
+import { Line, reader } from './line.js';
 import { methodName } from './wish.js';
-import { reader } from './numbers.js';
 import { polesIn, polesLine } from './poles.js';
 
 const LEAST = 1e-12; // of a weight that must not be 0

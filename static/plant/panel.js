@@ -1,7 +1,7 @@
 /**
  * Any plant: a system is pasted, its poles are dragged, and its gains, responses and formulas stand beside them. What
- * the server says of the system is asked once per text, what it says of a design with every move. What is chosen goes to
- * the store as a link has it, and comes from there: by undo, Back, a link, a pin.
+ * the server says of the system is asked once per text, what it says of a design with every move. What is chosen goes
+ * to the store as a link has it, and comes from there: by undo, Back, a link, a pin.
  * @typedef {import('../types.js').Problem} Problem
  * @typedef {import('../contract.js').SystemRead} SystemRead
  * @typedef {import('../contract.js').SystemDesign} SystemDesign

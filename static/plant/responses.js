@@ -6,8 +6,7 @@
 import { DEGREE, inField, say, t } from '../text/index.js';
 import { h, setText } from '../ui/index.js';
 import { Curves } from './curves.js';
-import { Line as Field } from './line.js';
-import { reader } from './numbers.js';
+import { Line as Field, reader } from './line.js';
 
 const LETTERS = '₀₁₂₃₄₅₆₇₈₉';
 /** @param {string} name @param {number} i from 0 */

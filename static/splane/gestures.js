@@ -6,8 +6,7 @@
  * @typedef {{x: number, y: number}} Point  pixels of the view
  */
 import { dragHandle, handlesOf, nudgeHandle, pairAlone, tidy } from '../model/index.js';
-import { actOf } from './keys.js';
-import { pick, pinch, toPixel, toPlane, zoom } from './math.js';
+import { actOf, pick, pinch, toPixel, toPlane, zoom } from './math.js';
 
 export const REACH = 28; // px: how near a press must be to take a pole
 const SNAP = 9; // px: how near the real axis a complex pair turns real

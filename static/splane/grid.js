@@ -69,7 +69,7 @@ export function drawGrid(layer, view, pattern = 'hatch') {
         ),
       );
   }
-  let [free, low] = [x0, 0]; // where the next damping ratio has room: left of that along the top, below it along the side
+  let [free, low] = [x0, 0]; // where the next damping ratio has room: left of it, below it
   for (const zeta of DAMPING) {
     const end = rayEnd(view, zeta);
     if (!end) continue;

@@ -1,5 +1,4 @@
 /** What other rooms may import of splane/. */
 export { drawGrid } from './grid.js';
-export { actOf } from './keys.js';
-export { fit, keyStep, outgrown, pick, pinch, toPixel, toPlane, zoom } from './math.js';
+export { actOf, fit, keyStep, outgrown, pick, pinch, toPixel, toPlane, zoom } from './math.js';
 export { SPlane } from './splane.js';

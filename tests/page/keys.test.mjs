@@ -2,8 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { actOf } from '../../static/splane/keys.js';
-import { keyStep } from '../../static/splane/math.js';
+import { actOf, keyStep } from '../../static/splane/math.js';
 
 const VIEW = { cx: -2, cy: 0, scale: 40, width: 400, height: 300 };
 const step = keyStep(VIEW);

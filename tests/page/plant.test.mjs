@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { powerOfTen, rangeOf, resampled } from '../../static/plant/curves.js';
 import { linkText, matlabText, plantIn, withLetter } from '../../static/plant/link_text.js';
-import { numbersIn, reader } from '../../static/plant/numbers.js';
+import { numbersIn, reader } from '../../static/plant/line.js';
 import { designOf } from '../../static/plant/pins.js';
 import { conjugateOf, moved, polesIn, polesLine, polesWord, proposal } from '../../static/plant/poles.js';
 import { bodyOf, fitting, NO_WISH } from '../../static/plant/wish.js';
