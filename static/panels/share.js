@@ -77,7 +77,7 @@ export class ShareButtons {
       address.value = `${location.origin}${location.pathname}${location.search}${link()}`;
       const left = [...(pins.length ? ['&pin='] : []), ...(plantPins.length ? ['&plant.pin='] : [])];
       const missing = left.some((part) => !link().includes(part))
-        ? ` The pins are left out: with them the link would exceed ${MOST}.`
+        ? ` Pins are left out: with them the link would exceed ${MOST}.`
         : '';
       setText(words, `${address.value.length} characters.${missing}`);
     };

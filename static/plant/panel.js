@@ -311,14 +311,13 @@ export class PlantPanel {
     this.#design = design;
     this.results.design(design);
     this.results.remark([...read.findings, ...design.findings]);
-    this.pin.disabled = this.pins.full;
     this.#drawWish();
     this.#drawCurves();
   }
 
   #drawCurves() {
     if (this.#design) this.responses.show(this.#design, this.pins.designs, this.#wish.x0);
-    this.pin.disabled = this.pins.full || !this.#design;
+    this.pin.disabled = !this.#design || this.pins.refuses(this.#plant);
   }
 
   #pinned() {

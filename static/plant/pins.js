@@ -3,7 +3,7 @@
  * them as links do; what each comes to is computed here where it is not known.
  * @typedef {import('../types.js').PlantPin} PlantPin
  */
-import { letterOf, MOST_PLANTS } from '../model/index.js';
+import { letterOf, MOST_PLANTS, samePlant } from '../model/index.js';
 import { call, ProblemError } from '../net/index.js';
 import { say, significant, t } from '../text/index.js';
 import { button, copyButton, h, keepingFocus } from '../ui/index.js';
@@ -64,8 +64,9 @@ export class Pins {
     );
   }
 
-  get full() {
-    return this.#shown.length >= MOST_PLANTS;
+  /** Whether there is no room for it, or no need. @param {string} plant */
+  refuses(plant) {
+    return this.#shown.length >= MOST_PLANTS || this.#shown.some((pin) => samePlant(pin.plant, plant));
   }
 
   /** Those that are computed. */
