@@ -48,7 +48,9 @@ def seconds(value: float | None) -> str:
 
 
 def percent(share: float) -> str:
-    """A share, in percent; below one percent with a decimal."""
+    """A share, in percent; below one percent with a decimal, and never as none where it is not."""
+    if 0 < share < 0.0005:
+        return "< 0.1 %"
     return f"{fixed(100 * share, 1 if share < 0.01 else 0)} %"
 
 

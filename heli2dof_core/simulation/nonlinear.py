@@ -34,7 +34,7 @@ from ..kernels.layout import (
 from ..loop import Loop
 from ..scenario import Limits, Scenario
 from ..scratch import FOLLOWED_TWICE
-from ..signals import INPUTS, Floats
+from ..signals import AXES, INPUTS, Floats
 from .augmented import inner_start, more_constants, own_states
 from .experiment import NOTHING, experiment
 from .response import Measured, Response, course_response, end_of_course, room
@@ -189,7 +189,8 @@ def _remarks(x: Sequence[float], course: Sequence[float]) -> Iterator[Finding]:
             yield Finding(
                 f"saturation_{signal.name}",
                 "warning",
-                f"The {signal.meaning} is at its limit of ±{x[BOUND + i]:g} V for {100 * share:.0f} % of the time.",
+                f"The {signal.meaning} is at its limit of ±{x[BOUND + i]:g} V for {_share(share)} of "
+                f"{_what_is_stepped(x)}.",
             )
     travel = x[STOP]
     if abs(x[START]) > travel:
@@ -211,3 +212,16 @@ def _remarks(x: Sequence[float], course: Sequence[float]) -> Iterator[Finding]:
 
 def _stop(travel: float) -> str:
     return f"±{degrees(travel):.1f}°"
+
+
+def _share(share: float) -> str:
+    """In percent as tables write it, and never 0 where something is."""
+    return "less than 0.1 %" if share < 0.0005 else f"{100 * share:.{1 if share < 0.01 else 0}f} %"
+
+
+def _what_is_stepped(x: Sequence[float]) -> str:
+    """The experiment by its steps: tables tell each axis' step alone."""
+    stepped = [axis for i, axis in enumerate(AXES) if x[REFERENCE + i] != x[START + i]]
+    if len(stepped) == 1:
+        return f"the {stepped[0]} step"
+    return "the time while both axes step at once" if stepped else "the time"

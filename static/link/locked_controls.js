@@ -29,7 +29,7 @@ export class LockedControls {
 
   /** After the panels, which enable what their own state allows. @param {import('../types.js').State} state */
   render({ locks }) {
-    for (const name of locks) {
+    for (const name of locks.filter((lock) => LOCKS[lock].controls)) {
       for (const control of this.root.querySelectorAll(LOCKS[name].controls))
         if (!(/** @type {HTMLInputElement} */ (control).disabled) || !control.hasAttribute('data-locked'))
           this.#lock(/** @type {HTMLInputElement} */ (control));

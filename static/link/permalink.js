@@ -24,12 +24,12 @@
  *   trouble: Trouble[]}} Link
  * @typedef {{presets: Preset[], methods: {name: string}[]}} Known
  */
+import { objection } from './objections.js';
 import {
   at,
   differences,
   escaped,
   leafOf,
-  objection,
   polesLink,
   polesOf,
   polesTrouble,

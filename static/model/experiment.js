@@ -25,6 +25,9 @@ export const DIGITAL = standardOf('scenario.digital');
 /** Of a rig that says nothing of its own. @type {Encoders} */
 export const ENCODERS = standardOf('scenario.digital.encoders');
 
+/** What a disturbance is in what it does not say. @type {Required<Disturbance>} */
+const UNDISTURBED = standardOf('scenario.disturbance');
+
 /** What the server's cloud of uncertain rigs does not know. */
 const NOT_IN_CLOUD = ['digital', 'disturbance'];
 
@@ -149,7 +152,7 @@ function digitalWords({ digital }) {
 /** @param {Scenario} scenario @returns {string[]} */
 function disturbanceWords({ disturbance }) {
   if (!disturbance) return [];
-  const { V_p, V_y, time: at } = disturbance;
+  const { V_p, V_y, time: at } = { ...UNDISTURBED, ...disturbance };
   const volts = [V_p && `${significantShort(V_p)} V (pitch)`, V_y && `${significantShort(V_y)} V (yaw)`]
     .filter(Boolean)
     .join(', ');

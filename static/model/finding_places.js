@@ -3,7 +3,7 @@
  * @typedef {import('../types.js').Finding} Finding
  * @typedef {import('../types.js').State} State
  */
-import { percent, say, t } from '../text/index.js';
+import { say, share, t } from '../text/index.js';
 import { AXES, verdictOf } from './requirements.js';
 
 const testid = (/** @type {string} */ name) => `[data-testid="${name}"]`;
@@ -90,11 +90,8 @@ export function remarksOf({ reply, problem }) {
   const remark = (/** @type {Finding|undefined} */ f, /** @type {string} */ text) =>
     f ? { text: `${f.severity === 'error' ? '✕' : '▲'} ${text}`, severity: f.severity, message: f.message } : null;
   const motor = (/** @type {'V_p'|'V_y'} */ name) => {
-    const share = reply?.step.nonlinear.metrics?.[name]?.saturated ?? 0;
-    return remark(
-      first(findings, [`saturation_${name}`]),
-      share > 0 ? say`at limit ${percent(share, share < 0.01 ? 1 : 0)}` : t('at limit'),
-    );
+    const part = reply?.step.nonlinear.metrics?.[name]?.saturated ?? 0;
+    return remark(first(findings, [`saturation_${name}`]), part > 0 ? say`at limit ${share(part)}` : t('at limit'));
   };
   const stop = first(findings, ['reference_beyond_stop', 'travel_stop', 'starts_on_stop']);
   const unstable = first(findings, [

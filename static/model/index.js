@@ -43,7 +43,7 @@ export {
   withObserverPoles,
   withRotorPole,
 } from './handles.js';
-export { lockNames, LOCKS } from './locks.js';
+export { hidesRemarks, lockNames, LOCKS } from './locks.js';
 export { inverseOf, mixingOf } from './loop_values.js';
 export { COUPLINGS, LEADS, STRUCTURES } from './method_names.js';
 export { bringsIntegralAction, FULL_RANK, keyOf, nameOf, partOf, placesPoles } from './methods.js';

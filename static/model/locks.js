@@ -2,7 +2,7 @@
  * What a link can lock, for a class: parts of the design that keep the values with which the link opened. Pure.
  * @typedef {import('../types.js').Design} Design
  * @typedef {{name: string, keys: (keyof Design)[], controls: string}} Lock controls: where the page changes them, as a
- *   selector
+ *   selector; empty: nowhere
  */
 import { OUTER, ROTORS, STRUCTURE } from './quantities.js';
 
@@ -35,7 +35,11 @@ export const LOCKS = {
   observer: { name: 'observer', keys: ['observer'], controls: '.pole.observer, [data-field^=observer]' },
   scenario: { name: 'steps', keys: ['scenario'], controls: '#scenario [data-field^=scenario]' },
   requirements: { name: 'requirements', keys: [], controls: '.asked input' }, // they are no part of the design
+  remarks: { name: 'remarks (hidden)', keys: [], controls: '' }, // what a class is to find out is not told
 };
+
+/** Whether remarks on the design are kept back. @param {{locks?: string[]}} state */
+export const hidesRemarks = ({ locks }) => locks?.includes('remarks') === true;
 
 /**
  * The change, but for what is locked; the design itself where nothing is left of the change.

@@ -33,7 +33,7 @@ export function nameOf(way) {
 
 /**
  * Whether the poles in the s-plane are those that the method gives the loop.
- * @param {import('../types.js').State} state
+ * @param {Pick<import('../types.js').State, 'design'|'methods'>} state
  */
 export function placesPoles({ design, methods }) {
   return methods.find((m) => m.name === design?.method)?.places_poles !== false;

@@ -2,7 +2,7 @@
  * How well it does, in figures: one column for the step of each axis, from the nonlinear rig; the linear model's in
  * parentheses where they differ.
  */
-import { brief, differs, percent, say, t } from '../text/index.js';
+import { brief, differs, say, share, t } from '../text/index.js';
 import {
   AXES,
   AXIS,
@@ -34,7 +34,7 @@ const OPEN = 'figures';
 /** The share of time at the limit. @param {Motors|undefined} m @param {Motor} name @returns {string|undefined} */
 function limitText(m, name) {
   const saturated = m?.[name]?.saturated ?? 0;
-  return saturated > 0 ? `limit ${percent(saturated, saturated < 0.01 ? 1 : 0)}` : undefined;
+  return saturated > 0 ? `limit ${share(saturated)}` : undefined;
 }
 
 /** The peak, or the share of time at the limit. @param {Motors|undefined} m @param {Motor} name */

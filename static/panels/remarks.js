@@ -2,7 +2,7 @@
  * Findings where they concern: a few words at the loops and in the captions of the plots, in room that is kept for
  * them.
  */
-import { remarksOf } from '../model/index.js';
+import { hidesRemarks, remarksOf } from '../model/index.js';
 import { h, setAttr, setText } from '../ui/index.js';
 
 /** After which element each stands. */
@@ -24,8 +24,8 @@ export class Remarks {
   }
 
   /** @param {import('../types.js').State} state */
-  render({ reply, problem }) {
-    const remarks = remarksOf({ reply, problem });
+  render({ reply, problem, locks }) {
+    const remarks = remarksOf({ reply: hidesRemarks({ locks }) ? null : reply, problem });
     for (const { name, node } of this.spots) {
       const remark = remarks[name];
       setText(node, remark?.text ?? '');

@@ -16,13 +16,15 @@ import {
   numeralOf,
   pairAlone,
   partner,
+  placesPoles,
 } from '../model/index.js';
 import { h, setText } from '../ui/index.js';
 import { toPixel } from './math.js';
 
 const NAMES = ['pitch', 'yaw'];
 
-/** @typedef {Pick<import('../types.js').State, 'design'|'reply'|'answered'|'requirements'|'view'|'motion'>} Known */
+/** @typedef {Pick<import('../types.js').State, 'design'|'methods'|'reply'|'answered'|'requirements'|'view'|
+ *   'motion'>} Known */
 
 /** The figures of a motion in few words. @param {number|undefined} settling @param {number|undefined} overshoot */
 const figures = (settling, overshoot) =>
@@ -35,7 +37,7 @@ const figures = (settling, overshoot) =>
  * @param {import('../types.js').Complex} [to] where the PI loops take it
  * @returns {string[]}
  */
-export function readoutLines({ design, reply, requirements, view, motion }, index, to) {
+export function readoutLines({ design, methods, reply, requirements, view, motion }, index, to) {
   const p = design && handlesOf(design)[index];
   if (!design || !p) return [];
   const pair = axisOf(index);
@@ -55,6 +57,8 @@ export function readoutLines({ design, reply, requirements, view, motion }, inde
         ? t('alone: grows, unstable')
         : say`errors of the estimate die away in ${seconds(settling)}`,
     ];
+  const name = two ? say`${NAMES[pair]} poles ${first}, ${second}` : say`${NAMES[pair]} pole ${numeralOf(index)}`;
+  if (!placesPoles({ design, methods })) return [name, ...own, t('not used: the method chooses its own poles')];
   const axis = AXES[pair];
   const metrics = reply?.axis_steps?.[axis]?.nonlinear.metrics?.[axis];
   const guide = isAsked(requirements) ? guideWords(p, requirements) : '';
@@ -67,7 +71,7 @@ export function readoutLines({ design, reply, requirements, view, motion }, inde
         ? say`not settled, overshoot ${fixed(metrics.overshoot, 0)} %`
         : figures(metrics.settling_time, metrics.overshoot);
   return [
-    two ? say`${NAMES[pair]} poles ${first}, ${second}` : say`${NAMES[pair]} pole ${numeralOf(index)}`,
+    name,
     ...own,
     settling === undefined ? t('alone: grows, unstable') : say`alone: ${figures(settling, overshoot)}`,
     pi && to ? say`with PI: goes to ${pairText(to)} rad/s` : '',

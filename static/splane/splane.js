@@ -185,8 +185,8 @@ export class SPlane {
   }
 
   /** What is read beside the pole in question. @param {State} state */
-  renderReadout({ design, reply, answered, requirements, view, motion }) {
-    this.readout.write({ design, reply, answered, requirements, view, motion }, this.#active, this.#target());
+  renderReadout({ design, methods, reply, answered, requirements, view, motion }) {
+    this.readout.write({ design, methods, reply, answered, requirements, view, motion }, this.#active, this.#target());
   }
 
   /** Where the PI loops take the pole in question; of what is shown last, as all figures are. */

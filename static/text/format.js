@@ -34,7 +34,7 @@ export function significant(v, digits = 4) {
  * @param {string} text with one number in it
  */
 export const brief = (text) =>
-  text.replace(/\d{3,}(?:\.\d+)?|\d\d\.\d\d+/, (v) =>
+  text.replace(/(?<![\d.])(?:\d{3,}(?:\.\d+)?|\d\d\.\d\d+)/, (v) =>
     Number(v) >= 99999.5
       ? Number(v).toExponential(0).replace('e+', 'e')
       : Number(v) < 99.95
@@ -117,6 +117,9 @@ export const poleText = (p, name) => `${name}: ${complex(p, 1)} rad/s`;
 
 /** @param {number|undefined} share 0…1 */
 export const percent = (share, decimals = 0) => (share === undefined ? '–' : `${fixed(100 * share, decimals)} %`);
+
+/** A share that is not none, and never reads as none. @param {number} part 0…1 */
+export const share = (part) => (part < 0.0005 ? '< 0.1 %' : percent(part, part < 0.01 ? 1 : 0));
 
 /** @param {number|undefined} ratio */
 export const decibel = (ratio) =>

@@ -14,6 +14,7 @@ export {
   parseComplex,
   parseNumber,
   percent,
+  share,
   polesText,
   poleText,
   seconds,

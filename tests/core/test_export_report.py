@@ -14,7 +14,7 @@ from heli2dof_core import PRESETS, OuterLoop, PoleSet, Scenario, Spec, Structure
 from heli2dof_core.evaluate import Report
 from heli2dof_core.export import FORMATS
 from heli2dof_core.export.report import _templates
-from heli2dof_core.export.report_figures import decibel, fixed, seconds, significant
+from heli2dof_core.export.report_figures import decibel, fixed, percent, seconds, significant
 from heli2dof_core.export.svg import HEIGHT, LEFT, WIDTH, Curve, chart, number, thinned, ticks
 from heli2dof_core.findings import Finding
 
@@ -170,6 +170,9 @@ def test_the_curves_are_both_steps_by_both_models():
         (seconds(0.0017), "1.7 ms"),
         (seconds(1.5), "1.50 s"),
         (decibel(2.0), "6.0 dB"),
+        (percent(0.0003), "< 0.1 %"),
+        (percent(0.004), "0.4 %"),
+        (percent(0.0), "0.0 %"),
     ],
 )
 def test_numbers_are_written_as_on_the_page(told: str, expected: str):

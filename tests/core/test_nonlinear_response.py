@@ -16,6 +16,7 @@ from heli2dof_core.compiled import accelerations
 from heli2dof_core.engine import engine
 from heli2dof_core.kernels import rig as kernel
 from heli2dof_core.kernels.layout import PAPER, WORKSPACE
+from heli2dof_core.scenario import Disturbance
 from heli2dof_core.simulation.linear import simulate_linear
 from heli2dof_core.simulation.nonlinear import NonlinearLoop, simulate_nonlinear
 from tests.reference import Reference
@@ -133,8 +134,25 @@ def test_voltages_keep_their_limits_and_the_share_is_told(design):
     share = np.mean(np.abs(response.voltages) >= [[24 * (1 - 1e-9)], [15 * (1 - 1e-9)]], axis=1)
     assert response.saturated == pytest.approx(share, abs=2 / 501)  # the samples' share is coarser
     assert {"saturation_V_p", "saturation_V_y"} <= {f.code for f in response.findings}
+    both = next(f.message for f in response.findings if f.code == "saturation_V_p")
+    assert both.endswith(f"for {100 * response.saturated[0]:.1f} % of the time while both axes step at once.")
     free = simulate_nonlinear(close_loop(design), LIMITS, Scenario(theta=0.6, psi=1.5, saturation=False))
     assert np.max(np.abs(free.voltages[0])) > 24
+
+
+@pytest.mark.parametrize(
+    ("scenario", "motor", "words"),
+    [
+        (Scenario(theta=0.6), 0, "0.8 % of the pitch step"),
+        (Scenario(theta=0.39), 0, "less than 0.1 % of the pitch step"),
+        (Scenario(psi=1.5), 1, "3 % of the yaw step"),
+        (Scenario(disturbance=Disturbance(V_p=60.0)), 0, "99 % of the time"),
+    ],
+)
+def test_the_share_at_a_limit_says_of_which_step_and_is_never_none(design, scenario, motor, words):
+    response = simulate_nonlinear(close_loop(design), LIMITS, scenario)
+    assert response.saturated[motor] > 0
+    assert any(f.message.endswith(f"V for {words}.") for f in response.findings)
 
 
 def test_anti_windup_lowers_the_overshoot(design):

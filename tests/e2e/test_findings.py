@@ -138,3 +138,23 @@ def test_a_place_whose_room_is_still_loading_is_led_to_when_it_is_there(chromium
         expect(note).to_be_focused()
         held[0].continue_()
         expect(visit.page.get_by_test_id("show-lag")).to_be_focused()
+
+
+def test_a_link_for_a_class_keeps_back_why_and_not_whether(page: Page, app: App):
+    """What is to be found out is not told: remarks; what is asked for is: stability, requirements, refusals."""
+    link = "#v1&p=-4,-5,-2,-3&req.settling=1"
+    reopened(page, app.url + link)
+    expect(page.get_by_test_id("remark-loops")).not_to_be_empty()
+    reopened(page, app.url + f"{link}&lock=remarks")
+    expect(page.get_by_test_id("verdict")).to_contain_text("Unstable")
+    told = page.locator("#strip .all li")
+    expect(told).to_have_count(1)
+    expect(told).to_have_attribute("data-code", "requirement_missed")
+    for spot in ("loops", "V_p", "V_y", "theta"):
+        expect(page.get_by_test_id(f"remark-{spot}")).to_be_empty()
+    reopened(page, app.url + "#v1&lock=remarks")
+    expect(page.get_by_test_id("findings")).to_contain_text("Remarks on this design are hidden by the link")
+    page.get_by_test_id("method").select_option("ackermann")
+    expect(page.get_by_test_id("findings")).to_contain_text("Choose a method for several inputs.")
+    page.get_by_test_id("share").click()
+    expect(page.get_by_test_id("lock-remarks")).to_be_checked()

@@ -261,3 +261,17 @@ def drag_without_answer(page: Page, testid: str, dx: float) -> None:
     page.mouse.down()
     page.mouse.move(x + dx, y, steps=6)
     page.mouse.up()
+
+
+def test_half_a_disturbance_opens_and_a_field_that_there_is_not_is_told(page: Page, app: App):
+    reopened(
+        page, app.url + "#v1&scenario.disturbance.V_p=2&scenario.disturbance.at=1&scenario.digital.delay=true"
+    )
+    expect(page.get_by_test_id("notice")).to_contain_text(
+        "scenario.disturbance.at (no field of an experiment)"
+    )
+    expect(page.get_by_test_id("fault")).to_be_hidden()
+    expect(page.get_by_test_id("experiment-words")).to_have_text(
+        "digital rig, 2 ms, one sample late · disturbance 2 V (pitch) at 0 s"
+    )
+    assert state(page)["problem"] is None

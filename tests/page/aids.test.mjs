@@ -86,8 +86,8 @@ test('a share at the limit shows a decimal below one percent alone, so that it n
       problem: null,
     }).V_p.text;
   assert.deepEqual(
-    [0.004, 0.0099, 0.01, 0.011, 1].map(said),
-    ['0.4 %', '1.0 %', '1 %', '1 %', '100 %'].map((share) => `▲ at limit ${share}`),
+    [0.0004, 0.004, 0.0099, 0.01, 0.011, 1].map(said),
+    ['< 0.1 %', '0.4 %', '1.0 %', '1 %', '1 %', '100 %'].map((share) => `▲ at limit ${share}`),
   );
   assert.equal(said(0), '▲ at limit'); // no share of the samples is known
 });

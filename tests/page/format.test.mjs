@@ -39,6 +39,10 @@ test('a figure beside another is brief where it is large', () => {
     ['99.97 V', '100 V'],
     ['\u2212285.6°', '\u2212286°'],
     ['99999.4', '99999'],
+    ['0.00051', '0.00051'], // digits behind a point are no number of their own
+    ['0.0123 V', '0.0123 V'],
+    ['\u22120.000999', '\u22120.000999'],
+    ['1.2345', '1.2345'],
     ['123456.0 V', '1e5 V'],
     ['–', '–'],
   ])

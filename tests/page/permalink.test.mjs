@@ -18,10 +18,16 @@ import {
 } from '../../static/link/link_values.js';
 import { LOCKS } from '../../static/model/locks.js';
 import { samePlant } from '../../static/model/plant_pins.js';
+import { QUANTITIES } from '../../static/model/quantities.js';
 import { NONE } from '../../static/model/requirements.js';
 import { designOf, initialState } from '../../static/model/store.js';
 import { VIEWS } from '../../static/model/views.js';
 import { KNOWN, PRESETS } from './presets.mjs';
+
+/** What the link's code knows of by this list alone. */
+const OF_EXPERIMENTS = Object.entries(QUANTITIES).filter(
+  ([path]) => path.startsWith('scenario.') && path !== 'scenario.duration',
+);
 
 /** Numbers from 0 to 1, the same at every run (mulberry32). */
 function seeded(seed) {
@@ -59,15 +65,8 @@ function generator(seed) {
   };
   const words = () =>
     pick(['slow', 'A & B = 100 %?', "#~,;:/'()!*", 'größer λ₁₁', 'dot.', '10', 'true', '', '2 + 2', '~p=1,2']);
-  const any = (depth = 0) =>
-    pick([
-      () => number(-9, 9),
-      () => chance(0.5),
-      () => null,
-      words,
-      () => [1, 'a', null],
-      () => (depth < 2 ? { inner: any(depth + 1), second: any(depth + 1) } : 3),
-    ])();
+  const valueOf = ({ words: some, standard }) =>
+    some ? pick(some) : typeof standard === 'boolean' ? chance(0.5) : number(-9, 9);
   const design = () => {
     const preset = pick(PRESETS);
     const d = designOf(preset);
@@ -90,8 +89,8 @@ function generator(seed) {
     if (chance(0.4)) Object.assign(d, { place_rotors: true, rotor_poles: [number(-40, 2), -positive()] });
     if (chance(0.4))
       d.observer = { poles: [...pair(), ...pair()], method: pick(['full-rank', 'kalman']), angle_noise: positive() };
-    for (const name of ['disturbance', 'digital', 'anti_windup'])
-      if (chance(0.3)) d.scenario = { ...d.scenario, [name]: any() }; // unknown to the link's code
+    d.scenario = structuredClone(d.scenario);
+    for (const [path, quantity] of OF_EXPERIMENTS) if (chance(0.1)) setLeaf(d, path, valueOf(quantity));
     return d;
   };
   const state = () => ({

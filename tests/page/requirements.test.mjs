@@ -110,10 +110,15 @@ test("a pole's tip says both, alone and with PI, and the guide without a verdict
   assert.equal(guideWords({ re: -1, im: 9 }, both), 'slower and less damped');
   const poles = [{ re: -12, im: 0 }, { re: -2, im: 0 }, ...pair(-5, 20)];
   const reply = replyOf({ settling_time: 2.96, overshoot: 65.2 }, { overshoot: 3 });
-  const lines = (outer, index, r, to) =>
+  const methods = [
+    { name: 'full-rank', places_poles: true },
+    { name: 'lqr', places_poles: false },
+  ];
+  const lines = (outer, index, r, to, method = 'full-rank') =>
     readoutLines(
       {
-        design: { poles, outer, scenario: {} },
+        design: { poles, outer, method, scenario: {} },
+        methods,
         reply,
         answered: null,
         requirements: r,
@@ -139,6 +144,12 @@ test("a pole's tip says both, alone and with PI, and the guide without a verdict
     '',
   ]);
   assert.doesNotMatch(lines('pi', 1, both).join(), /✓|✕/);
+  assert.deepEqual(lines('pi', 1, both, undefined, 'lqr'), [
+    'pitch pole 2',
+    '−2.00 rad/s',
+    'ζ 1.00   ωₙ 2.00 rad/s',
+    'not used: the method chooses its own poles',
+  ]);
 });
 
 test('requirements are no part of the design: undo leaves them', () => {
