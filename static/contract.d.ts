@@ -386,10 +386,14 @@ export interface Evidence {
   mathml?: string;
 }
 
-/** A design, an experiment, and the designs that stand beside it in a report. */
+/** A design, an experiment, and what stands beside them in a report. */
 export interface ExportRequest extends StepRequest {
   /** listed in the report with their figures; other formats leave them out */
   pins?: PinnedDesign[];
+  /** judged in the report */
+  required?: Required;
+  /** whether the report tells the findings */
+  remarks?: boolean;
 }
 
 /** A redrawn figure; t in s. */
@@ -1225,6 +1229,16 @@ export interface Reference {
   theta?: number | null;
   /** yaw reference, rad; at rest at the operating point (θ₀, 0) where left out */
   psi?: number | null;
+}
+
+/** What is asked of the rig's steps, each axis alone, and of its loop. */
+export interface Required {
+  /** settling time, at most, s */
+  settling?: number | null;
+  /** overshoot, at most, % */
+  overshoot?: number | null;
+  /** lag margin, at least, s */
+  lag?: number | null;
 }
 
 /** As a step request, and what the reply shall hold besides. */

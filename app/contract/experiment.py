@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from heli2dof_core import Loop, Spec
+from heli2dof_core import Loop
 from heli2dof_core.errors import within_field
 from heli2dof_core.evaluate import Step as CoreStep
+from heli2dof_core.export import Beside
 from heli2dof_core.figures import AXIS, MOTOR, STEP
 from heli2dof_core.figures import LOOP as FIGURES_OF_LOOP
 from heli2dof_core.judged import Judged
@@ -93,8 +94,16 @@ class PinnedDesign(StepRequest):
     name: str = Field(min_length=1, max_length=60, description="what its row is called")
 
 
+class Required(Model):
+    """What is asked of the rig's steps, each axis alone, and of its loop."""
+
+    settling: float | None = Field(default=None, gt=0, le=1e3, description="settling time, at most, s")
+    overshoot: float | None = Field(default=None, ge=0, le=100, description="overshoot, at most, %")
+    lag: float | None = Field(default=None, gt=0, le=10, description="lag margin, at least, s")
+
+
 class ExportRequest(StepRequest):
-    """A design, an experiment, and the designs that stand beside it in a report."""
+    """A design, an experiment, and what stands beside them in a report."""
 
     pins: list[PinnedDesign] = Field(
         default_factory=list,
@@ -102,8 +111,11 @@ class ExportRequest(StepRequest):
         description="listed in the report with their figures; other formats leave them out",
     )
 
-    def beside(self) -> list[tuple[str, Spec]]:
-        """The core's specs of the pins, by their names.
+    required: Required = Field(default_factory=Required, description="judged in the report")
+    remarks: bool = Field(default=True, description="whether the report tells the findings")
+
+    def beside(self) -> Beside:
+        """What a report has beside the design.
 
         Raises:
             Heli2DofError: as `to_spec`.
@@ -112,7 +124,7 @@ class ExportRequest(StepRequest):
         for i, pin in enumerate(self.pins):
             with within_field(f"pins.{i}"):
                 found.append((pin.name, pin.to_spec()))
-        return found
+        return Beside(found, present(self.required.model_dump()), self.remarks)
 
 
 class ResponseRequest(StepRequest):

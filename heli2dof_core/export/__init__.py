@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from ..checks import by_name
 from . import c_controller, matlab_data, matlab_script, python_script, report, responses_csv
-from .format import Format
+from .format import Beside, Format
 
 _ALL = (
     python_script.FORMAT,
@@ -25,4 +25,4 @@ _ALL = (
 FORMATS = by_name(_ALL)
 """Formats by name."""
 
-__all__ = ["FORMATS", "Format"]
+__all__ = ["FORMATS", "Beside", "Format"]

@@ -2,14 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Protocol
 
 from ..spec import Spec
 
 Pins = Sequence[tuple[str, Spec]]
 """Other designs, by their names."""
+
+
+@dataclass(frozen=True)
+class Beside:
+    """What stands beside a design in a file for people.
+
+    Attributes:
+        pins: other designs.
+        required: what is asked of the rig's steps and of its loop, by a figure's short name (`Figure.key`), in the
+            figure's unit: at most where lower is better, else at least.
+        remarks: whether the findings are told.
+    """
+
+    pins: Pins = ()
+    required: Mapping[str, float] = field(default_factory=dict)
+    remarks: bool = True
+
+
+NOTHING = Beside()
 
 
 class Render(Protocol):
@@ -29,10 +48,10 @@ class Render(Protocol):
 
 
 class RenderBeside(Protocol):
-    """Writes a design with others beside it."""
+    """Writes a design with something beside it."""
 
-    def __call__(self, spec: Spec, link: str = "", pins: Pins = ()) -> str | bytes:
-        """As `Render`; `pins` are the others."""
+    def __call__(self, spec: Spec, link: str = "", beside: Beside = NOTHING) -> str | bytes:
+        """As `Render`."""
         ...
 
 
@@ -47,7 +66,7 @@ class Format:
         media_type: as in Content-Type.
         render: makes the file.
         stem: of the file's name; the files name one another by it, and MATLAB wants an identifier.
-        beside: makes the file where others stand beside the design; None where it has no room for them.
+        beside: makes the file with what stands beside the design; None where it has no room for that.
     """
 
     name: str
@@ -63,7 +82,7 @@ class Format:
         """Of the file."""
         return self.stem + self.suffix
 
-    def content(self, spec: Spec, link: str = "", pins: Pins = ()) -> bytes:
-        """The file as bytes; `pins` are left out where it has no room for them."""
-        made = self.beside(spec, link, pins) if pins and self.beside else self.render(spec, link)
+    def content(self, spec: Spec, link: str = "", beside: Beside = NOTHING) -> bytes:
+        """The file as bytes; what is `beside` is left out where it has no room for it."""
+        made = self.beside(spec, link, beside) if self.beside else self.render(spec, link)
         return made.encode() if isinstance(made, str) else made

@@ -18,12 +18,13 @@ from ..signals import AXES, INPUTS, OUTPUTS, ROTORS, Floats
 from ..simulation.response import Response
 from ..spec import Spec
 from ..templates import templates_beside
-from .format import Format
+from .format import NOTHING, Beside, Format
 from .origin import origin, preset_of
 from .report_figures import margins, merit
 from .report_formulas import formulas
 from .report_machine import words
-from .report_pins import Pins, pinned
+from .report_pins import pinned
+from .report_required import required
 from .report_style import STYLE
 from .svg import Curve, Marks, chart, number, pole_map
 
@@ -33,12 +34,14 @@ if TYPE_CHECKING:  # would be imported before the first page
 _NAMES = ("p₁", "p₂", "p₃", "p₄", "p₅", "p₆")
 
 
-def render(spec: Spec, link: str = "", pins: Pins = ()) -> str:
-    """The page; figures and words are those of `evaluate`; `pins` are other designs by their names."""
+def render(spec: Spec, link: str = "", beside: Beside = NOTHING) -> str:
+    """The page; figures and words are those of `evaluate`."""
     report, preset = evaluate(spec, each_axis=True), preset_of(spec)
     rig = words(spec, report)
     # what makes it long: rows of pins, a machine's tables and words, six states' formulas
-    load = bool(pins) + bool(rig["machine"] or rig["feedback"]) + (report.design.rotor_poles is not None)
+    load = (
+        bool(beside.pins) + bool(rig["machine"] or rig["feedback"]) + (report.design.rotor_poles is not None)
+    )
     return (
         _templates()
         .get_template("report.html.jinja")
@@ -64,7 +67,9 @@ def render(spec: Spec, link: str = "", pins: Pins = ()) -> str:
             origin=origin(spec, FORMAT.name, link),
             rig=rig,
             load=load,
-            pins=pinned(pins),
+            pins=pinned(beside.pins),
+            required=required(report, beside.required),
+            remarks=beside.remarks,
         )
     )
 

@@ -31,6 +31,13 @@ const pinsOf = (pins) =>
       name: `${letterOf(index)} ${name}`.slice(0, MOST_NAME),
     }));
 
+/** What a report has beside the design. @param {import('../types.js').State} state */
+const beside = ({ pins, requirements, locks }) => ({
+  pins: pinsOf(pins),
+  required: requirements,
+  remarks: !locks.includes('remarks'),
+});
+
 /** @param {import('../model/store.js').Store} store @param {import('../link/address.js').Address} address */
 function menu(store, address) {
   const told = h('p', { class: 'told', role: 'status', 'data-testid': 'export-told' });
@@ -43,7 +50,7 @@ function menu(store, address) {
       return await exportDesign(name, `${location.origin}${location.pathname}${location.search}${address.link}`, {
         ...bodyOf(design),
         scenario: scenarioOf(design),
-        ...(name === 'report' ? { pins: pinsOf(store.state.pins) } : {}),
+        ...(name === 'report' ? beside(store.state) : {}),
       });
     } catch (error) {
       setText(told, messageOf(error));

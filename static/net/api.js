@@ -190,7 +190,8 @@ export const motionFile = (format, design) => fileOf(`api/v1/motion?format=${for
  * A design for another program or for print.
  * @param {string} format
  * @param {string} link that opens it
- * @param {Asked<import('../contract.js').StepRequest> & {pins?: Asked<import('../contract.js').PinnedDesign>[]}} design
+ * @param {Asked<import('../contract.js').StepRequest> & {pins?: Asked<import('../contract.js').PinnedDesign>[],
+ *   required?: import('../types.js').Requirements, remarks?: boolean}} design
  */
 export const exportDesign = (format, link, design) =>
   fileOf(`api/v1/export/${format}?${new URLSearchParams({ link: link.replace(UNUSUAL, encodeURIComponent) })}`, design);

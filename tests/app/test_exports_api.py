@@ -125,6 +125,16 @@ def test_json_is_finite(client):
     json.loads(reply.text, parse_constant=pytest.fail)
 
 
+def test_requirements_stand_in_the_report_and_remarks_stay_away(client):
+    asked = {"settling": 0.8, "overshoot": None, "lag": 0.1}
+    report = client.post("/api/v1/export/report", json={**BODY, "required": asked, "remarks": False})
+    assert "Requirements" in report.text and "≤ 0.80 s" in report.text and "≥ 0.10 s" in report.text
+    assert "<h2>Findings</h2>" not in report.text
+    for wrong in ({"settling": 0}, {"overshoot": 101}, {"rise": 1}):
+        reply = client.post("/api/v1/export/report", json={**BODY, "required": wrong})
+        assert reply.status_code == 422 and reply.json()["field"] == f"required.{next(iter(wrong))}"
+
+
 def test_pins_stand_in_the_report_with_their_figures(client):
     slow = {"poles": [-8, -9, -10, -11], "name": "A <slow>"}
     unstable = {"poles": [{"re": -3, "im": 4}, {"re": -3, "im": -4}, -5, -6], "name": "B"}

@@ -12,7 +12,7 @@ from jinja2 import UndefinedError
 
 from heli2dof_core import PRESETS, OuterLoop, PoleSet, Scenario, Spec, Structure, evaluate, preset
 from heli2dof_core.evaluate import Report
-from heli2dof_core.export import FORMATS
+from heli2dof_core.export import FORMATS, Beside
 from heli2dof_core.export.report import _templates
 from heli2dof_core.export.report_figures import decibel, fixed, percent, seconds, significant
 from heli2dof_core.export.svg import HEIGHT, LEFT, WIDTH, Curve, chart, number, thinned, ticks
@@ -187,7 +187,8 @@ def test_fields_can_be_typed_in_without_a_script():
 
 
 def test_pins_are_rows_with_the_cores_figures():
-    text = FORMATS["report"].content(BASE, "", [("A", SPECS["aero"]), ("B <b>", SPECS["unstable"])]).decode()
+    beside = Beside([("A", SPECS["aero"]), ("B <b>", SPECS["unstable"])])
+    text = FORMATS["report"].content(BASE, "", beside).decode()
     page = tree(text)
     assert "Pinned designs" in [element.text for element in page.iter("h2")]
     rows = {row[0].text: [cell.text or "" for cell in row[1:]] for row in page.iter("tr")}
@@ -200,3 +201,44 @@ def test_pins_are_rows_with_the_cores_figures():
     volts = [max(m.motors[name].peak for m in steps) for name in ("V_p", "V_y")]
     assert rows["A"][4] == " · ".join(f"{v:.1f} V" for v in volts)
     assert rows["B <b>"][2] == "unstable"
+
+
+@pytest.mark.parametrize("name", ["default", "unstable", "aero", "at-rest", "lqr"])
+def test_requirements_are_judged_on_the_rigs_steps_and_its_loop(name: str):
+    spec, asked = SPECS[name], {"settling": 2.0, "overshoot": 5.0, "lag": 0.2}
+    page = _report(spec, asked)
+    found = {"Settling time": ["≤ 2.00 s"], "Overshoot": ["≤ 5.0 %"], "Lag margin": ["≥ 0.20 s", "", ""]}
+    report = evaluate(spec, each_axis=True)
+    for axis in ("theta", "psi"):
+        own = report.axis_steps.get(axis)
+        metrics = own and own["nonlinear"].metrics.axes[axis]
+        told = ["not stepped"] * 2
+        if metrics:
+            settled = metrics.settling_time is not None and metrics.settling_time <= 2.0
+            time = "not settled" if metrics.settling_time is None else seconds(metrics.settling_time)
+            told = [f"{'✓' if settled else '✕'} {time}"]
+            told += [f"{'✓' if metrics.overshoot <= 5.0 else '✕'} {fixed(metrics.overshoot, 1)} %"]
+        found["Settling time"].append(told[0])
+        found["Overshoot"].append(told[1])
+    margin = report.loop.lag_margin
+    short = margin is not None and margin < 0.2
+    known = "unlimited" if margin is None else seconds(margin)
+    found["Lag margin"].append("✕ unstable" if not report.loop.stable else f"{'✕' if short else '✓'} {known}")
+    for title, cells in found.items():
+        assert [*cells, ""][:4] in _rows(page, title)
+
+
+def test_without_remarks_the_report_has_no_findings():
+    heads = [
+        [element.text for element in tree(FORMATS["report"].content(BASE, "", own).decode()).iter("h2")]
+        for own in (Beside(), Beside(remarks=False))
+    ]
+    assert "Findings" in heads[0] and [head for head in heads[0] if head != "Findings"] == heads[1]
+
+
+def _report(spec: Spec, asked: dict[str, float]) -> ET.Element:
+    return tree(FORMATS["report"].content(spec, "", Beside(required=asked)).decode())
+
+
+def _rows(page: ET.Element, head: str) -> list[list[str]]:
+    return [[cell.text or "" for cell in row[1:]] for row in page.iter("tr") if row[0].text == head]
