@@ -1,4 +1,5 @@
 /** What other rooms may import of plots/. */
+export { RECORDED } from './export.js';
 export { draughtsman, linesMenu, pictureMenu, subtitle } from './menu.js';
 export { Plots } from './plots.js';
 export { drawNamedRules, drawShades } from './rules.js';
