@@ -123,6 +123,17 @@
     return !document.hidden;
   };
 
+  // Where the page scrolls, a wheel over the rig scrolls it; with Ctrl, as by a touchpad's pinch, it zooms all the same.
+  if (framed)
+    window.addEventListener(
+      'wheel',
+      (event) => {
+        const { scrollHeight, clientHeight } = window.parent.document.documentElement;
+        if (!event.ctrlKey && scrollHeight > clientHeight + 1) event.stopImmediatePropagation();
+      },
+      { capture: true, passive: true },
+    );
+
   if (!framed) {
     const script = document.createElement('script');
     script.type = 'module';
