@@ -168,8 +168,9 @@ def test_without_graphics_the_page_says_so_and_everything_else_works(chromium: B
 
 
 def test_over_the_rig_a_finger_and_a_wheel_scroll_the_page(chromium: Browser, app: App):
-    """Up and down the page moves, sideways the rig turns; where the page scrolls, a wheel zooms with Ctrl only."""
+    """Up and down the page moves, sideways the rig turns."""
     with opened(chromium, app.url, scene=UNDRAWN, size=(390, 844), has_touch=True, is_mobile=True) as page:
+        page.get_by_test_id("scene").scroll_into_view_if_needed()  # before that it is not loaded
         ready(page)
         screen = page.context.new_cdp_session(page)
 
@@ -196,12 +197,7 @@ def test_over_the_rig_a_finger_and_a_wheel_scroll_the_page(chromium: Browser, ap
         page.wait_for_function(f"(seen) => Math.abs(({CAMERA})()[1] - seen[1]) > 0.2", arg=seen)
         assert page.evaluate("scrollY") == before
         page.mouse.move(*middle())
-        before = page.evaluate("scrollY")
+        before, seen = page.evaluate("scrollY"), page.evaluate(CAMERA)
         page.mouse.wheel(0, 60)
         page.wait_for_function("(before) => scrollY > before + 40", arg=before)
-        page.mouse.move(*middle())
-        before, seen = page.evaluate("scrollY"), page.evaluate(CAMERA)
-        page.keyboard.down("Control")
-        page.mouse.wheel(0, -100)
-        page.wait_for_function(f"(seen) => Math.abs(({CAMERA})()[2] - seen[2]) > 0.02", arg=seen)
-        assert page.evaluate("scrollY") == before
+        assert page.evaluate(CAMERA) == seen
