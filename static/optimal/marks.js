@@ -4,7 +4,7 @@
  */
 import { inField, poleText, polesText, say, t } from '../text/index.js';
 import { setAttr, setText, svg } from '../ui/index.js';
-import { inSight } from '../splane/index.js';
+import { inSight } from './edge.js';
 
 const SHAPES = {
   optimal: 'M 9 0 L 4.5 7.8 L -4.5 7.8 L -9 0 L -4.5 -7.8 L 4.5 -7.8 Z', // a hexagon

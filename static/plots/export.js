@@ -11,9 +11,6 @@ import { t as word } from '../text/index.js';
 import { isVoltage, letterOf, trace, tracesOf } from '../model/index.js';
 import { ghostsOf } from './ghosts.js';
 
-/** Dashes of what was measured. */
-export const RECORDED = [9, 3, 2, 3];
-
 export const NAMES = { theta: 'theta', psi: 'psi', V_p: 'V_p', V_y: 'V_y' };
 export const TITLES = {
   theta: 'Pitch angle θ',

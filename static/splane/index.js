@@ -1,4 +1,4 @@
 /** What other rooms may import of splane/. */
 export { drawGrid } from './grid.js';
-export { fit, inSight, keyStep, outgrown, pick, pinch, toPixel, toPlane, zoom } from './math.js';
+export { fit, keyStep, outgrown, pick, pinch, toPixel, toPlane, zoom } from './math.js';
 export { SPlane } from './splane.js';

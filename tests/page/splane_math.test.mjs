@@ -3,18 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { niceStep, ticks } from '../../static/model/ticks.js';
-import {
-  bounds,
-  fit,
-  inSight,
-  outgrown,
-  pick,
-  pinch,
-  rayEnd,
-  toPixel,
-  toPlane,
-  zoom,
-} from '../../static/splane/math.js';
+import { bounds, fit, outgrown, pick, pinch, rayEnd, toPixel, toPlane, zoom } from '../../static/splane/math.js';
 
 const SIZE = { width: 400, height: 380 };
 const real = (...values) => values.map((re) => ({ re, im: 0 }));
@@ -132,16 +121,4 @@ test('two fingers keep what was between them between them', () => {
   const [before, now] = [toPlane(view, 150, 120), toPlane(after, 160, 190)];
   assert.ok(Math.hypot(before.re - now.re, before.im - now.im) < 1e-9);
   assert.deepEqual(pinch(view, [a, b], [a, b]), view);
-});
-
-test('a pole out of sight is marked at the edge, turned towards where it is', () => {
-  const view = { cx: -5, cy: 0, scale: 20, width: 400, height: 300 };
-  assert.deepEqual(inSight(view, { re: -6, im: 1 }, 10), { x: 180, y: 130, turn: null });
-  assert.deepEqual(inSight(view, { re: -60, im: 0 }, 10), { x: 10, y: 150, turn: 0 });
-  const right = inSight(view, { re: 40, im: 0 }, 10);
-  assert.deepEqual([right.x, right.y, Math.abs(right.turn)], [390, 150, 180]);
-  const above = inSight(view, { re: -5, im: 90 }, 10);
-  assert.deepEqual([above.x, above.y, above.turn], [200, 10, 90]);
-  const below = inSight(view, { re: -60, im: -60 }, 10);
-  assert.ok(below.x === 10 && below.y === 290 && below.turn < 0 && below.turn > -90);
 });
