@@ -1,8 +1,9 @@
 /** A picture of lines for a report: title, axes with units, legend; on white, whatever the page's own colours. */
 import { inField } from '../text/index.js';
 import { niceStep, ticks } from '../model/index.js';
+import { RECORDED } from '../charts/index.js';
 import { drawGhosts } from './ghosts.js';
-import { hatch, namePlaces, RECORDED } from './rules.js';
+import { hatch, namePlaces } from './rules.js';
 
 /**
  * @typedef {import('./export.js').Line} Line

@@ -56,9 +56,6 @@ export function rulesOf(reply, signal) {
     : rules;
 }
 
-/** Dashes of what was measured. */
-export const RECORDED = [9, 3, 2, 3];
-
 const SETTLED = 0.02; // of the step
 // of the step: how thick what is forbidden is drawn, as the other axis' step has its line in the same plot
 const WALL = 0.25;

@@ -1,8 +1,7 @@
 /** The recording in the main plots and as a ghost of the rig, aligned with the design's steps. */
 import { DEGREE } from '../text/index.js';
 import { isVoltage } from '../model/index.js';
-import { ink } from '../charts/index.js';
-import { RECORDED } from '../plots/index.js';
+import { ink, RECORDED } from '../charts/index.js';
 import { check, h, NumberField, pictureScale, setText } from '../ui/index.js';
 import { alignedTrace, alignmentWords, stepsOf, stepWords } from './alignment.js';
 
