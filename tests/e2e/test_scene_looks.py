@@ -188,9 +188,10 @@ def test_over_the_rig_a_finger_and_a_wheel_scroll_the_page(chromium: Browser, ap
             screen.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
 
         middle()
-        before = page.evaluate("scrollY")
+        before, seen = page.evaluate("scrollY"), page.evaluate(CAMERA)
         swipe(0, 90)
         page.wait_for_function("(before) => scrollY > before + 40", arg=before)
+        assert page.evaluate(CAMERA) == seen
         middle()
         before, seen = page.evaluate("scrollY"), page.evaluate(CAMERA)
         swipe(100, 0)
