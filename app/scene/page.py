@@ -34,11 +34,13 @@ html[data-theme=dark] .window-notes { color: #e6e9ec; }
 .window-notes p { margin: 0; }
 .window-time { white-space: pre; }
 """
-# In the page's frame, viser's panel (a bottom sheet in narrow windows), its notices and its logo are hidden.
+# In the page's frame, viser's panel (a bottom sheet in narrow windows), its notices and its logo are hidden, and a
+# finger that goes up or down moves the page: sideways it turns the rig, two of them zoom.
 _BARE = """
 html[data-place=frame] :is([data-floating-window], [data-dock-region], .mantine-Notifications-root,
   .mantine-ScrollAreaAutosize-root, .mantine-Paper-root) { display: none !important; }
 .mantine-Notifications-root { top: auto !important; bottom: 0; }
+html[data-place=frame] * { touch-action: pan-y !important; }
 """
 _INJECTED = (
     "<title>heli2dof: the rig</title>\n"

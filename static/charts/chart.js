@@ -9,6 +9,8 @@
 import uPlot from '../vendor/uplot/uPlot.esm.js';
 import { followsPage, h, pictureScale } from '../ui/index.js';
 
+/** Dashes of what was measured, on the page and in pictures. */
+export const RECORDED = [9, 3, 2, 3];
 const THEMES = ['(prefers-color-scheme: dark)', '(prefers-contrast: more)'];
 
 /** @type {Map<string, string>} */ const inks = new Map();

@@ -1,2 +1,2 @@
 /** What other rooms may import of charts/. */
-export { chartBody, ink, makeChart, readByKeys, readIndex, readingFigure, scaled } from './chart.js';
+export { chartBody, ink, makeChart, RECORDED, readByKeys, readIndex, readingFigure, scaled } from './chart.js';

@@ -47,7 +47,7 @@ const CHARTS = [
     id: 'dominance',
     title: 'Off-diagonal over diagonal',
     range,
-    rule: { value: 1, label: 'below 1: diagonally dominant', above: true },
+    rule: { value: 1, label: 'below 1: dominant', above: true },
     series: [
       {
         kind: 'series-0',

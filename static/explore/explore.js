@@ -81,7 +81,7 @@ export class Explore {
       'p',
       { class: 'gain', 'data-testid': 'explore-K', title: 'A row of K, at the poles as they are: volts per radian' },
       this.motor,
-      this.volts.map(({ k, state }) => [k, state]).flat(),
+      this.volts.map(({ k, state }) => h('span', { class: 'term' }, k, state)),
     );
     root.append(
       h(

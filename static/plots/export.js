@@ -3,12 +3,12 @@
  * @typedef {import('../types.js').State} State
  * @typedef {import('../types.js').Series} Series
  * @typedef {import('../model/traces.js').Signal} Signal
- * @typedef {'pitch'|'yaw'|'played'|'pin'|'series-0'|'series-1'} Kind
+ * @typedef {'pitch'|'yaw'|'played'|'pin'|'recorded'|'series-0'|'series-1'} Kind
  * @typedef {{name: string, kind: Kind, linear?: boolean, index?: number, axis?: 'theta'|'psi', t: Series, values:
  *   Series}} Line
  */
 import { t as word } from '../text/index.js';
-import { isVoltage, letterOf, tracesOf } from '../model/index.js';
+import { isVoltage, letterOf, trace, tracesOf } from '../model/index.js';
 import { ghostsOf } from './ghosts.js';
 
 export const NAMES = { theta: 'theta', psi: 'psi', V_p: 'V_p', V_y: 'V_y' };
@@ -29,7 +29,7 @@ export const unitOf = (signal) => (isVoltage(signal) ? 'V' : 'deg');
  * @param {Signal} signal
  * @returns {Line[]}
  */
-export function linesOf({ reply, motion, showLinear, pins }, signal) {
+export function linesOf({ reply, motion, showLinear, pins, beside }, signal) {
   if (!reply) return [];
   const { t, plots } = tracesOf(reply, motion, showLinear);
   const [played, linearPitch, linearYaw, yaw, pitch, rotorYaw, rotorPitch] = plots[signal];
@@ -38,7 +38,8 @@ export function linesOf({ reply, motion, showLinear, pins }, signal) {
     /** @type {Kind} */ kind,
     /** @type {Series|undefined} */ values,
     linear = false,
-  ) => (values ? [{ name: word(name), kind, linear, t, values }] : []);
+    own = t,
+  ) => (values ? [{ name: word(name), kind, linear, t: own, values }] : []);
   const ghosts = ghostsOf(pins, signal).map(
     ({ pin, axis, t: own, values }) =>
       /** @type {Line} */ ({
@@ -58,6 +59,7 @@ export function linesOf({ reply, motion, showLinear, pins }, signal) {
     ...line('rotor’s speed, pitch step', 'pitch', rotorPitch, true),
     ...line('rotor’s speed, yaw step', 'yaw', rotorYaw, true),
     ...ghosts,
+    ...(beside?.plotted ? line('recorded', 'recorded', trace(beside, signal, false), false, beside.t) : []),
     ...(motion === 'both' ? line(STEPS.both, 'played', played) : []),
   ];
 }

@@ -1,8 +1,9 @@
 /** A picture of lines for a report: title, axes with units, legend; on white, whatever the page's own colours. */
 import { inField } from '../text/index.js';
 import { niceStep, ticks } from '../model/index.js';
+import { RECORDED } from '../charts/index.js';
 import { drawGhosts } from './ghosts.js';
-import { hatch } from './rules.js';
+import { hatch, namePlaces } from './rules.js';
 
 /**
  * @typedef {import('./export.js').Line} Line
@@ -26,7 +27,7 @@ import { hatch } from './rules.js';
  * @typedef {(Line & {style?: undefined})|{t: ArrayLike<number>, values: ArrayLike<number>, style: Style}} Styled
  */
 
-/** style.css's, sharing.css's and compare.css's own for a light page. @type {Record<string, string>} */
+/** style.css's, sharing.css's, recordings.css's and compare.css's own for a light page. @type {Record<string, string>} */
 const LIGHT = {
   panel: '#ffffff',
   ink: '#18222a',
@@ -37,6 +38,7 @@ const LIGHT = {
   halo: '#dcdedf',
   danger: '#b3261e',
   warn: '#8a5a00',
+  recorded: '#3f6b12',
   'limit-fill': '#fbeeed',
   'series-0': '#16726b',
   'series-1': '#7a4bb0',
@@ -66,6 +68,7 @@ function styleOf({ kind, linear, index = 0, axis }) {
   if (kind === 'pin') return { color: LIGHT[`pin-${index % 6}`], width: axis === 'theta' ? 1.6 : 1.1, dash: [] };
   const color = LIGHT[kind];
   if (kind === 'series-0' || kind === 'series-1') return { color, width: 2, dash: kind === 'series-0' ? [] : [7, 4] };
+  if (kind === 'recorded') return { color, width: 1.6, dash: RECORDED };
   if (linear) return { color, width: 1.25, dash: kind === 'pitch' ? [7, 4] : [2, 3] };
   return { color, width: kind === 'pitch' ? 2.4 : 1.5, dash: [] };
 }
@@ -178,8 +181,12 @@ export function paint(ctx, picture) {
   ctx.translate(box.left, 0);
   badges();
   ctx.restore();
-  for (const { value, label: words, danger } of rules) {
-    if (value < y.range[0] || value > y.range[1]) continue;
+  const seen = rules.filter(({ value }) => value >= y.range[0] && value <= y.range[1]);
+  const middles = namePlaces(
+    seen.map(({ value }) => ({ value: y.log ? -1 : value, y: py(value) })),
+    { gap: 9, high: 14, top: box.top, bottom: box.bottom },
+  );
+  for (const [i, { value, label: words, danger }] of seen.entries()) {
     stroke(
       ctx,
       {
@@ -190,14 +197,7 @@ export function paint(ctx, picture) {
       px,
       py,
     );
-    label(
-      words,
-      box.right - 4,
-      py(value) + (value > 0 && !y.log ? 9 : -9),
-      'right',
-      '11px',
-      danger ? LIGHT.danger : LIGHT.ink,
-    );
+    label(words, box.right - 4, middles[i], 'right', '11px', danger ? LIGHT.danger : LIGHT.ink);
   }
   lines.forEach((line, i) => {
     const [left, top] = [box.left + (i % 3) * ((box.right - box.left) / 3), HEIGHT + 4 + 20 * Math.floor(i / 3)];

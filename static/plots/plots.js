@@ -218,8 +218,8 @@ export class Plots {
       const [played, dashPitch, dashYaw, yaw, pitch, ...rotors] = data.plots[signal];
       turning.hidden = !rotors.some(Boolean);
       this.#ranges[signal] = rangeOf({
-        solid: extent([played, yaw, pitch, ...rotors]),
-        dashed: extent([dashPitch, dashYaw, ghosts.extent, beside && trace(beside, signal, false)]),
+        solid: extent([played, yaw, pitch, ...rotors, beside && trace(beside, signal, false)]),
+        dashed: extent([dashPitch, dashYaw, ghosts.extent]),
         include: [0, referenceOf(state.reply, signal) ?? 0],
         limit: limitOf(state.reply, signal),
         previous: fresh ? undefined : this.#ranges[signal],

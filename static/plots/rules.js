@@ -154,6 +154,24 @@ export function rulesSeen(u, rules) {
   return rules.filter(({ value }) => value <= y.max && value >= y.min);
 }
 
+/**
+ * Where lines' names stand, so that none lies over another: towards zero from the own line, else beyond it, else farther
+ * away. Pure.
+ * @param {readonly {value: number, y: number}[]} lines y: downwards
+ * @param {{gap: number, high: number, top: number, bottom: number}} room gap: from a line to the middle of its name
+ * @returns {number[]} of their middles
+ */
+export function namePlaces(lines, { gap, high, top, bottom }) {
+  /** @type {number[]} */ const taken = [];
+  for (const { value, y } of lines) {
+    const side = value > 0 ? 1 : -1;
+    const all = [0, 1, 2, 3].flatMap((k) => [y + side * (gap + k * high), y - side * (gap + k * high)]);
+    const free = all.filter((at) => at - high / 2 >= top && at + high / 2 <= bottom);
+    taken.push(free.find((at) => taken.every((own) => Math.abs(own - at) >= high)) ?? all[0]);
+  }
+  return taken;
+}
+
 /** @param {Chart} u @param {Rule} rule */
 const heightOf = (u, { value }) => Math.round(u.valToPos(value, 'y', true));
 

@@ -3,9 +3,11 @@
  * canvas, they are laid out when they change, which in a drag is seldom, and not drawn anew with every line.
  */
 import { h } from '../ui/index.js';
+import { namePlaces } from './rules.js';
 
 const GAP = { x: 4, y: 5, rule: 3 }; // px at the usual size of type
 const FOOT = 4;
+const HIGH = 12; // a line of type with its paper
 
 /**
  * @typedef {import('./rules.js').Rule} Rule
@@ -62,18 +64,21 @@ export class PlotTexts {
   }
 
   /**
-   * At the right end of their lines, away from zero's side.
+   * At the right end of their lines.
    * @param {Rule[]} rules
    * @param {number} size
    * @returns {Text[]}
    */
   #rules(rules, size) {
-    const { right } = box(this.chart);
-    return rules.map(({ value, label, danger }) => ({
-      key: `rule ${value > 0 ? 'below' : 'above'} ${danger ? 'danger' : ''}`,
+    const { right, top, bottom } = box(this.chart);
+    const lines = rules.map(({ value }) => ({ value, y: heightOf(this.chart, value) }));
+    const high = HIGH * size;
+    const middles = namePlaces(lines, { gap: high / 2 + GAP.rule * size, high, top, bottom });
+    return rules.map(({ label, danger }, i) => ({
+      key: `rule ${danger ? 'danger' : ''}`,
       text: label,
       x: right - FOOT * size,
-      y: heightOf(this.chart, value) + (value > 0 ? 1 : -1) * GAP.rule * size,
+      y: middles[i],
     }));
   }
 }

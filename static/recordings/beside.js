@@ -1,11 +1,9 @@
 /** The recording in the main plots and as a ghost of the rig, aligned with the design's steps. */
 import { DEGREE } from '../text/index.js';
 import { isVoltage } from '../model/index.js';
-import { ink } from '../charts/index.js';
+import { ink, RECORDED } from '../charts/index.js';
 import { check, h, NumberField, pictureScale, setText } from '../ui/index.js';
 import { alignedTrace, alignmentWords, stepsOf, stepWords } from './alignment.js';
-
-const DASH = [9, 3, 2, 3];
 
 export class Beside {
   /** @type {import('../contract.js').OverlayReply|null} */ #overlay = null;
@@ -127,7 +125,7 @@ export class Beside {
     ctx.clip();
     ctx.strokeStyle = ink('recorded');
     ctx.lineWidth = 1.6 * line;
-    ctx.setLineDash(DASH.map((v) => v * line));
+    ctx.setLineDash(RECORDED.map((v) => v * line));
     ctx.beginPath();
     const values = beside[signal];
     for (let i = 0; i < values.length; i++)

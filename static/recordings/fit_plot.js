@@ -143,6 +143,8 @@ export class FitPlot {
     const y = (/** @type {Shown} */ shown) => ({ y: { range: () => shown.range } });
     const cursor = { sync: { key: 'identification' } };
     const font = '12px';
+    /** In a low plot a number above zero, and one below. */
+    const low = { size: ROOM, space: 16 };
     this.#fit.u = makeChart(fit, {
       lines: LINES,
       data: this.#fit.data,
@@ -156,7 +158,7 @@ export class FitPlot {
       lines: [{ color: 'series-1', width: 1 }],
       data: this.#rest.data,
       scales: y(this.#rest),
-      axes: [{ gap: 6, size: 24 }, { size: ROOM }],
+      axes: [{ gap: 6, size: 24 }, low],
       font,
       cursor,
       hooks: { drawAxes: [(u) => this.#shade(u)], setCursor: [(u) => this.#read(u, this.#rest, [this.left], '°')] },
@@ -165,7 +167,7 @@ export class FitPlot {
       lines: [{ color: 'series-1', width: 0 }],
       data: this.#correlation.data,
       scales: y(this.#correlation),
-      axes: [{ gap: 6, size: 24 }, { size: ROOM }],
+      axes: [{ gap: 6, size: 24 }, low],
       font,
       hooks: {
         drawAxes: [(u) => this.#drawBand(u)],

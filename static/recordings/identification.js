@@ -48,9 +48,11 @@ export class IdentificationCard {
     );
     this.kept = h('span', { role: 'status', 'data-testid': 'recording-kept' });
     this.remarks = h('ul', { class: 'recording-remarks' });
+    this.title = h('h4', { tabindex: -1, 'data-testid': 'recording-found' }, 'What was found');
     this.result = h(
       'div',
       { class: 'fit-result', hidden: true },
+      this.title,
       h(
         'div',
         { class: 'fit-plots' },
@@ -135,6 +137,7 @@ export class IdentificationCard {
     const { busy, progress, found, foundFor } = recorded;
     this.#freeOf(design, presets);
     this.node.hidden = !mapped;
+    const led = [this.run, this.cancel].includes(/** @type {HTMLButtonElement} */ (document.activeElement));
     const searching = busy === 'Identifying…';
     this.run.disabled = searching;
     this.cancel.hidden = !searching;
@@ -142,8 +145,13 @@ export class IdentificationCard {
     setText(this.progress, searching ? progressWords(progress) : (spent ?? ''));
     this.result.hidden = !found;
     this.adopt.disabled = this.keep.disabled = Boolean(found) && foundFor?.preset !== design.preset;
-    if (found && found !== this.#shown) this.#show(found);
+    const fresh = found !== null && found !== this.#shown;
+    if (fresh) this.#show(found);
     this.#shown = found;
+    // Who began it by a key goes on from there: to what stops it, to what it found, or to begin again.
+    if (led && searching) this.cancel.focus();
+    else if (led && fresh) this.title.focus();
+    else if (led && document.activeElement !== this.run) this.run.focus();
   }
 
   /** @param {import('../types.js').Design} design @param {import('../types.js').Preset[]} presets */

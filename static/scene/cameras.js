@@ -10,7 +10,11 @@
 
 /** Name, text, explanation. @type {[CameraName, string, string][]} */
 export const CAMERAS = [
-  ['free', 'free', 'turn with the mouse, move with the right button, come closer with the wheel'],
+  [
+    'free',
+    'free',
+    'turn with the mouse, move with the right button, come closer with the wheel, with Ctrl where the page scrolls',
+  ],
   ['front', 'front', 'from ahead: yaw turns the nose to the left'],
   ['side', 'side', 'from the right: pitch lifts the nose'],
   ['top', 'top', 'from above, the nose up at ψ = 0'],

@@ -123,6 +123,32 @@
     return !document.hidden;
   };
 
+  // Over the rig a finger that goes up or down moves the page (touch-action), and so does a wheel, where the page
+  // scrolls: the rig turns once the finger has gone sideways, and comes closer by Ctrl, as a touchpad's pinch has it.
+  /** @type {Map<number, {x: number, y: number, turns: boolean}>} */
+  const fingers = new Map();
+  if (framed) {
+    const early = (/** @type {string[]} */ types, /** @type {(event: PointerEvent) => void} */ act) => {
+      for (const type of types)
+        window.addEventListener(type, /** @type {EventListener} */ (act), { capture: true, passive: true });
+    };
+    early(['pointerdown'], ({ pointerType, pointerId, clientX: x, clientY: y }) => {
+      if (pointerType === 'touch') fingers.set(pointerId, { x, y, turns: false });
+    });
+    early(['pointerup', 'pointercancel'], ({ pointerId }) => fingers.delete(pointerId));
+    early(['pointermove'], (event) => {
+      const finger = fingers.get(event.pointerId);
+      if (!finger || finger.turns || fingers.size > 1) return;
+      const [across, along] = [Math.abs(event.clientX - finger.x), Math.abs(event.clientY - finger.y)];
+      finger.turns = across > 6 && across > along;
+      if (!finger.turns) event.stopImmediatePropagation();
+    });
+    early(['wheel'], (event) => {
+      const { scrollHeight, clientHeight } = window.parent.document.documentElement;
+      if (!event.ctrlKey && scrollHeight > clientHeight + 1) event.stopImmediatePropagation();
+    });
+  }
+
   if (!framed) {
     const script = document.createElement('script');
     script.type = 'module';

@@ -15,6 +15,8 @@ import { drawPins } from './pins.js';
 import { Readout } from './readout.js';
 import { drawForbidden, hatchings, RequirementsBar } from './requirements.js';
 
+/** So many times faster than the slower ones, poles that nobody placed do not make the rest tiny. */
+const FAR = 6;
 /** Relative uncertainties of the rigs in a cloud. */
 const SPREADS = [0, 0.05, 0.1, 0.2];
 
@@ -154,7 +156,7 @@ export class SPlane {
       own ??
       handlesOf(/** @type {import('../types.js').Design} */ (design), pairAlone(state)).filter((p) => p !== undefined);
     const kalman = design?.observer?.method === 'kalman' && design.scenario.measured === 'observer';
-    return slower([...placed, ...((kalman && reply?.observer?.poles) || [])], own || kalman ? 20 : Infinity);
+    return slower([...placed, ...((kalman && reply?.observer?.poles) || [])], own || kalman ? FAR : Infinity);
   }
 
   /** @param {number} width @param {number} height CSS pixels */

@@ -30,12 +30,12 @@ export function significant(v, digits = 4) {
 }
 
 /**
- * A figure in few characters: from 10 on with one decimal, from 100 on with none, from 10⁵ on as a power of ten.
+ * A figure in few characters: from 10 on with one decimal, from 100 on with none, from 10⁴ on as a power of ten.
  * @param {string} text with one number in it
  */
 export const brief = (text) =>
   text.replace(/(?<![\d.])(?:\d{3,}(?:\.\d+)?|\d\d\.\d\d+)/, (v) =>
-    Number(v) >= 99999.5
+    Number(v) >= 9999.5
       ? Number(v).toExponential(0).replace('e+', 'e')
       : Number(v) < 99.95
         ? Number(v).toFixed(1)

@@ -26,8 +26,9 @@ def test_before_and_found_with_what_is_held_out(page: Page):
     sampled(page)
     expect(page.get_by_test_id("recording-synthetic")).to_contain_text("no real one was measured")
     expect(page.get_by_test_id("recording-hold")).to_be_checked()
-    page.get_by_test_id("recording-identify").click()
+    page.get_by_test_id("recording-identify").press("Enter")
     expect(page.get_by_test_id("recording-part-held-psi")).to_be_visible()
+    expect(page.get_by_test_id("recording-found")).to_be_focused()
     for part in ("fitted-theta", "fitted-psi", "held-theta", "held-psi"):
         assert share(page, part, 2) > max(95, share(page, part, 1)), part
     for axis in ("theta", "psi"):

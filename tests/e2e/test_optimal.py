@@ -17,7 +17,7 @@ LQR = "#v1&preset=quanser-2dof-manual&method=lqr&outer=none"
 def marks(page: Page, kind: str, count: int) -> str:
     """What the marks of own poles say, once there are so many; where they stand depends on the view."""
     layer = page.get_by_test_id(f"{kind}-poles")
-    expect(layer.locator(":scope > path")).to_have_count(count)
+    expect(layer.locator(":scope > g")).to_have_count(count)
     return layer.get_attribute("aria-label") or ""
 
 

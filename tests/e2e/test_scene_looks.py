@@ -6,7 +6,7 @@ import math
 
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser import launched, opened, settled
+from tests.browser import UNDRAWN, launched, opened, settled
 from tests.e2e.conftest import App
 from tests.e2e.test_page import drag, seek
 from tests.e2e.test_scene_playback import playing, ready, until_shown
@@ -165,3 +165,40 @@ def test_without_graphics_the_page_says_so_and_everything_else_works(chromium: B
         page.get_by_test_id("replay").click()
         page.wait_for_function("() => Number(document.querySelector('[data-testid=time]').value) === 3")
         drag(page, "pole-0", 40)
+
+
+def test_over_the_rig_a_finger_and_a_wheel_scroll_the_page(chromium: Browser, app: App):
+    """Up and down the page moves, sideways the rig turns."""
+    with opened(chromium, app.url, scene=UNDRAWN, size=(390, 844), has_touch=True, is_mobile=True) as page:
+        page.get_by_test_id("scene").scroll_into_view_if_needed()  # before that it is not loaded
+        ready(page)
+        screen = page.context.new_cdp_session(page)
+
+        def middle() -> tuple[float, float]:
+            page.get_by_test_id("scene").scroll_into_view_if_needed()
+            box = page.get_by_test_id("scene").bounding_box() or {}
+            return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+        def swipe(across: float, up: float) -> None:
+            x, y = middle()
+            screen.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": x, "y": y}]})
+            for part in range(1, 11):
+                point = {"x": x + part * across / 10, "y": y - part * up / 10}
+                screen.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [point]})
+            screen.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+        middle()
+        before, seen = page.evaluate("scrollY"), page.evaluate(CAMERA)
+        swipe(0, 90)
+        page.wait_for_function("(before) => scrollY > before + 40", arg=before)
+        assert page.evaluate(CAMERA) == seen
+        middle()
+        before, seen = page.evaluate("scrollY"), page.evaluate(CAMERA)
+        swipe(100, 0)
+        page.wait_for_function(f"(seen) => Math.abs(({CAMERA})()[1] - seen[1]) > 0.2", arg=seen)
+        assert page.evaluate("scrollY") == before
+        page.mouse.move(*middle())
+        before, seen = page.evaluate("scrollY"), page.evaluate(CAMERA)
+        page.mouse.wheel(0, 60)
+        page.wait_for_function("(before) => scrollY > before + 40", arg=before)
+        assert page.evaluate(CAMERA) == seen

@@ -6,7 +6,7 @@ import { marksOf, reaches, valueAt } from '../../static/plots/characteristics.js
 import pseudo from '../../static/text/languages/pseudo.js';
 import { DEGREE } from '../../static/text/format.js';
 import { scaleOf } from '../../static/ui/picture_scale.js';
-import { limitOf, referenceOf, regionsOf, rulesOf } from '../../static/plots/rules.js';
+import { limitOf, namePlaces, referenceOf, regionsOf, rulesOf } from '../../static/plots/rules.js';
 import { useWords } from '../../static/text/words.js';
 
 afterEach(() => useWords(null));
@@ -158,4 +158,25 @@ test('what is asked walls in the response: overshoot until it should have settle
   assert.equal(regionsOf(reply, 'theta', { settling: 60, overshoot: null }).length, 0);
   assert.deepEqual(regionsOf(reply, 'V_p', { settling: 2, overshoot: 10 }), []);
   assert.deepEqual(regionsOf(reply, 'theta', { settling: null, overshoot: null }), []);
+});
+
+test('names of lines lie apart, in the plot, wherever the lines are', () => {
+  const room = { gap: 9, high: 14, top: 0, bottom: 140 };
+  const apart = (places) =>
+    places.every((a, i) => a >= 7 && a <= 133 && places.every((b, j) => i === j || Math.abs(a - b) >= 14));
+  assert.deepEqual(namePlaces([{ value: 24, y: 30 }], room), [39]); // towards zero
+  assert.deepEqual(namePlaces([{ value: -24, y: 110 }], room), [101]);
+  for (const ys of [
+    [70, 70],
+    [69, 71],
+    [60, 75],
+    [3, 5],
+    [138, 139],
+    [70, 70, 70],
+    [66, 74, 69],
+    [8, 8, 8],
+  ]) {
+    const lines = ys.map((y, i) => ({ value: [24, -24, 10][i], y }));
+    assert.ok(apart(namePlaces(lines, room)), `${ys}: ${namePlaces(lines, room)}`);
+  }
 });

@@ -222,6 +222,12 @@ test("a plot's numbers: units in the header, a column for each line, another tim
   assert.equal(rows.length, 4);
   assert.deepEqual(rows[2].split(',').map(Number), [0.5, 5.729578, 5.729578, 1, 5.729578, 0.5, 5.729578, 5.729578]);
   assert.match(csvOf('V_p', linesOf(store.state, 'V_p')), /^t \[s\],"V_p, pitch step \[V\]"/);
+  const beside = { plotted: true, t: [0, 0.5], theta: [0, Math.PI / 18], psi: [0, 0], V_p: [1, 2], V_y: [3, 4] };
+  const [recorded] = linesOf({ ...store.state, beside }, 'theta').filter((l) => l.kind === 'recorded');
+  assert.deepEqual([recorded.t, [...recorded.values].map((v) => v.toFixed(6))], [beside.t, ['0.000000', '10.000000']]);
+  assert.ok(
+    linesOf({ ...store.state, beside: { ...beside, plotted: false } }, 'V_p').every((l) => l.kind !== 'recorded'),
+  );
 });
 
 test('pinned plants outlast a reload beside those of the link, with the plant from which they differ', () => {

@@ -7,6 +7,7 @@ import { guarded } from '../../static/model/locks.js';
 import { linkOf, readLink } from '../../static/link/permalink.js';
 import { initialState } from '../../static/model/store.js';
 import { slower } from '../../static/splane/math.js';
+import { inSight } from '../../static/optimal/edge.js';
 import {
   acceptedOf,
   locusBody,
@@ -97,4 +98,16 @@ test('a pole far faster than the rest does not make the rest tiny', () => {
   const poles = [-5, -6, -10, -5000].map((re) => ({ re, im: 0 }));
   assert.deepEqual(slower(poles, 20), poles.slice(0, 3));
   assert.deepEqual(slower(poles, Infinity), poles);
+});
+
+test('a pole out of sight is marked at the edge, turned towards where it is', () => {
+  const view = { cx: -5, cy: 0, scale: 20, width: 400, height: 300 };
+  assert.deepEqual(inSight(view, { re: -6, im: 1 }, 10), { x: 180, y: 130, turn: null });
+  assert.deepEqual(inSight(view, { re: -60, im: 0 }, 10), { x: 10, y: 150, turn: 0 });
+  const right = inSight(view, { re: 40, im: 0 }, 10);
+  assert.deepEqual([right.x, right.y, Math.abs(right.turn)], [390, 150, 180]);
+  const above = inSight(view, { re: -5, im: 90 }, 10);
+  assert.deepEqual([above.x, above.y, above.turn], [200, 10, 90]);
+  const below = inSight(view, { re: -60, im: -60 }, 10);
+  assert.ok(below.x === 10 && below.y === 290 && below.turn < 0 && below.turn > -90);
 });
