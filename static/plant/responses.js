@@ -68,6 +68,7 @@ export class Responses {
   constructor(onStart) {
     const read = reader(() => this.#states);
     /** @type {Field<number[]|null>} */ this.start = new Field('Initial state x₀', 'plant-x0', {
+      title: 'One number per state, as 1 0 0 0 or [1; 0; 0; 0]; empty: 1 for the first',
       read: (text) => (text.trim() ? read(text) : null),
       take: (x0) => {
         this.time.value = 'initial';
@@ -76,7 +77,6 @@ export class Responses {
       },
     });
     this.start.node.classList.add('plant-start');
-    this.start.input.title = 'One number per state, as 1 0 0 0 or [1; 0; 0; 0]; empty: 1 for the first';
     const select = (/** @type {string} */ label, /** @type {string} */ testid) =>
       h('select', { 'aria-label': label, 'data-testid': testid, onchange: () => this.#draw() });
     this.time = select('Response', 'plant-time-view');
