@@ -141,6 +141,10 @@ def close_loop(system: System, wish: Wish) -> ClosedLoop:
     conjugate_units(wanted)
     if chosen.places_poles and not chosen.structured:  # which judges that itself
         _require_reached(system.A, system.B, "B")
+    if chosen.integrates and not system.measured:
+        raise MethodUnavailableError(
+            "integral action needs the outputs that it shall regulate", field="C", hint="Give C of y = Cx."
+        )
     if chosen.integrates and np.any(system.D):
         raise MethodUnavailableError(
             "integral action is designed for systems without D",

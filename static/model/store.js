@@ -189,15 +189,15 @@ export class Store extends EventTarget {
 
   /** Ends a gesture: the next edit is a new step of undo. */
   commit() {
-    if (this.#designs.gesture === null && this.#plants.gesture === null) return;
-    this.#designs.gesture = null;
     this.#plants.gesture = null;
+    if (this.#designs.gesture === null) return;
+    this.#designs.gesture = null;
     this.dispatchEvent(new Event('change')); // who waits for the hand to rest looks again
   }
 
-  /** Whether a gesture goes on. */
+  /** Whether a gesture goes on; a plant is told when the hand rests. */
   get busy() {
-    return this.#designs.gesture !== null || this.#plants.gesture !== null || this.state.dragging;
+    return this.#designs.gesture !== null || this.state.dragging;
   }
 
   /** Starts afresh, without history. @param {Design} design */

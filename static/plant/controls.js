@@ -38,15 +38,17 @@ export class Controls {
       /** @type {'n'|'p'|'q'} */ size,
       /** @type {keyof Weights} */ part,
       least = LEAST,
+      /** @type {string|undefined} */ title = undefined,
     ) =>
       new Line(`${name}, diagonal`, `plant-${name}`, {
         read: reader(() => this.sizes[size], { least }),
         take: (values) => onChange({ weights: { ...this.#weights, [part]: values } }),
+        title,
       });
     this.states = diagonal('Q', 'n', 'states', 0);
     this.inputs = diagonal('R', 'p', 'inputs');
-    this.integrals = diagonal('Q_z', 'q', 'integrals');
-    this.integrals.input.title = 'Weights of the integrated errors ∫ (r − y) dt, one per output';
+    const told = 'Weights of the integrated errors ∫ (r − y) dt, one per output';
+    this.integrals = diagonal('Q_z', 'q', 'integrals', LEAST, told);
     this.method = h('select', {
       'aria-label': 'Method',
       'data-testid': 'plant-method',

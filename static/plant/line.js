@@ -8,9 +8,10 @@ export class Line {
 
   /**
    * @param {string} label @param {string} testid
-   * @param {{read: (text: string) => T|string, take: (value: T) => void}} how read: the value, or what is wrong
+   * @param {{read: (text: string) => T|string, take: (value: T) => void, title?: string}} how read: the value, or what
+   *   is wrong
    */
-  constructor(label, testid, { read, take }) {
+  constructor(label, testid, { read, take, title }) {
     this.error = h('span', { class: 'field-error', id: `${testid}-error`, role: 'status' });
     this.input = h('input', {
       class: 'plant-line-field',
@@ -18,6 +19,7 @@ export class Line {
       autocomplete: 'off',
       spellcheck: 'false',
       'aria-label': label,
+      ...(title && { title }),
       'aria-describedby': `${testid}-error`,
       'data-testid': testid,
       oninput: () => {

@@ -273,6 +273,7 @@ export class PlantPanel {
     );
     this.#fresh = false;
     this.controls.show(this.#wish, sizesOf(read));
+    this.responses.from(this.#wish.x0, poles.length);
   }
 
   /** As a link has it. @param {SystemRead} read */
@@ -290,16 +291,17 @@ export class PlantPanel {
     try {
       /** @type {SystemDesign} */ const design = await call('api/v1/system/design', bodyOf(read, wish, exactly));
       if (read === this.#read) {
-        this.root.classList.remove('refused');
+        this.root.classList.remove('plant-refused');
         this.#answered(design, read);
       }
     } catch (error) {
       if (read === this.#read) {
         this.#design = null;
-        this.root.classList.add('refused'); // what is below is another system's
+        this.root.classList.add('plant-refused'); // what is below is another system's
         this.results.refuse(problemOf(error));
         this.results.remark(read.findings);
         this.pin.disabled = true;
+        this.#drawWish();
       }
     }
     this.root.dataset.settled = String(!this.asks.overtaken);
@@ -316,7 +318,7 @@ export class PlantPanel {
   }
 
   #drawCurves() {
-    if (this.#design) this.responses.show(this.#design, this.pins.designs, this.#wish.x0);
+    if (this.#design) this.responses.show(this.#design, this.pins.designs);
     this.pin.disabled = !this.#design || this.pins.refuses(this.#plant);
   }
 

@@ -16,10 +16,10 @@ const COLUMNS = ['Pin', 'Poles, rad/s', 'Method', '‖K‖', 'K'];
 /** The design of a plant as a link has it. @param {string} text @param {typeof call} [ask] */
 export async function designOf(text, ask = call) {
   const plant = plantIn(text);
-  if (!plant) throw new ProblemError({ detail: t('This plant cannot be read.') });
+  if (!plant?.poles) throw new ProblemError({ detail: t('This plant cannot be read.') });
   /** @type {import('../contract.js').SystemRead} */
   const read = await ask('api/v1/system/read', { text: matlabText(plant) });
-  const wish = fitting(read, { ...plant, poles: plant.poles ?? [] }, true);
+  const wish = fitting(read, { ...plant, poles: plant.poles }, true);
   /** @type {import('../contract.js').SystemDesign} */
   const design = await ask('api/v1/system/design', bodyOf(read, wish));
   return design;

@@ -62,11 +62,13 @@ export class Responses {
   /** @type {SystemDesign|null} */ #design = null;
   /** @type {readonly {index: number, design: SystemDesign}[]} */ #pins = [];
   #shape = '';
+  #states = 0;
 
   /** @param {(x0: number[]|null) => void} onStart */
   constructor(onStart) {
-    const read = reader(() => this.#design?.courses.x0.length ?? 0);
+    const read = reader(() => this.#states);
     /** @type {Field<number[]|null>} */ this.start = new Field('Initial state x₀', 'plant-x0', {
+      title: 'One number per state, as 1 0 0 0 or [1; 0; 0; 0]; empty: 1 for the first',
       read: (text) => (text.trim() ? read(text) : null),
       take: (x0) => {
         this.time.value = 'initial';
@@ -75,7 +77,6 @@ export class Responses {
       },
     });
     this.start.node.classList.add('plant-start');
-    this.start.input.title = 'One number per state, as 1 0 0 0 or [1; 0; 0; 0]; empty: 1 for the first';
     const select = (/** @type {string} */ label, /** @type {string} */ testid) =>
       h('select', { 'aria-label': label, 'data-testid': testid, onchange: () => this.#draw() });
     this.time = select('Response', 'plant-time-view');
@@ -99,9 +100,14 @@ export class Responses {
     );
   }
 
-  /** @param {SystemDesign} design @param {readonly {index: number, design: SystemDesign}[]} pins
-   * @param {number[]|null} x0 exactly, where it was given */
-  show(design, pins, x0) {
+  /** Where the states begin. @param {number[]|null} x0 null: 1 for the first @param {number} n */
+  from(x0, n) {
+    this.#states = n;
+    this.start.set((x0 ?? Array.from({ length: n }, (_, i) => Number(i === 0))).map((v) => inField(v)).join(' '));
+  }
+
+  /** @param {SystemDesign} design @param {readonly {index: number, design: SystemDesign}[]} pins */
+  show(design, pins) {
     this.#design = design;
     this.#pins = pins;
     const m = design.courses.step_y.length;
@@ -109,7 +115,6 @@ export class Responses {
     const shape = [m, p, design.scaling, Boolean(design.bode.rga)].join();
     if (shape !== this.#shape) this.#offer(design);
     this.#shape = shape;
-    this.start.set((x0 ?? Array.from(design.courses.x0)).map((v) => inField(v)).join(' '));
     this.#draw();
   }
 

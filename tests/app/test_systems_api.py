@@ -95,6 +95,7 @@ def test_formulas(client: TestClient):
         ("design", OBSERVED | {"x0": [1]}, "x0"),
         ("design", OBSERVED | {"x0": [1, -1e300]}, "x0.1"),
         ("design", OBSERVED | {"duration": 0}, "duration"),
+        ("design", {"A": [[0]], "B": [[1]], "poles": [-1], "method": "lqr-integral"}, "C"),
         ("design", OBSERVED | {"method": "none"}, "method"),
         ("formulas", {"A": [["x("]], "B": [["1"]]}, "A.0.0"),
     ],

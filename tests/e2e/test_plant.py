@@ -164,9 +164,11 @@ def test_undo_goes_back_in_the_plant_and_in_nothing_else(plant: Page):
     undo.click()
     expect(text).to_have_value(first)
     expect(undo).to_be_disabled()
-    for _ in range(4):
+    x0 = plant.get_by_test_id("plant-x0")
+    for field, value in ((text, commented), (poles, "−3, −4"), (x0, "2 −1"), (poles, dragged)):
         plant.keyboard.press("Control+Shift+Z")
-    expect(poles).to_have_value(dragged)
+        expect(field).to_have_value(value)
+    plant.wait_for_function("() => !location.hash.includes('p:-3,-4')")
     expect(text).to_have_value(commented)
     expect(redo).to_be_disabled()
     plant.go_back()

@@ -133,7 +133,7 @@ test('a pinned plant that is known by its link alone is read, fitted and designe
   assert.deepEqual(await designOf('A:0,1:2,3::B:0:1::C:1,0::p:-4,-5::by:tits-yang::x:0,1', ask), { K: [[1, 2]] });
   assert.deepEqual(asked[0], ['api/v1/system/read', { text: 'A = [0 1; 2 3];\nB = [0; 1];\nC = [1 0];' }]);
   assert.deepEqual([asked[1][1].poles, asked[1][1].method, asked[1][1].x0], [[c(-4), c(-5)], 'tits-yang', [0, 1]]);
-  await assert.rejects(designOf('nothing', ask), ProblemError);
+  for (const text of ['nothing', 'A:1::B:1::p:-x', 'A:1::B:1']) await assert.rejects(designOf(text, ask), ProblemError);
 });
 
 test('whatever is dragged, poles stay closed under conjugation', () => {
