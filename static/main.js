@@ -6,7 +6,7 @@
 import { languageOf, loadWords, messageOf, say, translatePage } from './text/index.js';
 import { isView, requestOf, Store } from './model/index.js';
 import { backoff, getMethods, getPresets, Live } from './net/index.js';
-import { byId, isolated, projectorWanted, recall, Stats, Turns, watched } from './ui/index.js';
+import { byId, isolated, projectorWanted, readyToCopy, recall, Stats, Turns, watched } from './ui/index.js';
 import { Address, LockedControls, PinKeeper } from './link/index.js';
 import { draughtsman, Plots } from './plots/index.js';
 import { SPlane } from './splane/index.js';
@@ -233,7 +233,8 @@ async function furtherDown() {
       import('./machine/index.js'),
       import('./clouds/index.js'),
       import('./optimal/index.js'),
-      styles('optimal'),
+      ...['compare', 'optimal'].map(styles),
+      readyToCopy(),
     ]),
   );
   clouds = new Clouds(plane, store);

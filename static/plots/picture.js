@@ -27,7 +27,7 @@ import { hatch, namePlaces } from './rules.js';
  * @typedef {(Line & {style?: undefined})|{t: ArrayLike<number>, values: ArrayLike<number>, style: Style}} Styled
  */
 
-/** style.css's, sharing.css's, recordings.css's and compare.css's own for a light page. @type {Record<string, string>} */
+/** For a light page, as in style.css, sharing.css, recordings.css and compare.css. @type {Record<string, string>} */
 const LIGHT = {
   panel: '#ffffff',
   ink: '#18222a',

@@ -4,7 +4,6 @@ import { allOf, FORMATS, textOf } from './copy_formats.js';
 import { button, h, setText } from './dom.js';
 import { Choice } from './fields.js';
 import { recall, remember } from './memory.js';
-import { icon, popupButton } from './popup.js';
 
 /** @typedef {import('./copy_formats.js').Item} Item @typedef {import('./copy_formats.js').Format} Format */
 const TITLES = { LaTeX: 'for a document', Python: 'NumPy or SymPy', MATLAB: 'MATLAB or Octave', Text: 'plain text' };
@@ -29,13 +28,8 @@ function digitsChoice() {
   return choice.node;
 }
 
-/** @param {string} testid @param {() => Item[]} items what there is at the moment it opens @param {string} [label] */
-export function copyButton(testid, items, label = 'Copy as LaTeX, Python, MATLAB or text') {
-  return popupButton({ label, text: icon('copy'), testid: `copy-${testid}`, content: () => menu(items()) });
-}
-
 /** @param {Item[]} items */
-function menu(items) {
+export function copyMenu(items) {
   if (!items.length) return [h('p', { class: 'caption' }, 'There is nothing to copy yet.')];
   const told = h('p', { class: 'told', role: 'status', 'data-testid': 'copied' });
   const cell = (/** @type {string} */ name, /** @type {Format} */ format, /** @type {() => string|undefined} */ text) =>

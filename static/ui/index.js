@@ -1,6 +1,6 @@
 /** What other rooms may import of ui/. */
 export { copyText, saveFile } from './clipboard.js';
-export { copyButton } from './copy_menu.js';
+export { copyButton, readyToCopy } from './copy_button.js';
 export { button, byId, check, h, setAttr, setText, svg } from './dom.js';
 export { Choice, designField, NumberField } from './fields.js';
 export { isolated } from './isolated.js';

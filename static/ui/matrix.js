@@ -1,5 +1,5 @@
 /** A matrix of numbers with names on its borders, and what the entries of K are called. */
-import { copyButton } from './copy_menu.js';
+import { copyButton } from './copy_button.js';
 import { h, setAttr, setText } from './dom.js';
 import { symbol } from './mathml.js';
 import { head } from './tables.js';

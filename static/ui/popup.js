@@ -7,8 +7,10 @@ import { button, h, svg } from './dom.js';
 const MARGIN = 8; // px to the window's edge
 const GAP = 4; // px to the button
 
+/** @typedef {() => (Node|string)[]|Promise<(Node|string)[]>} Content what a panel shows as it opens */
 /** @type {HTMLElement|undefined} */ let panel;
 /** @type {HTMLElement|null} */ let owner = null;
+/** @type {HTMLElement|undefined} whose panel may still be fetched */ let wanted;
 
 function make() {
   const node = h('div', { class: 'popup', popover: 'auto', 'data-testid': 'popup' });
@@ -88,15 +90,23 @@ function place(anchor) {
  * Opens beside `anchor`, or closes what it had opened.
  * @param {HTMLElement} anchor
  * @param {string} label
- * @param {() => (Node|string)[]} content
+ * @param {Content} content
  */
 export function togglePopup(anchor, label, content) {
+  if (panel && owner === anchor) return panel.hidePopover();
+  wanted = anchor;
+  const nodes = content();
+  if (!(nodes instanceof Promise)) return open(anchor, label, nodes);
+  return nodes.then((fetched) => wanted === anchor && open(anchor, label, fetched)); // the last that was asked for
+}
+
+/** @param {HTMLElement} anchor @param {string} label @param {(Node|string)[]} nodes */
+function open(anchor, label, nodes) {
   panel ??= make();
-  if (owner === anchor) return panel.hidePopover();
   owner = anchor;
   panel.setAttribute('role', 'dialog');
   panel.setAttribute('aria-label', label);
-  panel.replaceChildren(...content());
+  panel.replaceChildren(...nodes);
   anchor.setAttribute('aria-expanded', 'true');
   if (!panel.matches(':popover-open')) panel.showPopover();
   owner = anchor;
@@ -124,7 +134,7 @@ export function closePopup() {
 
 /**
  * A button that opens a popup.
- * @param {{label: string, text: string|Node, testid?: string, kind?: string, content: () => (Node|string)[]}} how
+ * @param {{label: string, text: string|Node, testid?: string, kind?: string, content: Content}} how
  */
 export function popupButton({ label, text, testid, kind = 'small-tool', content }) {
   const opener = button(
