@@ -5,7 +5,7 @@
  * @typedef {import('./steps.js').Switch} Switch
  */
 import { say, significant, t } from '../text/index.js';
-import { designOf, pairAlone } from '../model/index.js';
+import { pairAlone } from '../model/index.js';
 import { button, Choice, h, Projector, recall, remember, setAttr, setText, shape, symbol } from '../ui/index.js';
 import { sideOf, STEPS, SWITCHES } from './steps.js';
 
@@ -14,8 +14,7 @@ const MEMORY = 'explore';
 export class Explore {
   #at = 0;
   /** @type {Set<string>} names of steps */ #done = new Set();
-  #goal = NaN;
-  /** @type {number|null} of which pair and step the goal is */ #goalOf = null;
+  /** @type {import('../types.js').Poles|null} the poles with which the step began */ #poles = null;
 
   /** @param {HTMLElement} root @param {import('../model/store.js').Store} store */
   constructor(root, store) {
@@ -49,14 +48,15 @@ export class Explore {
       return { name, node };
     });
     this.dots = STEPS.map(({ title }, i) =>
-      button({ class: 'dot', title, 'data-testid': `step-${i + 1}`, onclick: () => this.#go(i) }, String(i + 1)),
+      button({ class: 'dot', title, 'data-testid': `step-${i + 1}`, onclick: () => this.#begin(i) }, String(i + 1)),
     );
     this.title = h('h2', { tabindex: -1, 'data-testid': 'step-title' });
     this.ask = h('p', { class: 'ask', 'data-testid': 'step-ask' });
     this.see = h('p', { class: 'see' });
     this.now = h('span', { class: 'now', 'data-testid': 'step-now' });
     this.told = h('span', { class: 'well', role: 'status', 'data-testid': 'step-done' });
-    this.next = button({ class: 'primary', 'data-testid': 'step-next', onclick: () => this.#on() });
+    this.skip = button({ class: 'quiet', 'data-testid': 'step-skip', onclick: () => this.#on() }, 'Skip');
+    this.next = button({ class: 'primary', 'data-testid': 'step-next', onclick: () => this.#on() }, 'Next');
     const projector = new Projector();
     this.projector = button(
       {
@@ -79,7 +79,11 @@ export class Explore {
     this.motor = h('span');
     this.gain = h(
       'p',
-      { class: 'gain', 'data-testid': 'explore-K', title: 'A row of K, at the poles as they are: volts per radian' },
+      {
+        class: 'gain',
+        'data-testid': 'explore-K',
+        title: 'u = −Kx + v, the row of the motor: K in V/rad and V·s/rad, v what the reference asks for',
+      },
       this.motor,
       this.volts.map(({ k, state }) => h('span', { class: 'term' }, k, state)),
     );
@@ -98,7 +102,7 @@ export class Explore {
         this.ask,
         this.see,
         this.end,
-        h('div', { class: 'step-foot' }, this.told, this.now, this.next),
+        h('div', { class: 'step-foot' }, this.told, this.now, this.skip, this.next),
       ),
       h(
         'div',
@@ -133,25 +137,33 @@ export class Explore {
 
   /** The next step, in sight; its title has the focus, where the last one has no button to go on. */
   #on() {
-    this.#go(this.#at + 1);
+    this.#begin(this.#at + 1);
     this.title.scrollIntoView({ block: 'nearest' });
     if (!STEPS[this.#at]) this.title.focus({ preventScroll: true });
   }
 
-  /** From the beginning: the first rig with the inner loop alone. */
+  /** From the beginning, with pitch. */
   #again() {
-    const [preset] = this.store.state.presets;
     this.#done.clear();
-    this.store.edit(() => designOf(preset, { outer: 'none' }));
     this.store.set({ motion: 'theta' });
-    this.#go(0);
+    this.#begin(0);
+  }
+
+  /** A step with the design that it begins with; after the last, the way on. @param {number} at */
+  #begin(at) {
+    const [preset] = this.store.state.presets;
+    const step = STEPS[at];
+    const side = sideOf(step?.pair ?? (this.store.state.motion === 'psi' ? 1 : 0));
+    if (step) this.store.edit(() => step.begin(preset, side));
+    this.#go(at);
   }
 
   /** @param {number} at the step to show; after the last, the way on */
   #go(at) {
     this.#at = at;
-    this.#goalOf = null;
+    this.#poles = this.store.state.design?.poles ?? null;
     const step = STEPS[at];
+    this.root.dataset.at = String(at);
     this.#show(step?.volts ? 'volts' : 'angle');
     if (step?.pair !== undefined) this.store.set({ motion: sideOf(step.pair).axis });
     this.#keep();
@@ -183,18 +195,14 @@ export class Explore {
       setText(this.see, '');
       setText(this.now, '');
     } else if (reply && answered === design) {
-      if (this.#goalOf !== pair || Number.isNaN(this.#goal)) {
-        this.#goalOf = pair;
-        this.#goal = step.goal?.(state, side) ?? 0;
-      }
-      if (!Number.isNaN(this.#goal)) {
-        setText(this.ask, step.ask(this.#goal, side));
-        setText(this.now, step.now?.(state, side) ?? '');
-        const lost = !reply.stable && !step.lost;
-        if (!this.#done.has(step.name) && !lost && step.done(state, side, this.#goal)) {
-          this.#done.add(step.name);
-          this.#keep();
-        }
+      this.#poles ??= design.poles;
+      const moved = design.poles !== this.#poles;
+      setText(this.ask, step.ask(side));
+      setText(this.now, step.now?.(state, side) ?? '');
+      const lost = !reply.stable && !step.lost;
+      if (!this.#done.has(step.name) && !lost && step.done(state, side, moved)) {
+        this.#done.add(step.name);
+        this.#keep();
       }
     }
     if (step) {
@@ -203,9 +211,8 @@ export class Explore {
     }
     const done = Boolean(step && this.#done.has(step.name));
     setText(this.told, done ? '✓ Done' : '');
-    this.next.hidden = !step;
-    setText(this.next, done ? 'Next' : 'Skip');
-    this.next.classList.toggle('primary', done);
+    this.next.hidden = !step || !done; // and Skip never stands where it comes
+    this.skip.hidden = !step || done;
     for (const [i, dot] of this.dots.entries()) {
       const [is, name] = [this.#done.has(STEPS[i].name), t(STEPS[i].title)];
       dot.classList.toggle('done', is);
@@ -219,7 +226,8 @@ export class Explore {
   #gain(row) {
     if (this.motor.dataset.pair !== document.documentElement.dataset.pair) {
       this.motor.dataset.pair = document.documentElement.dataset.pair;
-      this.motor.replaceChildren('K: ', symbol('V', this.motor.dataset.pair === 'psi' ? 'y' : 'p'), ' =');
+      const motor = this.motor.dataset.pair === 'psi' ? 'y' : 'p';
+      this.motor.replaceChildren('K: ', symbol('V', motor), ' = ', symbol('v', motor));
     }
     this.volts.forEach(({ k }, i) => setText(k, ` ${row[i] > 0 ? '−' : '+'} ${significant(Math.abs(row[i]), 3)} `));
   }
@@ -229,8 +237,9 @@ export class Explore {
     const seen = new Set(STEPS.slice(0, this.#at + 1).flatMap(({ switches }) => switches ?? []));
     this.seen.node.hidden = !STEPS.slice(0, this.#at + 1).some(({ volts }) => volts);
     for (const { name, node } of this.switches) {
-      node.hidden = !seen.has(name);
-      setAttr(node, 'aria-pressed', String(SWITCHES[name].on(state)));
+      const on = SWITCHES[name].on(state);
+      node.hidden = !on && !seen.has(name); // what is on can be switched off
+      setAttr(node, 'aria-pressed', String(on));
     }
   }
 }

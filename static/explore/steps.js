@@ -1,13 +1,16 @@
 /**
- * The first minute's six steps: each asks for something and knows when it was done. The motor is driven to its limit
- * before PI comes, since with PI a step begins with k_p times its size, whatever the poles. Pure.
+ * The first minute's six steps: each begins with a design of its own, asks for something, and knows when it was done:
+ * by the figure that is shown, as it is rounded. The motor is driven to its limit before PI comes, since with PI a step
+ * begins with k_p times its size, whatever the poles. Pure.
  * @typedef {import('../types.js').State} State
  * @typedef {import('../types.js').Design} Design
+ * @typedef {import('../types.js').Complex} Complex
  * @typedef {{axis: 'theta'|'psi', motor: 'V_p'|'V_y', pair: 0|1}} Side  the pair that is seen, its angle and motor
+ * @typedef {import('../types.js').Preset} Preset
  * @typedef {'pi'|'lag'|'first-aero'|'cross'} Switch
  */
-import { fixed, inField, percent, say, t } from '../text/index.js';
-import { designOf, isComplex, lagOf, presetOf } from '../model/index.js';
+import { degrees, fixed, percent, say, t } from '../text/index.js';
+import { designOf, isComplex, lagOf, presetOf, setComplex } from '../model/index.js';
 
 /** Of an Aero's rotors, measured, s. */
 export const AERO_LAG = 0.16;
@@ -43,20 +46,35 @@ export function restOf(state, side) {
 export const swingOf = (state, side) => Math.max(0, ...(courseOf(state, side)?.beyond ?? []));
 
 const BAND = 0.02;
-const SWING = 0.03;
+/** What is asked for: shares, and seconds. */
+const [SWING, QUICK, SATURATED, CALM] = [0.05, 0.5, 0.01, 2];
 
-/** @param {number} v down to a number that reads well */
-const nice = (v) => Number((Math.floor(v * 20) / 20).toFixed(2));
+/** Whether a share is as large as asked, as it is shown: in percent, with one decimal. */
+const shows = (/** @type {number} */ share, /** @type {number} */ asked) =>
+  Math.round(1000 * share) >= Math.round(1000 * asked);
+/** Whether a time is as short as asked, as it is shown: with two decimals. */
+const within = (/** @type {number} */ time, /** @type {number} */ asked) => Math.round(100 * time) <= 100 * asked;
+
+/**
+ * A rig with its inner loop alone and one pair, of the axis that is seen or of both, elsewhere.
+ * @param {Preset} preset @param {Complex|null} at null: as the rig proposes @param {Side} [side]
+ * @returns {Design}
+ */
+function innerLoop(preset, at, side) {
+  const design = designOf(preset, { outer: 'none' });
+  for (const pair of at ? /** @type {const} */ ([0, 1]) : [])
+    if (at && (!side || side.pair === pair)) design.poles = setComplex(design.poles, 2 * pair, at);
+  return design;
+}
 
 /**
  * @typedef {object} Step
  * @property {string} name
  * @property {string} title
- * @property {(goal: number, side: Side) => string} ask  what to do, one line
+ * @property {(side: Side) => string} ask  what to do, one line
  * @property {string} see  what that shows, one line
- * @property {(state: State, side: Side) => number} [goal]  of the design that is there as the step begins; NaN while
- *   nothing is known of it
- * @property {(state: State, side: Side, goal: number) => boolean} done
+ * @property {(preset: Preset, side: Side) => Design} begin  the design with which it begins, of the first rig
+ * @property {(state: State, side: Side, moved: boolean) => boolean} done  `moved`: whether poles have been, since
  * @property {(state: State, side: Side) => string} [now]  how far it is, in words
  * @property {Switch[]} [switches]  what the step brings along
  * @property {true} [volts]  that it is seen in the voltage
@@ -65,6 +83,14 @@ const nice = (v) => Number((Math.floor(v * 20) / 20).toFixed(2));
  */
 
 const WHO = { theta: 'pitch', psi: 'yaw' };
+/** @param {Side} side */
+const who = ({ axis }) => t(WHO[axis]);
+
+/** How far from its reference the step ends, rad. @param {State} state @param {Side} side */
+function errorOf({ reply }, { axis }) {
+  const step = reply?.axis_steps?.[axis]?.nonlinear;
+  return step ? Math.abs(step[axis][step[axis].length - 1] - step.reference[axis]) : NaN;
+}
 
 /** For which share of the time the motor is at its limit. @param {State} state @param {Side} side */
 const saturatedOf = (state, side) => metricsOf(state, side)?.[side.motor]?.saturated ?? 0;
@@ -81,50 +107,57 @@ export const STEPS = [
   {
     name: 'swing',
     title: 'Make it swing',
-    ask: (_goal, { axis }) =>
-      say`Drag one pole of ${t(WHO[axis])} onto the other, then up: they part. Go on until it swings past its end.`,
-    see: 'On the real axis poles creep. Off it they swing: the steeper the ray they are on, the more.',
-    now: (state, side) => say`swings past its end by ${percent(swingOf(state, side), 1)}`,
-    done: (state, side) => isComplex(state.design?.poles ?? [], side.pair) && swingOf(state, side) >= SWING,
+    ask: (side) =>
+      say`Drag one pole of ${who(side)} onto the other, then up: they part. Go on to ${percent(SWING)} of overshoot.`,
+    see: 'On the real axis poles creep. Off it they swing: the steeper the ray they are on, the more they overshoot.',
+    begin: (preset) => innerLoop(preset, null),
+    now: (state, side) => say`overshoots by ${percent(swingOf(state, side), 1)}`,
+    done: (state, side) => isComplex(state.design?.poles ?? [], side.pair) && shows(swingOf(state, side), SWING),
   },
   {
     name: 'settle',
     title: 'Be quick',
-    ask: (goal, { axis }) => say`Drag the pair until ${t(WHO[axis])} is at rest within ${inField(goal)} s.`,
+    ask: (side) => say`Drag the pair until ${who(side)} is at rest within ${fixed(QUICK, 2)} s.`,
     see: 'Left is fast: a pole at −σ dies away like exp(−σt), which leaves 2 % after about 4/σ seconds.',
-    goal: (state, side) => Math.max(0.2, nice(0.6 * restOf(state, side))),
+    begin: (preset) => innerLoop(preset, { re: -3, im: 3 }),
     now: (state, side) => say`at rest after ${fixed(restOf(state, side), 2)} s`,
-    done: (state, side, goal) => restOf(state, side) <= goal,
+    done: (state, side) => within(restOf(state, side), QUICK),
   },
   {
     name: 'saturate',
     title: 'Run out of volts',
-    ask: (goal) =>
-      goal > 0
-        ? say`The motor is at its limit already. Drag on to the left until it is for ${percent(goal, 1)} of the time.`
-        : t('Drag the pair to the left until the motor’s voltage reaches its limit.'),
-    goal: (state, side) => Math.ceil(300 * saturatedOf(state, side)) / 200,
+    ask: () =>
+      say`Drag the pair to the left until the motor is at its limit, for ${percent(SATURATED, 1)} of the time.`,
+    begin: (preset) => innerLoop(preset, { re: -5, im: 3 }),
     see: 'Fast poles need a large K, and the motor cuts what is beyond the red line: from there on poles do little.',
     now: (state, side) => say`at the limit for ${percent(saturatedOf(state, side), 1)} of the time`,
-    done: (state, side, goal) => saturatedOf(state, side) > 0 && saturatedOf(state, side) >= goal,
+    done: (state, side) => shows(saturatedOf(state, side), SATURATED),
     volts: true,
   },
   {
     name: 'pi',
     title: 'Add PI, and see the poles move',
-    ask: () => t('Switch the PI loops on, then touch a pole.'),
-    see: 'PI removes the error that stays. But your poles move: a dotted line leads from each to where it is now.',
-    done: ({ design }) => design?.outer === 'pi',
+    ask: () => t('Switch the PI loops on, then drag a pole.'),
+    see: 'PI removes the error that stays. But your poles move: dotted lines lead from them to the poles of the whole.',
+    begin: (preset) => innerLoop(preset, null),
+    now: (state, side) => say`ends ${degrees(errorOf(state, side), 2)} beside its reference`,
+    done: ({ design }, _side, moved) => design?.outer === 'pi' && moved,
     switches: ['pi'],
   },
   {
     name: 'lag',
     title: 'Let the rotors lag',
-    ask: () =>
-      say`Give both rotors a real rig’s lag, ${inField(AERO_LAG)} s; then move the pair until the loop is stable.`,
-    see: 'Placement knew of no lag. Dashes show where it takes poles: near the axis they ring, beyond it all is lost.',
-    now: (state) => (lagging(state) ? t(state.reply?.stable ? 'stable' : 'unstable') : ''),
-    done: (state) => lagging(state) && state.reply?.stable === true,
+    ask: (side) =>
+      say`Give the rotors an Aero’s lag, ${AERO_LAG} s; then bring ${who(side)} to rest within ${fixed(CALM, 2)} s.`,
+    see: 'Placement knew of no lag: dashes show where it takes poles. Late rotors bear no fast poles: go right.',
+    begin: (preset, side) => innerLoop(preset, { re: -20, im: 20 }, side),
+    now: (state, side) =>
+      !lagging(state)
+        ? ''
+        : state.reply?.stable
+          ? say`at rest after ${fixed(restOf(state, side), 2)} s`
+          : t('unstable'),
+    done: (state, side) => lagging(state) && state.reply?.stable === true && within(restOf(state, side), CALM),
     lost: true,
     switches: ['lag'],
   },
@@ -132,8 +165,9 @@ export const STEPS = [
     name: 'cross',
     title: 'Pair crosswise',
     ask: () => t('Change to another rig, the first Quanser Aero, look at yaw, and lead each error to the other motor.'),
-    see: 'Its relative gain λ₁₁ is 0.30, nearer 0 than 1: each motor moves the other angle more. Yaw calms down.',
-    now: (state, side) => say`swings past its end by ${percent(swingOf(state, side), 0)}`,
+    see: 'There each motor moves the other angle more (relative gain λ₁₁ 0.30, nearer 0 than 1). Yaw calms down.',
+    begin: (preset) => designOf(preset, { outer: 'pi' }),
+    now: (state, side) => say`overshoots by ${percent(swingOf(state, side), 1)}`,
     done: ({ design, reply }) => design?.pairing === 'cross' && (reply?.rga?.rga?.[0][0] ?? 1) < 0.5,
     switches: ['first-aero', 'cross'],
     pair: 1,

@@ -95,12 +95,17 @@ export class HeaderPanel {
 
   #choose() {
     const preset = this.store.state.presets.find((p) => p.name === this.select.value);
-    if (preset) this.store.edit(() => designOf(preset));
+    if (preset) this.store.edit(() => this.#fresh(preset));
   }
 
   #reset() {
     const preset = this.store.preset;
-    if (preset) this.store.edit(() => designOf(preset));
+    if (preset) this.store.edit(() => this.#fresh(preset));
+  }
+
+  /** As a rig comes: where one explores, without PI loops. @param {import('../types.js').Preset} preset */
+  #fresh(preset) {
+    return designOf(preset, this.store.state.view === 'explore' ? { outer: 'none' } : undefined);
   }
 
   async #explain() {
