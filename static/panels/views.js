@@ -5,7 +5,7 @@
  */
 import { say, t } from '../text/index.js';
 import { isRead, VIEWS } from '../model/index.js';
-import { button, h, remember } from '../ui/index.js';
+import { button, h, remember, rescale } from '../ui/index.js';
 
 const names = /** @type {View[]} */ (Object.keys(VIEWS));
 
@@ -82,6 +82,7 @@ export class ViewSwitch {
     this.#shown = view;
     const page = document.documentElement;
     page.dataset.view = view;
+    rescale(); // views have types and lines of their own
     page.classList.toggle('reading', isRead(view));
     for (const node of document.querySelectorAll('[data-views]'))
       node.classList.toggle('elsewhere', !node.getAttribute('data-views')?.split(' ').includes(view));

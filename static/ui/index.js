@@ -9,7 +9,7 @@ export { formula, letters, math, printed, symbol } from './mathml.js';
 export { GAIN, gainMatrix, integralMatrix, Matrix, relativeGains } from './matrix.js';
 export { recall, remember } from './memory.js';
 export { CALM, Turns } from './pace.js';
-export { drawingUnit, followsPage, pictureScale } from './picture_scale.js';
+export { drawingUnit, followsPage, pictureScale, rescale } from './picture_scale.js';
 export { closePopup, icon, popupButton, showTip } from './popup.js';
 export { Projector, projectorWanted } from './projector.js';
 export { Stats } from './stats.js';
