@@ -192,18 +192,20 @@ export class Explore {
         this.ask,
         'You put the poles, K followed, and the motors, their lag and their pairing had the last word.',
       );
-      setText(this.see, '');
+      const open = STEPS.flatMap(({ name }, i) => (this.#done.has(name) ? [] : [i + 1]));
+      setText(this.see, open.length ? say`Still to do: ${open.join(', ')}.` : '');
       setText(this.now, '');
     } else if (reply && answered === design) {
       this.#poles ??= design.poles;
       const moved = design.poles !== this.#poles;
       setText(this.ask, step.ask(side));
-      setText(this.now, step.now?.(state, side) ?? '');
-      const lost = !reply.stable && !step.lost;
-      if (!this.#done.has(step.name) && !lost && step.done(state, side, moved)) {
+      const is = (reply.stable || Boolean(step.lost)) && step.done(state, side, moved);
+      if (is && !this.#done.has(step.name)) {
         this.#done.add(step.name);
         this.#keep();
       }
+      // beside "Done" nothing that is not
+      setText(this.now, is || !this.#done.has(step.name) ? (step.now?.(state, side) ?? '') : '');
     }
     if (step) {
       setText(this.title, step.title);
@@ -211,7 +213,8 @@ export class Explore {
     }
     const done = Boolean(step && this.#done.has(step.name));
     setText(this.told, done ? '✓ Done' : '');
-    this.next.hidden = !step || !done; // and Skip never stands where it comes
+    this.next.hidden = !step;
+    this.next.classList.toggle('later', !done);
     this.skip.hidden = !step || done;
     for (const [i, dot] of this.dots.entries()) {
       const [is, name] = [this.#done.has(STEPS[i].name), t(STEPS[i].title)];

@@ -118,7 +118,7 @@ export const STEPS = [
     name: 'settle',
     title: 'Be quick',
     ask: (side) => say`Drag the pair until ${who(side)} is at rest within ${fixed(QUICK, 2)} s.`,
-    see: 'Left is fast: a pole at −σ dies away like exp(−σt), which leaves 2 % after about 4/σ seconds.',
+    see: 'Left is fast: a pole at −σ dies away like exp(−σt), 2 % are left after about 4/σ s, of a close pair 6/σ.',
     begin: (preset) => innerLoop(preset, { re: -3, im: 3 }),
     now: (state, side) => say`at rest after ${fixed(restOf(state, side), 2)} s`,
     done: (state, side) => within(restOf(state, side), QUICK),
@@ -138,7 +138,7 @@ export const STEPS = [
     name: 'pi',
     title: 'Add PI, and see the poles move',
     ask: () => t('Switch the PI loops on, then drag a pole.'),
-    see: 'PI removes the error that stays. But your poles move: dotted lines lead from them to the poles of the whole.',
+    see: 'PI removes the error that stays. But your poles move: as you drag, dotted lines lead to where they are now.',
     begin: (preset) => innerLoop(preset, null),
     now: (state, side) => say`ends ${degrees(errorOf(state, side), 2)} beside its reference`,
     done: ({ design }, _side, moved) => design?.outer === 'pi' && moved,
@@ -149,7 +149,7 @@ export const STEPS = [
     title: 'Let the rotors lag',
     ask: (side) =>
       say`Give the rotors an Aero’s lag, ${AERO_LAG} s; then bring ${who(side)} to rest within ${fixed(CALM, 2)} s.`,
-    see: 'Placement knew of no lag: dashes show where it takes poles. Late rotors bear no fast poles: go right.',
+    see: 'Placement knew of no lag: dashes show where it takes poles. Late rotors bear no fast poles: go right and down.',
     begin: (preset, side) => innerLoop(preset, { re: -20, im: 20 }, side),
     now: (state, side) =>
       !lagging(state)
@@ -160,6 +160,7 @@ export const STEPS = [
     done: (state, side) => lagging(state) && state.reply?.stable === true && within(restOf(state, side), CALM),
     lost: true,
     switches: ['lag'],
+    pair: 0,
   },
   {
     name: 'cross',

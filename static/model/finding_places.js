@@ -82,15 +82,16 @@ const first = (findings, codes) =>
 
 /**
  * What is said at the loops and at the plots, each in few words with its whole sentence behind.
- * @param {Pick<State, 'reply'|'problem'>} state
+ * @param {Pick<State, 'reply'|'problem'> & Partial<Pick<State, 'motion'>>} state
  * @returns {Record<'loops'|'theta'|'V_p'|'V_y', {text: string, severity: string, message: string}|null>}
  */
-export function remarksOf({ reply, problem }) {
+export function remarksOf({ reply, problem, motion = 'both' }) {
   const findings = problem ? [] : (reply?.findings ?? []);
   const remark = (/** @type {Finding|undefined} */ f, /** @type {string} */ text) =>
     f ? { text: `${f.severity === 'error' ? '✕' : '▲'} ${text}`, severity: f.severity, message: f.message } : null;
   const motor = (/** @type {'V_p'|'V_y'} */ name) => {
-    const part = reply?.step.nonlinear.metrics?.[name]?.saturated ?? 0;
+    const alone = motion === 'both' ? undefined : reply?.axis_steps?.[motion]; // as it is seen, and counted
+    const part = (alone ?? reply?.step)?.nonlinear.metrics?.[name]?.saturated ?? 0;
     return remark(first(findings, [`saturation_${name}`]), part > 0 ? say`at limit ${share(part)}` : t('at limit'));
   };
   const stop = first(findings, ['reference_beyond_stop', 'travel_stop', 'starts_on_stop']);

@@ -44,7 +44,7 @@ export function help(opener) {
       else node.setAttribute('tabindex', '0');
       node.toggleAttribute(LENT, wanted);
     }
-    if (wanted) showTip(opener, t('Tap or focus what is outlined to read what it is. Esc ends the help.'));
+    if (wanted) showTip(opener, t('Tap or focus what is outlined to read what it is. ? or Esc ends the help.'));
     else closePopup();
   };
   for (const kind of ['pointerdown', 'mousedown', 'click'])

@@ -24,8 +24,8 @@ export class Remarks {
   }
 
   /** @param {import('../types.js').State} state */
-  render({ reply, problem, locks }) {
-    const remarks = remarksOf({ reply: hidesRemarks({ locks }) ? null : reply, problem });
+  render({ reply, problem, locks, motion }) {
+    const remarks = remarksOf({ reply: hidesRemarks({ locks }) ? null : reply, problem, motion });
     for (const { name, node } of this.spots) {
       const remark = remarks[name];
       setText(node, remark?.text ?? '');

@@ -91,3 +91,14 @@ test('a share at the limit shows a decimal below one percent alone, so that it n
   );
   assert.equal(said(0), '▲ at limit'); // no share of the samples is known
 });
+
+test('a share at the limit is that of the step that is seen alone', () => {
+  const of = (saturated) => ({ nonlinear: { metrics: { V_p: { saturated } } } });
+  const reply = {
+    step: of(0.2),
+    axis_steps: { theta: of(0.05), psi: of(0) },
+    findings: [{ code: 'saturation_V_p', severity: 'warning', message: 'm' }],
+  };
+  const texts = ['both', 'theta', 'psi'].map((motion) => remarksOf({ reply, problem: null, motion }).V_p.text);
+  assert.deepEqual(texts, ['▲ at limit 20 %', '▲ at limit 5 %', '▲ at limit']);
+});
