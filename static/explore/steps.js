@@ -149,7 +149,7 @@ export const STEPS = [
     title: 'Let the rotors lag',
     ask: (side) =>
       say`Give the rotors an Aero’s lag, ${AERO_LAG} s; then bring ${who(side)} to rest within ${fixed(CALM, 2)} s.`,
-    see: 'Placement knew of no lag: dashes show where it takes poles. Late rotors bear no fast poles: go right and down.',
+    see: 'Placement knew of no lag: dashes show where poles go. Late rotors bear no fast poles: go right, and down.',
     begin: (preset, side) => innerLoop(preset, { re: -20, im: 20 }, side),
     now: (state, side) =>
       !lagging(state)
