@@ -155,7 +155,7 @@ export function rulesSeen(u, rules) {
 }
 
 /**
- * Where lines' names stand, so that none lies over another: towards zero from the own line, else beyond it, else farther
+ * Where lines' names stand, so that none lies over another: towards zero from its own line, else beyond, else farther
  * away. Pure.
  * @param {readonly {value: number, y: number}[]} lines y: downwards
  * @param {{gap: number, high: number, top: number, bottom: number}} room gap: from a line to the middle of its name
