@@ -25,7 +25,7 @@ from heli2dof_core.scenario import Model as RigModel
 from heli2dof_core.signals import INTEGRALS, OUTPUTS, STATES
 
 from .design import DesignRequest, ObserverGains, observer_reply
-from .fields import asked
+from .fields import Strict, asked
 from .model import (
     Angles,
     Complex,
@@ -94,7 +94,7 @@ class PinnedDesign(StepRequest):
     name: str = Field(min_length=1, max_length=60, description="what its row is called")
 
 
-class Required(Model):
+class Required(Strict):
     """What is asked of the rig's steps, each axis alone, and of its loop."""
 
     settling: float | None = Field(default=None, gt=0, le=1e3, description="settling time, at most, s")

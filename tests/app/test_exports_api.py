@@ -130,7 +130,7 @@ def test_requirements_stand_in_the_report_and_remarks_stay_away(client):
     report = client.post("/api/v1/export/report", json={**BODY, "required": asked, "remarks": False})
     assert "Requirements" in report.text and "≤ 0.80 s" in report.text and "≥ 0.10 s" in report.text
     assert "<h2>Findings</h2>" not in report.text
-    for wrong in ({"settling": 0}, {"overshoot": 101}, {"rise": 1}):
+    for wrong in ({"settling": 0}, {"overshoot": 101}, {"lag": True}, {"rise": 1}):
         reply = client.post("/api/v1/export/report", json={**BODY, "required": wrong})
         assert reply.status_code == 422 and reply.json()["field"] == f"required.{next(iter(wrong))}"
 

@@ -80,6 +80,7 @@ def test_a_finger_reaches_every_control(chromium: Browser, app: App, size: tuple
             ("explore", "explore", "[data-testid=step-ask]"),
             ("rig", "rig", "[data-testid=rig-B_y]"),
             ("compare", "pins", "[data-testid=pin-use-0]"),
+            ("compare", "compare .card:nth-child(1)", "[data-testid=compare-table] td"),  # which moves the next down
             ("compare", "compare .card:nth-child(2)", "[data-testid=splits-table] td"),
             ("plant", "plant", "svg"),
             ("derivation", "paper", ".mark"),
@@ -178,4 +179,4 @@ def test_a_slow_server_does_not_end_a_first_visit(chromium: Browser, app: App):
         # drawn before it knows of any rig
         visit.page.wait_for_function("() => document.documentElement.dataset.view")
         held[0].continue_()
-        expect(visit.page.get_by_test_id("step-ask")).to_contain_text("swings")
+        expect(visit.page.get_by_test_id("step-ask")).to_contain_text("overshoot")

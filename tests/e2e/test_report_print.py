@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Browser, expect
 
 from heli2dof_core import PoleSet, Rotor, Rotors, Scenario, Spec, preset
-from heli2dof_core.export import FORMATS
+from heli2dof_core.export import FORMATS, Beside
 
 BASE = Spec.from_preset(preset())
 UNSTABLE = replace(
@@ -18,6 +18,7 @@ UNSTABLE = replace(
 SIX = replace(BASE, rotors=Rotors(Rotor(0.16), Rotor(0.16)), place_rotors=True)
 LINK = "http://127.0.0.1:8000/#v1&" + "&".join(f"at{i}=-12.345678,-9.87654" for i in range(30))
 PINS = [(f"{letter} as before", spec) for letter, spec in zip("ABCDEF", [BASE, UNSTABLE] * 3, strict=True)]
+ASKED = {"settling": 1.0, "overshoot": 5.0, "lag": 0.2}
 CASES = {"default": (BASE, []), "unstable": (UNSTABLE, []), "pins": (BASE, PINS), "six-pins": (SIX, PINS)}
 
 
@@ -25,7 +26,7 @@ CASES = {"default": (BASE, []), "unstable": (UNSTABLE, []), "pins": (BASE, PINS)
 def test_the_report_is_two_pages(chromium: Browser, name: str):
     spec, pins = CASES[name]
     page = chromium.new_page()
-    page.set_content(FORMATS["report"].content(spec, LINK, pins).decode())
+    page.set_content(FORMATS["report"].content(spec, LINK, Beside(pins, ASKED)).decode())
     page.evaluate("async () => { await document.fonts.ready; }")
     for paper in ("A4", "Letter"):
         made = page.pdf(format=paper)
