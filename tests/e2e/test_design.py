@@ -80,7 +80,11 @@ def test_a_finger_reaches_every_control(chromium: Browser, app: App, size: tuple
             ("explore", "explore", "[data-testid=step-ask]"),
             ("rig", "rig", "[data-testid=rig-B_y]"),
             ("compare", "pins", "[data-testid=pin-use-0]"),
-            ("compare", "compare .card:nth-child(1)", "[data-testid=compare-table] td"),  # which moves the next down
+            (
+                "compare",
+                "compare .card:nth-child(1)",
+                "[data-testid=compare-table] td",
+            ),  # which moves the next down
             ("compare", "compare .card:nth-child(2)", "[data-testid=splits-table] td"),
             ("plant", "plant", "svg"),
             ("derivation", "paper", ".mark"),
