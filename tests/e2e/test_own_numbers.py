@@ -87,6 +87,7 @@ def test_a_drag_sends_nothing(chromium: Browser, app: App, part: str, scene: str
             rig(page)
         else:
             page.wait_for_load_state("networkidle")
+        settled(page)  # no answer is on its way
         before = state(page)
         x, y = centre(page, "pole-3")
         page.mouse.move(x, y)
@@ -181,11 +182,12 @@ def test_a_difference_is_told_and_the_servers_numbers_hold(chromium: Browser, ap
         wrong = source.replace("    run();", "    this.#numbers.floats[AT.POLES] -= 0.01;\n    run();")
         route.fulfill(body=wrong, content_type="text/javascript")
 
-    with visited(chromium, EMPTY, SEEN) as visit:
+    with visited(chromium, EMPTY, SEEN, UNRESTING) as visit:
         page = visit.page
         page.route("**/static/kernel/updates.js", patched)
         goto(page, app.url)
         ready(page)
+        settled(page)
         x, y = centre(page, "pole-0")
         page.mouse.move(x, y)
         page.mouse.down()
@@ -194,7 +196,7 @@ def test_a_difference_is_told_and_the_servers_numbers_hold(chromium: Browser, ap
         wrong = state(page)
         assert not alike(wrong["K"], K_of(wrong).tolist())
         page.mouse.up()
-        until_state(page, "s.differences === 1")
+        until_state(page, "s.differences === 1 && s.settled")
         told = page.get_by_test_id("notice")
         expect(told).to_contain_text(
             re.compile(r"The server’s \S+ is \S+.*; here it was \S+.*\. The server’s is shown\.")
