@@ -1,6 +1,6 @@
 /** "Export": the design as a file for other programs, as numbers, or as a report to print. */
 import { messageOf, say } from '../text/index.js';
-import { bodyOf, letterOf, scenarioOf } from '../model/index.js';
+import { bodyOf, hidesRemarks, letterOf, scenarioOf } from '../model/index.js';
 import { exportDesign } from '../net/index.js';
 import { button, h, icon, popupButton, saveFile, setText } from '../ui/index.js';
 import { EXPORTS } from './export_formats.js';
@@ -35,7 +35,7 @@ const pinsOf = (pins) =>
 const beside = ({ pins, requirements, locks }) => ({
   pins: pinsOf(pins),
   required: requirements,
-  remarks: !locks.includes('remarks'),
+  remarks: !hidesRemarks({ locks }),
 });
 
 /** @param {import('../model/store.js').Store} store @param {import('../link/address.js').Address} address */

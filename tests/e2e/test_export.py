@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from app.contract.exports import FORMATS
-from tests.browser import settled, state
+from tests.browser import reopened, settled, state
 from tests.e2e.conftest import App
 
 
@@ -40,6 +40,15 @@ def test_the_file_is_of_what_is_shown_and_names_the_link(page: Page, app: App):
     assert file["origin"]["preset"]["name"] == "quanser-aero-2"
     link = file["origin"]["link"]
     assert link.startswith(f"{app.url}#") and "quanser-aero-2" in link
+
+
+def test_the_report_judges_what_is_required_and_keeps_back_what_the_link_hides(page: Page, app: App):
+    for lock, told in (("", True), ("&lock=remarks", False)):
+        reopened(page, f"{app.url}#v1&req.settling=0.8{lock}")
+        page.get_by_test_id("export").click()
+        text = saved(page, "report")[1].decode()
+        assert "≤ 0.80 s" in text and "✓ 0.73 s" in text and "✕ 0.85 s" in text
+        assert ("<h2>Findings</h2>" in text) == told
 
 
 def test_the_report_opens_in_a_tab(page: Page):
