@@ -8,6 +8,8 @@ in the middle; integrals are those of degree 8 through nine nodes.
 
 from __future__ import annotations
 
+from fractions import Fraction
+from itertools import pairwise
 from math import ceil, inf, pi
 
 import numpy as np
@@ -46,16 +48,26 @@ GROUP = 8
 """Intervals that are integrated together."""
 
 
-def _shares(group: int) -> np.ndarray:
-    """Integrals of Lagrange's polynomials through 0 … `group` from each node to the next, (group, group + 1)."""
-    half = 0.5 * group
-    nodes, n = np.arange(group + 1.0) / half - 1.0, np.arange(1, group + 2)
-    powers = np.diff(nodes[:, None] ** n / n, axis=0)
-    return half * np.linalg.solve(np.vander(nodes, increasing=True).T, powers.T).T
+def _shares(group: int) -> list[list[Fraction]]:
+    """Integrals of Lagrange's polynomials through 0 … `group` from each node to the next, group × (group + 1).
+
+    As fractions: a linear solver's last digits are its machine's, and these numbers stand in the page's module.
+    """
+    columns = []
+    for own in range(group + 1):
+        powers = [Fraction(1)]
+        for other in range(group + 1):
+            if other != own:  # times (x − other)/(own − other)
+                times_x, scale = [Fraction(0), *powers], own - other
+                powers = [(up - other * same) / scale for up, same in zip(times_x, [*powers, 0], strict=True)]
+        until = [sum(c * x ** (n + 1) / (n + 1) for n, c in enumerate(powers)) for x in range(group + 1)]
+        columns.append([Fraction(end - begin) for begin, end in pairwise(until)])
+    return [list(row) for row in zip(*columns, strict=True)]
 
 
-SHARES = _shares(GROUP)
-WHOLE = SHARES.sum(axis=0)
+_EXACT = _shares(GROUP)
+SHARES = np.array(_EXACT, dtype=float)
+WHOLE = np.array([sum(column) for column in zip(*_EXACT, strict=True)], dtype=float)
 MOMENTS = WHOLE * np.arange(GROUP + 1)
 
 

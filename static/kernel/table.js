@@ -206,8 +206,8 @@ export const SIGNATURES = {
 };
 
 /** Checksums of what it was made from, and of kernels.wasm. */
-export const SOURCES = 'b3be580303cd34dc27aa29fd948f666187213109d40f38d1e05f94b4d303714c';
-export const MODULE = 'e71fffe714bc73bf094ffad983f7b87fc3b21fc42e979aff2b6e4b3a09456c98';
+export const SOURCES = 'be52a79442bfbc6a628d7099dd220f1886fdec30f58e88570071b4d140deae2d';
+export const MODULE = '7f1a04b95022f1265209acab56c96a3cccaf01b04e64a212921ff9c987660e58';
 
 /** What made it. */
 export const TOOLS = {

@@ -23,7 +23,7 @@ export function significant(v, digits = 4) {
   const size = Math.abs(v);
   if (size !== 0 && (size >= 1e6 || size < 1e-4))
     return typographic(v.toExponential(Math.max(0, digits - 2)).replace('e+', 'e'));
-  const leading = size === 0 ? 0 : Math.floor(Math.log10(size));
+  const leading = size === 0 ? 0 : Math.floor(Math.log10(Number(size.toPrecision(digits)))); // of what is shown
   // so that a small figure is not rounded to a zero
   const whole = leading >= 0 ? leading + 1 : leading === -1 ? 1 : leading + 2;
   return fixed(v, Math.max(0, digits - whole));

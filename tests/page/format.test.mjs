@@ -25,6 +25,7 @@ test('the minus is a minus, and zero has none', () => {
 
 test('significant digits, with an exponent only where it helps', () => {
   assert.equal(significant(51.170053, 5), '51.170');
+  assert.equal(significant(9.9999999, 5), significant(10, 5));
   assert.equal(significant(-0.61941, 5), '\u22120.6194');
   assert.equal(significant(4526.3, 4), '4526');
   assert.equal(significant(2.5e-7, 4), '2.50e\u22127');
