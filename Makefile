@@ -72,20 +72,22 @@ steady: $(VENV)/.tools node_modules/.installed browser kernels ## the browser te
 mutation: $(VENV)/.tools node_modules/.installed ## change the core and the page in forty places, one by one: which changes does no test see?
 	$(BIN)/python -m tests.mutation --jobs 2 $(if $(SEED),--seed $(SEED))
 
-contract: $(VENV)/.tools ## make what follows from the core and the contract: the page's figures, methods, quantities, layout, types; K as kernels
+contract: $(VENV)/.tools ## make what follows from the core and the contract: the page's figures, methods, quantities, layout, types; labs' schema; K as kernels
 	$(BIN)/python -m tests.kernel_formulas
 	$(BIN)/python -m tests.page_figures
 	$(BIN)/python -m tests.page_methods
 	$(BIN)/python -m tests.page_quantities
 	$(BIN)/python -m tests.page_kernel
 	$(BIN)/python -m tests.page_types
+	$(BIN)/python -m tests.lab_schema
 
 wasm: $(VENV)/.tools ## make static/kernel/kernels.wasm and its table anew, from the kernels
 	@command -v wasm-ld >/dev/null || $(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt '.[wasm]'
 	$(BIN)/python -m wasm
 
-screenshot: $(VENV)/.tools browser ## take docs/screenshot.png anew
+screenshot: $(VENV)/.tools browser ## take docs/screenshot.png and docs/wall.png anew
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.screenshot docs/screenshot.png
+	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.wall_screenshot docs/wall.png
 
 bench: $(VENV)/.tools ## time all against python-control and SciPy, as ratios; writes docs/performance.md
 	$(BIN)/python -W ignore -m tests.bench.placement

@@ -154,7 +154,8 @@ def cloud_in_parts(
                 hint="Leave it out.",
             )
     report = evaluate(_nominal(spec))
-    yield from rigs_in_parts(spec, report, _random_factors(report.loop, uncertainty), check, first)
+    _require_lags(report.loop, uncertainty)
+    yield from rigs_in_parts(spec, report, random_factors(uncertainty), check, first)
 
 
 def _nominal(spec: Spec) -> Spec:
@@ -229,11 +230,16 @@ def _summary(t: Floats, poles: Complexes, verdicts: Floats, bands: Sequence[Floa
     )
 
 
-def _random_factors(loop: Loop, uncertainty: Uncertainty) -> Floats:
-    """By which each rig's parameters and both time constants differ from the nominal ones, (samples, 14)."""
-    rng = np.random.default_rng(uncertainty.seed)
-    spread = np.array([uncertainty.spread.get(name, 0.0) for name in PARAMETER_INFO])
-    return frozen(np.hstack((_factors(rng, spread, uncertainty), _lag_factors(loop, uncertainty))))
+def random_factors(uncertainty: Uncertainty) -> Floats:
+    """By which each rig's parameters and both rotors' time constants differ from the nominal ones, (samples, 14).
+
+    The time constants have random numbers of their own, so that the other columns are the same without them.
+    """
+    spread, lags = (
+        np.array([uncertainty.spread.get(name, 0.0) for name in names]) for names in (PARAMETER_INFO, LAGS)
+    )
+    own = _factors(np.random.default_rng(uncertainty.seed), spread, uncertainty)
+    return frozen(np.hstack((own, _factors(np.random.default_rng((uncertainty.seed, 1)), lags, uncertainty))))
 
 
 def _factors(rng: np.random.Generator, spread: Floats, uncertainty: Uncertainty) -> Floats:
@@ -246,11 +252,11 @@ def _factors(rng: np.random.Generator, spread: Floats, uncertainty: Uncertainty)
     return np.maximum(1.0 + spread * deviations, SMALLEST)
 
 
-def _lag_factors(loop: Loop, uncertainty: Uncertainty) -> Floats:
-    """The same of both rotors' time constants, (samples, 2), by random numbers of their own."""
+def _require_lags(loop: Loop, uncertainty: Uncertainty) -> None:
+    """Only a rotor that has a time constant can be uncertain of it."""
     own = np.zeros(2) if loop.actuators is None else loop.actuators.tau
-    spread = np.array([uncertainty.spread.get(name, 0.0) for name in LAGS])
-    for name, axis, tau, share in zip(LAGS, AXES, own.tolist(), spread.tolist(), strict=True):
+    for name, axis, tau in zip(LAGS, AXES, own.tolist(), strict=True):
+        share = uncertainty.spread.get(name, 0.0)
         if share and not tau:
             raise InvalidInputError(
                 f"the {axis} motor's rotor follows at once, so there is no time constant to be uncertain of",
@@ -258,4 +264,3 @@ def _lag_factors(loop: Loop, uncertainty: Uncertainty) -> Floats:
                 value=share,
                 hint="Give this rotor a time constant, or leave its uncertainty out.",
             )
-    return _factors(np.random.default_rng((uncertainty.seed, 1)), spread, uncertainty)

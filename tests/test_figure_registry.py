@@ -17,8 +17,9 @@ from app.contract.frequency import Margins
 from app.contract.frequency import Sensitivity as SensitivityReply
 from app.contract.model import Model
 from heli2dof_core import figures
-from heli2dof_core.export.report_figures import ROWS, told
+from heli2dof_core.export.report_figures import ROWS
 from heli2dof_core.figures import KINDS, RESPONSE, Figure
+from heli2dof_core.figures.written import told
 from heli2dof_core.kernels import figures as kernel
 from heli2dof_core.sensitivity import Sensitivity
 from tests import page_figures, page_methods

@@ -22,7 +22,10 @@ COMMANDS = {
     "identify": ("recordings", "The rig's parameters from a recording."),
     "symbolic": ("derivation", "The formulas, derived."),
     "paper": ("derivation", "The paper's numbers recomputed, its errata proved."),
+    "lab": ("labs", "Labs: written, checked, tried and marked."),
     "export": ("exports", "A design as a file for other tools."),
+    "db": ("database", "The classes' database: schema, backup, restore."),
+    "lti": ("lti", "Learning platforms that launch labs here."),
     "completion": ("completion", "The shell's completion of commands and options."),
 }
 """Per command: the module that holds it under its own name, and what it does."""

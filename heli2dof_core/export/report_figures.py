@@ -4,70 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import floor, log10
 from typing import Any
 
 import numpy as np
 
 from ..evaluate import Report, Step
-from ..figures import AXIS, MARGINS, MOTOR, RESPONSE, SENSITIVITY, STEP, AxisMetrics, Figure, Margins
+from ..figures import AXIS, MARGINS, MOTOR, RESPONSE, SENSITIVITY, STEP, AxisMetrics, Margins
+from ..figures.written import DASH, percent, told
 from ..metrics import NOT_SETTLED
 from ..scenario import Model
 from ..signals import AXES, INPUTS, OUTPUTS, Floats
-
-DASH = "–"
-
-
-def fixed(value: float | None, decimals: int = 2) -> str:
-    """Fixed decimals with a true minus sign, never a negative zero."""
-    if value is None:
-        return DASH
-    text = f"{value:.{decimals}f}"
-    return text.lstrip("-") if float(text) == 0 else text.replace("-", "−")
-
-
-def significant(value: float | None, digits: int = 4) -> str:
-    """About `digits` significant digits, with an exponent only from 1e6 on and below 1e-4."""
-    if value is None:
-        return DASH
-    size = abs(value)
-    if size and (size >= 1e6 or size < 1e-4):
-        mantissa, exponent = f"{value:.{max(0, digits - 2)}e}".split("e")
-        return f"{mantissa}e{int(exponent)}".replace("-", "−")
-    leading = floor(log10(size)) if size else 0
-    # so that a small figure is not rounded to a zero
-    whole = leading + 1 if leading >= 0 else 1 if leading == -1 else leading + 2
-    return fixed(value, max(0, digits - whole))
-
-
-def seconds(value: float | None) -> str:
-    """Seconds with two decimals; milliseconds below 0.1 s, with one decimal below 10 ms."""
-    if value is None:
-        return DASH
-    return f"{fixed(1e3 * value, 1 if value < 0.01 else 0)} ms" if value < 0.1 else f"{fixed(value)} s"
-
-
-def percent(share: float) -> str:
-    """A share, in percent; below one percent with a decimal, and never as none where it is not."""
-    if 0 < share < 0.0005:
-        return "< 0.1 %"
-    return f"{fixed(100 * share, 1 if share < 0.01 else 0)} %"
-
-
-def decibel(ratio: float | None) -> str:
-    """A ratio in decibels."""
-    return DASH if ratio is None or ratio <= 0 else f"{fixed(20 * log10(ratio), 1)} dB"
-
-
-def told(figure: Figure, value: float | None) -> str:
-    """A value as the figure says that it is written; its unit after it, where none stands at the row's head."""
-    if figure.notation in ("seconds", "decibel"):
-        return seconds(value) if figure.notation == "seconds" else decibel(value)
-    if value is None:
-        return DASH
-    text = (significant if figure.notation == "significant" else fixed)(figure.scale * value, figure.digits)
-    unit = "" if figure.in_head else figure.shown or figure.unit
-    return f"{text}{'' if unit in ('', '°') else ' '}{unit}"
 
 
 @dataclass(frozen=True)

@@ -6,12 +6,12 @@ from typing import Any
 
 from ..evaluate import Report
 from ..figures import LOOP
+from ..figures.written import told
 from ..loop import UNLIMITED
 from ..rotors import Actuators
 from ..signals import AXES
 from ..spec import Spec
 from ..tables import number, poles
-from .report_figures import told
 
 _ROWS = (
     ("τ", "time constant of the rotor's speed v: τ v̇ = V − v", "tau", "s"),

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from ..errors import Heli2DofError
 from ..evaluate import Report, evaluate
 from ..figures import AXIS
+from ..figures.written import DASH, fixed, told
 from ..metrics import NOT_SETTLED
 from ..placement.registry import METHODS
 from ..signals import INPUTS, OUTPUTS
 from ..spec import Spec
 from .format import Pins
 from .machine import poles_in_words
-from .report_figures import DASH, fixed, told
 
 __all__ = ["Pins", "pinned"]
 

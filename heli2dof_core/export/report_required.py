@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 from ..evaluate import Report
 from ..figures import AXIS, LOOP, Figure
+from ..figures.written import told
 from ..metrics import NOT_SETTLED
 from ..signals import OUTPUTS
-from .report_figures import told
 
 REQUIRED = {figure.key or name: name for name, figure in {**AXIS, **LOOP}.items()}
 """What can be required: a figure's short name → its name."""

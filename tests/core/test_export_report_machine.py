@@ -12,8 +12,8 @@ import sympy as sp
 
 from heli2dof_core import Report, Rotor, Rotors, Spec, Structure, evaluate
 from heli2dof_core.export import FORMATS
-from heli2dof_core.export.report_figures import seconds
 from heli2dof_core.export.report_formulas import formulas
+from heli2dof_core.figures.written import seconds
 from heli2dof_core.tables import number
 from tests.core.test_export_machine import BASE, BOTH, SIX, SPECS
 from tests.core.test_export_report import tree
