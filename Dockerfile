@@ -1,5 +1,5 @@
 # syntax=docker/dockerfile:1
-# heli2dof in one container: docker build -t heli2dof . && docker run --rm -p 8000:8000 heli2dof
+# heli2dof in one container: docker build -t heli2dof . && docker run --rm -p 8000:8000 -v heli2dof:/var/lib/heli2dof heli2dof
 
 FROM python:3.13-slim AS build
 WORKDIR /src
@@ -11,7 +11,7 @@ COPY static static
 # Bytecode and compiled kernels are made here, since the server may not write at run time; the kernels for
 # any processor of the kind. The packages' own tests and what only compilers and editors read stay out.
 ENV NUMBA_CACHE_DIR=/opt/heli2dof/kernels NUMBA_CPU_NAME=generic
-RUN /opt/heli2dof/bin/pip install --no-cache-dir --disable-pip-version-check -c constraints.txt '.[matlab]' \
+RUN /opt/heli2dof/bin/pip install --no-cache-dir --disable-pip-version-check -c constraints.txt '.[matlab,postgresql]' \
  && /opt/heli2dof/bin/pip uninstall --yes pip \
  && find /opt/heli2dof/lib -type d -name tests -prune -exec rm -rf {} + \
  && find /opt/heli2dof/lib -name '*.py[ix]' -delete -o -name '*.pxd' -delete -o -name '*.h' -delete -o -name '*.a' -delete \
@@ -29,7 +29,11 @@ RUN python -m venv /opt/sbom \
 FROM python:3.13-slim
 RUN useradd --system --uid 10001 --no-create-home --shell /usr/sbin/nologin heli2dof
 COPY --from=sbom /opt/heli2dof /opt/heli2dof
+# Classes are kept here, unless HELI2DOF_DATABASE names a server: mount a volume that outlives the container.
+RUN install -d -o heli2dof -m 700 /var/lib/heli2dof
+VOLUME /var/lib/heli2dof
 USER 10001
+ENV HELI2DOF_DATABASE=sqlite:////var/lib/heli2dof/classes.db
 ENV NUMBA_CACHE_DIR=/opt/heli2dof/kernels NUMBA_CPU_NAME=generic
 ENV PATH=/opt/heli2dof/bin:$PATH PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1 PORT=8000
 EXPOSE 8000

@@ -12,6 +12,7 @@ from starlette.types import ASGIApp
 from heli2dof_core.version import package_version
 
 from . import scene
+from .classes.late import Classes
 from .contract import examples, problems
 from .edge import policies
 from .edge.connections import Connections
@@ -19,21 +20,28 @@ from .edge.limits import SocketCounts, read_in_small_parts
 from .edge.middleware import with_middleware
 from .edge.problem_page import problem_page
 from .jobs.compute import Compute
+from .lti.late import Lti
 from .ops.cached_files import CachedFiles
 from .ops.metrics import Metrics
 from .ops.settings import Settings
 from .routes import (
     catalogue,
+    class_calls,
+    class_members,
+    classes,
     comparison,
     derivation,
     design,
     exports,
     frequency,
     health,
+    labs,
     live,
+    lti,
     motion,
     recordings,
     robustness,
+    students,
     systems,
 )
 
@@ -73,6 +81,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         seconds=settings.slow_seconds,
     )
     sessions = scene.SceneSessions(capacity=settings.scenes)
+    kept = Classes(settings, compute)
+    launches = Lti(settings, compute, kept)
     metrics.watch_sessions(lambda: len(sessions))
     metrics.watch_pools(lambda: compute.waiting)
 
@@ -80,7 +90,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
         read_in_small_parts()
         compute.start()
-        async with sessions.running():
+        async with sessions.running(), kept.running(), launches.running():
             yield
         compute.close()
 
@@ -97,7 +107,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redoc_url=None,
     )
     app.state.compute, app.state.metrics, app.state.connections = compute, metrics, connections
-    app.state.socket_counts, app.state.sessions = counts, sessions
+    app.state.socket_counts, app.state.sessions, app.state.classes = counts, sessions, kept
+    app.state.lti = launches
     own_policy = {"Content-Security-Policy": policies.WORKER}
     files = CachedFiles(directory=settings.static, headers={"kernel/rigs_worker.js": own_policy})
     # First: these are asked for most, and each route that is tried costs time.
@@ -112,6 +123,13 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(motion.build_router(compute))
     app.include_router(recordings.build_router(compute, settings))
     app.include_router(exports.build_router(compute))
+    rates = class_calls.Rates(settings)
+    app.include_router(labs.build_router(kept))
+    app.include_router(students.build_router(kept, settings, rates))
+    app.include_router(class_members.build_router(kept, settings, rates))
+    streams = class_calls.Streams(settings, counts)
+    app.include_router(classes.build_router(kept, settings, rates, streams, lambda: connections.closing_idle))
+    app.include_router(lti.build_router(launches, settings, rates))
     app.include_router(live.build_router(compute, metrics))
     app.include_router(robustness.build_router(compute, metrics))
     app.include_router(scene.build_views_router())
@@ -132,6 +150,10 @@ def _add_pages(app: FastAPI, settings: Settings, files: CachedFiles) -> None:
     @app.get("/", include_in_schema=False)
     async def page(request: Request) -> Response:
         return page_of("index.html", request, policies.page(settings.frame_ancestors))
+
+    @app.get("/class", include_in_schema=False)
+    async def wall(request: Request) -> Response:
+        return page_of("class.html", request, policies.page(settings.frame_ancestors))
 
     @app.get("/docs", include_in_schema=False)
     async def docs(request: Request) -> Response:

@@ -28,10 +28,12 @@ def console(*, stderr: bool = False) -> Console:
 
 
 def load_kernels() -> None:
-    """Has the compiled kernels ready; the first time on a machine they take some twenty seconds."""
+    """Has the compiled kernels ready; the first time on a machine they take some two minutes."""
     from heli2dof_core import warm_up
 
-    with console(stderr=True).status("Loading the kernels; the first time they are compiled, about 20 s"):
+    with console(stderr=True).status(
+        "Loading the kernels; the first time they are compiled, some two minutes"
+    ):
         warm_up()
 
 

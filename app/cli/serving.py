@@ -12,6 +12,7 @@ import signal
 import socket
 import sys
 import threading
+from pathlib import Path
 from time import monotonic
 from types import FrameType
 from typing import Any
@@ -36,6 +37,23 @@ _AT_LEAST = 0.1
 """The share that the sockets get on a machine so busy that the end begins late."""
 _FOR_THE_LOCK = 2.0
 """Seconds more after which the process ends even where Python's lock is held."""
+_ANY = ("0.0.0.0", "::")
+_CONTAINERS = (Path("/.dockerenv"), Path("/run/.containerenv"))
+"""There in a container, whose own address is of no use outside."""
+
+
+def own_address() -> str | None:
+    """The address that other machines of this network reach this one by; None where it cannot be told."""
+    if any(mark.exists() for mark in _CONTAINERS):
+        return None
+    # A UDP socket that connects sends nothing: it asks which of the machine's addresses leads outside.
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asking:
+        try:
+            asking.connect(("10.255.255.255", 9))
+        except OSError:  # no network
+            return None
+        address = str(asking.getsockname()[0])
+    return None if address.startswith("127.") else address
 
 
 class Server(uvicorn.Server):
@@ -61,6 +79,8 @@ class Server(uvicorn.Server):
             host, port = sockets[0].getsockname()[:2]
             shown = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, host)
             print(f"heli2dof {package_version()} is ready: http://{shown}:{port}{self._prefix}", flush=True)
+            if host in _ANY and (there := own_address()):
+                print(f"From other machines of this network: http://{there}:{port}{self._prefix}", flush=True)
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         """Ends in good order; at the second signal at once, by that signal."""

@@ -70,6 +70,42 @@ EXAMPLES: dict[str, dict[str, tuple[str, Json]]] = {
     "JoinRequest": {
         "one": ("A file that was sent before; give the id of each signal's", {"recordings": ["{key}"]})
     },
+    "MarkRequest": {
+        "settle": (
+            "An attempt at a step, and the answer to a question",
+            {"seed": 7, "step": "settle", "design": {"poles": [-6, -7, -9, -8]}, "answers": {"who": 2}},
+        ),
+    },
+    "ClassRequest": {
+        "monday": (
+            "A class that closes by itself",
+            {"lab": "one-pair", "title": "Monday, group 2", "closes": "2099-01-31T16:00:00Z"},
+        ),
+    },
+    "JoinClassRequest": {
+        "name": ("Somebody joins", {"name": "Ada Lovelace", "email": "ada@example.org", "login": "al1"}),
+    },
+    "AttemptRequest": {
+        "settle": (
+            "An attempt at a step",
+            {
+                "student": "{student}",
+                "id": "6f1c2a1e-8c2b-4f0e-9a55-0d1f5a2b3c4d",
+                "step": "settle",
+                "design": {"poles": [-6, -7, -9, -8]},
+                "answers": {"who": 2, "why": "The pair nearest to the axis decides."},
+            },
+        ),
+    },
+    "HintRequest": {
+        "first": ("The first hint of a step", {"student": "{student}", "step": "settle", "hint": 1}),
+    },
+    "HandMark": {
+        "why": (
+            "Two points for an answer in words",
+            {"step": "settle", "question": "why", "points": 2, "comment": "Nearly: which pair?"},
+        ),
+    },
     "PlaceRequest": {
         "three": (
             "Three states, two inputs",

@@ -17,6 +17,7 @@ from starlette.exceptions import HTTPException
 from heli2dof_core import Heli2DofError
 from heli2dof_core.request import path_of
 
+from ..classes.errors import ClassError
 from ..jobs.fair_queue import BusyError, OverdueError
 from ..ops.logs import request_id
 from .encoding import json_bytes
@@ -29,15 +30,17 @@ _CODES = {
     "missing": ("missing_field", "Give this field."),
     "json_invalid": ("invalid_json", "Send one JSON object."),
 }
-_TITLES = {
+TITLES = {
     401: "Not allowed without the token",
     403: "Not allowed",
     404: "Not found",
     405: "Method not allowed",
     408: "Too slow",
+    409: "Not in this state",
     413: "Too large",
     422: "Invalid input",
     429: "Too many requests",
+    502: "Another server failed",
     503: "Not available now",
 }
 MEDIA_TYPE = "application/problem+json"
@@ -59,11 +62,22 @@ class Problem(BaseModel):
     request_id: str = Field("", description="of the request, where the server failed: its log tells more")
 
 
+_HANDLED = (
+    *(Heli2DofError, RequestValidationError, HTTPException, ClassError, BusyError, OverdueError),
+    Exception,
+)
+
+
 def problem(status: int, detail: str, code: str, **more: Any) -> dict[str, Any]:
     """A problem object; `more` may give field, value, hint and request_id, and nothing empty is kept."""
-    known = {"type": f"urn:heli2dof:problem:{code}", "title": _TITLES.get(status, "Error"), "status": status}
+    known = {"type": f"urn:heli2dof:problem:{code}", "title": TITLES.get(status, "Error"), "status": status}
     extra = {name: _finite(value) for name, value in more.items() if value not in (None, "")}
-    return {**known, "detail": detail, "code": code, **extra}
+    return {**known, "detail": _whole(detail), "code": code, **extra}
+
+
+def _whole(text: str) -> str:
+    """Text without halves of signs, which are no UTF-8."""
+    return text.encode("utf-8", "replace").decode()
 
 
 def _path_of(field: str) -> str:
@@ -86,6 +100,8 @@ def problem_of(error: Exception) -> dict[str, Any]:  # noqa: PLR0911
             )
         case RequestValidationError() | ValidationError():
             return _of_validation(error.errors()[0])
+        case ClassError():
+            return problem(error.status, error.detail, error.code, hint=error.hint, **error.more)
         case JSONDecodeError():
             return problem(422, f"Not JSON: {error}.", "invalid_json", hint="Send one JSON object.")
         case BusyError():
@@ -127,11 +143,12 @@ def install(app: FastAPI, page: Page = lambda _request, _body: None) -> None:
             route = getattr(request.scope.get("route"), "path", "(none)")
             _log.error("%s %s failed", request.method, route, exc_info=error)
         headers = error.headers if isinstance(error, HTTPException) else None
-        if body["status"] == 503 and not headers:
-            headers = {"Retry-After": str(getattr(error, "retry_after", 30))}
+        wait = getattr(error, "retry_after", None)
+        if not headers and (wait is not None or body["status"] == 503):
+            headers = {"Retry-After": str(30 if wait is None else wait)}
         return page(request, body) or problem_response(body, headers)
 
-    for kind in (Heli2DofError, RequestValidationError, HTTPException, BusyError, OverdueError, Exception):
+    for kind in _HANDLED:
         app.add_exception_handler(kind, answer)
     _describe(app)
 
@@ -156,7 +173,7 @@ def _describe(app: FastAPI) -> None:
                 refusals = {413: takes_body, 422: takes_input, 429: True, 503: True}
                 for status, may_be in refusals.items():
                     if may_be:
-                        about = {"description": _TITLES[status], "content": content}
+                        about = {"description": TITLES[status], "content": content}
                         if status in (429, 503):
                             about["headers"] = {
                                 "Retry-After": {"schema": {"type": "integer"}, "description": "s"}
@@ -181,7 +198,7 @@ def _finite(value: Any, depth: int = 5) -> Any:
     if depth == 0:
         return "…"
     if isinstance(value, Mapping):
-        return {str(key)[:200]: _finite(item, depth - 1) for key, item in list(value.items())[:20]}
+        return {_whole(str(key)[:200]): _finite(item, depth - 1) for key, item in list(value.items())[:20]}
     if isinstance(value, (list, tuple)):
         return [_finite(item, depth - 1) for item in value[:20]]
     plain = value is None or isinstance(value, bool)
@@ -190,4 +207,4 @@ def _finite(value: Any, depth: int = 5) -> Any:
     )
     if plain or small:
         return value
-    return value[:2000] if isinstance(value, str) else str(value)[:200]
+    return _whole(value[:2000] if isinstance(value, str) else str(value)[:200])

@@ -18,7 +18,12 @@ from .refusals import refuse
 
 COOKIE = "heli2dof-access"
 _PUBLIC_PATHS = frozenset(
-    ("/livez", "/healthz", "/favicon.ico", "/static/favicon.svg", "/static/css/login.css")
+    (
+        *("/livez", "/healthz", "/favicon.ico", "/static/favicon.svg", "/static/css/login.css"),
+        # Who comes from a registered platform has shown that already, and is let in as they land.
+        *("/lti/login", "/lti/launch", "/lti/choose", "/lti/keys"),
+        *("/static/lti/launch.js", "/static/lti/launch.css"),
+    )
 )
 _MOST_FORM_BYTES = 4096
 _COOKIE_SECONDS = 180 * 24 * 3600
@@ -41,9 +46,8 @@ class Access:
     def __init__(self, app: ASGIApp, token: str, ancestors: tuple[str, ...]) -> None:
         self._next = app
         self._token = token.encode()
-        self._cookie_value = hmac.new(self._token, b"heli2dof cookie", hashlib.sha256).hexdigest().encode()
+        self._cookie_value = _cookie_value(token).encode()
         self._ancestors = ancestors
-        self._framed = any(not ancestor.startswith("'") for ancestor in ancestors)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Passes on what may come in."""
@@ -110,21 +114,38 @@ class Access:
         query = urlencode([pair for pair in _pairs(request.scope["query_string"]) if pair[0] != "token"])
         last = request.scope["path"].rpartition("/")[2]
         reply = RedirectResponse(f"./{last}{'?' if query else ''}{query}", 303, {"Cache-Control": "no-store"})
-        secure = request.scope["scheme"] == "https"
-        elsewhere = secure and self._framed
-        reply.set_cookie(
-            COOKIE,
-            self._cookie_value.decode(),
-            max_age=_COOKIE_SECONDS,
-            path=request.scope.get("root_path", "") or "/",
-            secure=secure,
-            httponly=True,
-            samesite="none" if elsewhere else "lax",
-        )
-        if elsewhere:
-            # Of the site that frames this one: browsers drop other cookies there.
-            reply.headers["set-cookie"] += "; Partitioned"
+        let_in(reply, request.scope, self._token.decode(), self._ancestors)
         return reply
+
+
+def let_in(reply: Response, scope: Scope, token: str, ancestors: tuple[str, ...]) -> None:
+    """Gives a browser the cookie with which it comes in.
+
+    Args:
+        reply: that sets it.
+        scope: of the request.
+        token: the server's.
+        ancestors: who may show this server's pages in a frame.
+    """
+    secure = scope["scheme"] == "https"
+    elsewhere = secure and any(not ancestor.startswith("'") for ancestor in ancestors)
+    reply.set_cookie(
+        COOKIE,
+        _cookie_value(token),
+        max_age=_COOKIE_SECONDS,
+        path=scope.get("root_path", "") or "/",
+        secure=secure,
+        httponly=True,
+        samesite="none" if elsewhere else "lax",
+    )
+    if elsewhere:
+        # Of the site that frames this one: browsers drop other cookies there. The newest header is this one's.
+        name, value = reply.raw_headers[-1]
+        reply.raw_headers[-1] = name, value + b"; Partitioned"
+
+
+def _cookie_value(token: str) -> str:
+    return hmac.new(token.encode(), b"heli2dof cookie", hashlib.sha256).hexdigest()
 
 
 def _pairs(query: bytes) -> list[tuple[str, str]]:

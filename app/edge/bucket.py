@@ -21,10 +21,14 @@ class Bucket:
         Args:
             in_advance: take it even then: for who waits so long and then acts, not for who is refused.
         """
-        now = self._clock()
-        self._left = min(self._burst, self._left + (now - self._last) * self._rate)
-        self._last = now
-        wait = max(0.0, (1 - self._left) / self._rate)
+        wait = self.wait()
         if in_advance or not wait:
             self._left -= 1
         return wait
+
+    def wait(self) -> float:
+        """After how many seconds there is one to be taken; 0: now."""
+        now = self._clock()
+        self._left = min(self._burst, self._left + (now - self._last) * self._rate)
+        self._last = now
+        return max(0.0, (1 - self._left) / self._rate)

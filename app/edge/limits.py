@@ -26,7 +26,9 @@ _POLICY, _TRY_LATER = 1008, 1013
 _READ_BYTES = 16 * 1024
 _UPLOAD_PATH = "/api/v1/recordings"
 """The one call that takes a file."""
-_RATE_LIMITED_PATHS = ("/api/", "/scene/")
+_KEPT_PATH, _KEPT_BYTES = "/api/v1/classes", 64 * 1024
+"""Calls whose bodies are kept, and the largest of these, bytes: a design has two thousand, an answer four."""
+_RATE_LIMITED_PATHS = ("/api/", "/scene/", "/lti/")
 """Where requests are counted: the page's own files cost nothing, and a class loads thousands of them at once."""
 _MOST_ADDRESSES = 10_000
 _connections = itertools.count(1)
@@ -124,7 +126,7 @@ class Limits:
                 {"Retry-After": str(int(wait) + 1)},
             )
             return await answer(scope, receive, send)
-        most = MOST_BYTES if path == _UPLOAD_PATH else self._settings.body_bytes
+        most = self._most(path)
         body = _Body(receive, most, self._settings.body_seconds)
         if body.content_length(scope) > most:
             return await body.refusal(413)(scope, receive, send)
@@ -136,6 +138,12 @@ class Limits:
         finally:
             current_caller.reset(token)
         return None
+
+    def _most(self, path: str) -> int:
+        """Bytes of the largest body that a path takes."""
+        if path == _UPLOAD_PATH:
+            return MOST_BYTES
+        return _KEPT_BYTES if path.startswith(_KEPT_PATH) else self._settings.body_bytes
 
     async def _websocket(self, scope: Scope, receive: Receive, send: Send) -> None:
         address, settings = address_of(scope), self._settings

@@ -72,6 +72,17 @@ def told(ancestors: Iterable[str]) -> str:
     return _joined(ancestors, style_src="'self'", img_src="'self'")
 
 
+def launch(ancestors: Iterable[str], sent_to: Iterable[str]) -> str:
+    """Of the pages between a learning platform and this server: a script that posts, to where is named."""
+    return _joined(
+        ancestors,
+        script_src="'self'",
+        style_src="'self'",
+        img_src="'self'",
+        form_action=" ".join(sent_to),
+    )
+
+
 def viewer(ancestors: Iterable[str], scripts: Iterable[bytes]) -> str:
     """Of viser's page.
 

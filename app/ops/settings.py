@@ -130,6 +130,31 @@ class Settings(BaseSettings):
         default=256 * 2**20, ge=2**20, description="most bytes of recordings kept at once"
     )
 
+    # Classes that work on a lab.
+    database: SecretStr | None = Field(
+        default=None,
+        description="where classes are kept, as `sqlite:////data/classes.db`, `postgresql://user:secret@host/name` "
+        "or `memory`, gone with the process; empty: a file in the user's data folder",
+    )
+    classes: Literal["open", "operator", "off"] = Field(
+        default="open",
+        description="who may make classes: anyone (`open`), who knows the `operator` key, or nobody (`off`)",
+    )
+    operator_key: SecretStr | None = Field(
+        default=None, description=f"of who may make classes; {_SHORTEST_TOKEN} characters or more"
+    )
+    labs: Path | None = Field(default=None, description="folder of labs of one's own, `*.yaml`")
+    class_days: int = Field(
+        default=90, ge=1, le=3660, description="days after which a class is deleted with all that is in it"
+    )
+    classes_most: int = Field(default=2000, ge=1, description="most classes at once")
+    students_most: int = Field(default=500, ge=1, le=5000, description="most students of a class")
+
+    @property
+    def database_address(self) -> str:
+        """Where classes are kept; empty: in the user's data folder."""
+        return "" if self.database is None else self.database.get_secret_value()
+
     @field_validator("trusted_proxies", "allowed_hosts", "frame_ancestors", "cors_origins", mode="before")
     @classmethod
     def _words(cls, value: Any) -> Any:
@@ -159,7 +184,7 @@ class Settings(BaseSettings):
         quoted = tuple(f"'{word}'" if word in ("self", "none") else word for word in value)
         return _each(quoted, _ANCESTOR, "is no source of frames, as https://moodle.example is") or ("'none'",)
 
-    @field_validator("access_token")
+    @field_validator("access_token", "operator_key")
     @classmethod
     def _token(cls, value: SecretStr | None) -> SecretStr | None:
         if value is None or not (text := value.get_secret_value()):

@@ -10,11 +10,14 @@ import pytest
 from starlette.testclient import TestClient
 
 from app.main import create_app
+from app.ops.settings import Settings
+from tests.app.class_room import labs_folder
 
 
 @pytest.fixture(scope="session")
-def client() -> Iterator[TestClient]:
-    with TestClient(create_app()) as client:
+def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+    labs = labs_folder(tmp_path_factory.mktemp("labs"))
+    with TestClient(create_app(Settings(labs=labs))) as client:
         deadline = time.monotonic() + 60
         while client.get("/healthz").status_code != 200:
             assert time.monotonic() < deadline

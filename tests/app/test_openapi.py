@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from app.main import create_app
+from tests.app.class_room import in_class
 
 DOCUMENT = create_app().openapi()
 SCHEMAS: dict[str, Any] = DOCUMENT["components"]["schemas"]
@@ -72,6 +73,10 @@ def test_examples_are_answered(client, path, name, example):
         key = client.post("/api/v1/recordings?name=a.csv", content=recording).json()["id"]
         path = path.replace("{key}", key)
         value = json.loads(json.dumps(value).replace("{key}", key))
+    headers = {}
+    if "/labs/" in path or "/classes" in path:
+        path, value, headers = in_class(client, path, value)
     form = "python" if "/system/" in path else "csv"
-    reply = client.post(path.replace("{name}", "csv").replace("{format}", form), json=value)
-    assert reply.status_code == 200, reply.text
+    address = path.replace("{name}", "csv").replace("{format}", form)
+    reply = client.post(address, json=value, headers=headers)
+    assert reply.status_code in (200, 204), reply.text

@@ -13,7 +13,8 @@ import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
-from app.cli.serving import listener
+from app.cli import serving
+from app.cli.serving import listener, own_address
 from app.ops.cached_files import CachedFiles
 from app.ops.settings import Settings
 from tests.loops import run
@@ -135,3 +136,31 @@ def test_there_is_nothing_outside_the_folder(client: TestClient, path: str):
 def test_only_get_and_head_are_answered(client: TestClient):
     reply = client.post("/static/dot.png")
     assert (reply.status_code, reply.headers["allow"]) == (405, "GET, HEAD")
+
+
+class Outward(socket.socket):
+    """A UDP socket of a machine with one way out, or none."""
+
+    way: str | None = None
+
+    def connect(self, address) -> None:
+        if self.way is None:
+            raise OSError("Network is unreachable")
+
+    def getsockname(self):
+        return (self.way, 9)
+
+
+@pytest.mark.parametrize("way", ["192.0.2.7", "127.0.1.1", None])
+def test_who_lets_others_in_is_told_their_address(monkeypatch, way: str | None):
+    monkeypatch.setattr(serving, "_CONTAINERS", ())
+    monkeypatch.setattr(Outward, "way", way)
+    monkeypatch.setattr("app.cli.serving.socket.socket", Outward)
+    assert own_address() == (way if way == "192.0.2.7" else None)
+
+
+def test_a_container_does_not_tell_its_own_address(monkeypatch, tmp_path: Path):
+    monkeypatch.setattr(serving, "_CONTAINERS", (tmp_path / "none", tmp_path))
+    monkeypatch.setattr(Outward, "way", "192.0.2.7")
+    monkeypatch.setattr("app.cli.serving.socket.socket", Outward)
+    assert own_address() is None

@@ -16,7 +16,7 @@ from tests.deploy.farm import DEPLOY, program
 
 COMPOSE = yaml.safe_load((DEPLOY.parent / "compose.yaml").read_text())
 SERVICES = COMPOSE["services"]
-REPLICAS = {name: service for name, service in SERVICES.items() if name != "proxy"}
+REPLICAS = {name: service for name, service in SERVICES.items() if name not in ("proxy", "database")}
 NGINX = (DEPLOY / "nginx.conf").read_text()
 
 
@@ -39,12 +39,14 @@ def test_no_service_may_write_or_gain_rights(name):
     assert service["cap_drop"] == ["ALL"]
     assert "cap_add" not in service and "privileged" not in service
     assert service["security_opt"] == ["no-new-privileges:true"]
-    assert all(mount.endswith(":ro") for mount in service.get("volumes", []))
+    written = [mount for mount in service.get("volumes", []) if not mount.endswith(":ro")]
+    assert written == (["classes:/var/lib/postgresql/data"] if name == "database" else [])
     assert not str(service.get("user", "10001")).startswith(("0", "root"))
 
 
 def test_only_nginx_is_reached_from_outside():
     assert COMPOSE["networks"]["inside"]["internal"] is True
+    assert "ports" not in SERVICES["database"] and list(SERVICES["database"]["networks"]) == ["inside"]
     for service in REPLICAS.values():
         assert "ports" not in service
         assert list(service["networks"]) == ["inside"]
@@ -55,6 +57,19 @@ def test_only_nginx_is_reached_from_outside():
         assert ip_address(service["networks"]["inside"]["ipv4_address"]) in ip_network(subnet)
     assert "X-Forwarded-For $remote_addr;" in NGINX
     assert "X-Forwarded-Host $http_host;" in NGINX
+
+
+def test_the_database_is_where_the_replicas_ask_for_it_and_its_password_stands_in_no_file():
+    at = SERVICES["database"]["networks"]["inside"]["ipv4_address"]
+    password = r"${HELI2DOF_DATABASE_PASSWORD:?a password of the database, of letters and digits}"
+    assert SERVICES["database"]["environment"]["POSTGRES_PASSWORD"] == password
+    for service in REPLICAS.values():
+        assert (
+            service["environment"]["HELI2DOF_DATABASE"] == f"postgresql://heli2dof:{password}@{at}/heli2dof"
+        )
+        assert service["depends_on"] == {"database": {"condition": "service_healthy"}}
+        for key in ("HELI2DOF_OPERATOR_KEY", "HELI2DOF_DATABASE"):
+            assert "${" in service["environment"][key]
 
 
 def test_limits_fit_one_another():

@@ -1,0 +1,1 @@
+"""Classes that work on a lab, in a database; SQLAlchemy is imported when the first one is asked for."""
