@@ -41,6 +41,52 @@ export interface Angles {
   psi?: number;
 }
 
+/** What is kept of a student who came by a learning platform (LTI). */
+export interface AtPlatform {
+  /** the platform, as it is registered here */
+  name: string;
+  /** the student, as the platform calls them */
+  subject: string;
+  /** that go there; left out before the first attempt */
+  points?: number;
+  /** whether they are there */
+  sent?: boolean;
+}
+
+/** An attempt, marked and kept. */
+export interface AttemptReply {
+  goals: GoalTold[];
+  questions: GoalTold[];
+  /** points given */
+  points: number;
+  /** points there are */
+  of: number;
+  stable?: boolean;
+  findings?: Finding[];
+  id: string;
+  step: string;
+  /** the server's time */
+  at: string;
+  /** the page's */
+  handed_at?: string;
+  best: Best;
+}
+
+/** An attempt at a step. */
+export interface AttemptRequest {
+  student: string;
+  /** a random UUID that the page makes: what comes twice counts once */
+  id: string;
+  /** the step's name */
+  step: string;
+  /** as for evaluate */
+  design: StepRequest;
+  /** by the question's name: a number, a choice or several (1-based), or text */
+  answers?: Record<string, string | number | number[] | null>;
+  /** by the page's clock, of an attempt made offline */
+  at?: string | null;
+}
+
 /** Friction of both axes. */
 export interface AxisFrictionChanges {
   pitch?: FrictionChanges;
@@ -83,10 +129,143 @@ export interface AxisSteps {
   psi?: BothModels;
 }
 
+/** The best attempt at a step. */
+export interface Best {
+  goals: GoalTold[];
+  questions: GoalTold[];
+  /** points given */
+  points: number;
+  /** points there are */
+  of: number;
+  stable?: boolean;
+  findings?: Finding[];
+  /** to which the verdict was given */
+  answers?: Record<string, unknown>;
+}
+
 /** The same experiment by both models. */
 export interface BothModels {
   linear: Step;
   nonlinear: Step;
+}
+
+/** What anyone is told who has the code. Times are ISO 8601, UTC. */
+export interface ClassAbout {
+  code: string;
+  title: string;
+  lab: LabOfClass;
+  /** that the lab takes, min */
+  minutes?: number;
+  student_link: string;
+  /** whether attempts are taken */
+  open: boolean;
+  /** when it closes by itself */
+  closes?: string;
+  /** since when it is closed */
+  closed_at?: string;
+  /** when it is deleted */
+  ends: string;
+  /** the server's time */
+  at: string;
+}
+
+/** What an instructor changes; what is left out stays. */
+export interface ClassChanges {
+  title?: string | null;
+  open?: boolean | null;
+  /** null: it does not close by itself */
+  closes?: string | null;
+}
+
+/** All of a class, to be taken out. */
+export interface ClassExport {
+  code: string;
+  title: string;
+  lab: LabOfClass;
+  /** that the lab takes, min */
+  minutes?: number;
+  student_link: string;
+  /** whether attempts are taken */
+  open: boolean;
+  /** when it closes by itself */
+  closes?: string;
+  /** since when it is closed */
+  closed_at?: string;
+  /** when it is deleted */
+  ends: string;
+  /** the server's time */
+  at: string;
+  /** points there are */
+  points: number;
+  created: string;
+  /** raised by every change */
+  version: number;
+  lab_text: string;
+  students: Record<string, unknown>[];
+}
+
+/** The class itself. */
+export interface ClassHead {
+  code: string;
+  title: string;
+  lab: LabOfClass;
+  /** that the lab takes, min */
+  minutes?: number;
+  student_link: string;
+  /** whether attempts are taken */
+  open: boolean;
+  /** when it closes by itself */
+  closes?: string;
+  /** since when it is closed */
+  closed_at?: string;
+  /** when it is deleted */
+  ends: string;
+  /** the server's time */
+  at: string;
+  /** points there are */
+  points: number;
+  created: string;
+  /** raised by every change */
+  version: number;
+}
+
+/** The whole class. */
+export interface ClassReply {
+  code: string;
+  title: string;
+  lab: LabOfClass;
+  /** that the lab takes, min */
+  minutes?: number;
+  student_link: string;
+  /** whether attempts are taken */
+  open: boolean;
+  /** when it closes by itself */
+  closes?: string;
+  /** since when it is closed */
+  closed_at?: string;
+  /** when it is deleted */
+  ends: string;
+  /** the server's time */
+  at: string;
+  /** points there are */
+  points: number;
+  created: string;
+  /** raised by every change */
+  version: number;
+  steps: StepHead[];
+  students: StudentRow[];
+  /** the goals that hold most students up, the worst first */
+  held_up: HeldUp[];
+}
+
+/** A new class. */
+export interface ClassRequest {
+  /** the lab's name */
+  lab: string;
+  /** as students see it */
+  title: string;
+  /** when it closes by itself */
+  closes?: string | null;
 }
 
 /** A design, an experiment, and the methods to compare. */
@@ -274,6 +453,19 @@ export interface Dominance {
   rows: number[][];
   /** per frequency, column V_p and column V_y */
   columns: number[][];
+}
+
+/** Where a student is. */
+export interface DraftRequest {
+  student: string;
+  /** the step's name */
+  step: string;
+  /** as for evaluate */
+  design: StepRequest;
+  /** by the question's name: a number, a choice or several (1-based), or text */
+  answers?: Record<string, string | number | number[] | null>;
+  /** of the page: an older draft than the one kept is dropped */
+  seq: number;
 }
 
 /** V; null where nothing was simulated. */
@@ -519,6 +711,26 @@ export interface Gains {
   findings: Finding[];
 }
 
+/** A goal, as the head of a column. */
+export interface GoalHead {
+  name: string;
+  label?: string;
+  required_text?: string;
+  /** points there are */
+  points: number;
+}
+
+/** A goal or a question of an attempt, judged. */
+export interface GoalTold {
+  name: string;
+  /** left out where it is marked by hand */
+  met?: boolean;
+  /** points given */
+  points: number;
+  /** points there are */
+  of: number;
+}
+
 /** A block of the closed loop: its inputs and its poles, by position from 0. */
 export interface Group {
   /** positions from 0 */
@@ -540,6 +752,55 @@ export interface Guess {
   voltage_unit: string;
   /** usual time between two rows in that unit, s */
   sample_time: number | null;
+}
+
+/** An instructor's mark of an answer in words. */
+export interface HandMark {
+  /** the step's name */
+  step: string;
+  question: string;
+  /** points given */
+  points: number;
+  comment?: string;
+}
+
+/** A hand mark, as it is kept. */
+export interface HandMarked {
+  question: string;
+  /** points given */
+  points: number;
+  comment: string;
+  at: string;
+}
+
+/** A goal that holds students up. */
+export interface HeldUp {
+  step: string;
+  goal: string;
+  /** who are there or have tried */
+  students: number;
+  /** who have tried */
+  tried: number;
+  /** of these, who meet it */
+  met: number;
+}
+
+/** A hint. */
+export interface Hint {
+  /** its number, 1-based */
+  hint: number;
+  text: string;
+  /** points that it costs */
+  cost: number;
+}
+
+/** A hint that a student takes. */
+export interface HintRequest {
+  student: string;
+  /** the step's name */
+  step: string;
+  /** its number, 1-based */
+  hint: number;
 }
 
 /** The result over the socket; before it come `{"evaluations", "rms"}`. */
@@ -620,10 +881,86 @@ export interface IntegralWeights {
   psi?: number | null;
 }
 
+/** Somebody joins by their name, or comes back by their secret. */
+export interface JoinClassRequest {
+  /** of who comes back; all else is left out then */
+  student?: string | null;
+  /** as the instructor knows you */
+  name?: string | null;
+  /** for the grade book */
+  email?: string | null;
+  /** for the grade book */
+  login?: string | null;
+  id?: string | null;
+}
+
 /** Files of one run, sent before, to be joined into one recording. */
 export interface JoinRequest {
   /** their ids */
   recordings: string[];
+}
+
+/** Where a student begins, or left off. */
+export interface Joined {
+  /** within this server */
+  id: number;
+  /** by order of joining */
+  number: number;
+  name: string;
+  email?: string;
+  login?: string;
+  joined: string;
+  last_seen: string;
+  /** the server's time */
+  at: string;
+  code: string;
+  title: string;
+  open: boolean;
+  closes?: string;
+  closed_at?: string;
+  ends: string;
+  steps: Record<string, StepKept>;
+  platform?: AtPlatform;
+  /** the student's secret */
+  student: string;
+  /** their own rig: part of a design */
+  rig: Record<string, unknown>;
+  lab: LabView;
+}
+
+/** Which lab a class works on. */
+export interface LabOfClass {
+  name: string;
+  /** place in the course */
+  number?: number;
+  title: string;
+}
+
+/** A lab in the list. */
+export interface LabSummary {
+  name: string;
+  /** place in the course */
+  number?: number;
+  title: string;
+  summary?: string;
+  /** that it takes, min */
+  minutes?: number;
+  /** points there are */
+  points: number;
+  /** number of steps */
+  steps: number;
+  /** `shipped`, or `own` of who runs the server */
+  source: string;
+}
+
+/** A lab as a student may see it: no answers, no solutions, no hint's text that costs points. */
+export interface LabView {
+  name: string;
+  title: string;
+  /** texts, locks, goals, questions; see docs/labs.md */
+  steps: Record<string, unknown>[];
+  /** of the seed asked for: part of a design */
+  rig?: Record<string, unknown>;
 }
 
 /** The poles of the whole loop as the rotors' lag grows from nothing to what it is. */
@@ -734,6 +1071,48 @@ export interface Margins {
   delay_margin?: number;
 }
 
+/** An attempt at a lab's step without a class. */
+export interface MarkRequest {
+  /** of the rig: the same seed, the same rig */
+  seed?: number;
+  /** the step's name */
+  step: string;
+  /** as for evaluate */
+  design: StepRequest;
+  /** by the question's name: a number, a choice or several (1-based), or text */
+  answers?: Record<string, string | number | number[] | null>;
+  /** hints that were taken, 1-based */
+  hints?: number[];
+}
+
+/** An attempt, marked. */
+export interface Marked {
+  goals: GoalTold[];
+  questions: GoalTold[];
+  /** points given */
+  points: number;
+  /** points there are */
+  of: number;
+  stable?: boolean;
+  findings?: Finding[];
+}
+
+/** Somebody in the course. */
+export interface Member {
+  /** empty where the platform keeps it to itself */
+  name: string;
+  instructor: boolean;
+  /** id in the class; left out where they have not joined */
+  student?: number;
+}
+
+/** Everybody in the course, as the platform tells it at this moment; nothing of it is kept. */
+export interface MembersReply {
+  members: Member[];
+  /** ISO 8601, UTC */
+  at: string;
+}
+
 /** A placement method; `needs` names the package that it takes, `couplings` are full-rank's alone. */
 export interface Method {
   name: string;
@@ -761,6 +1140,29 @@ export interface Metrics {
   V_y: MotorMetrics;
 }
 
+/** Everything that is kept of a student. */
+export interface Mine {
+  /** within this server */
+  id: number;
+  /** by order of joining */
+  number: number;
+  name: string;
+  email?: string;
+  login?: string;
+  joined: string;
+  last_seen: string;
+  /** the server's time */
+  at: string;
+  code: string;
+  title: string;
+  open: boolean;
+  closes?: string;
+  closed_at?: string;
+  ends: string;
+  steps: Record<string, StepKept>;
+  platform?: AtPlatform;
+}
+
 /** Largest |voltage|, V, share of time at the limit, and effort ∫ (V − V_trim)² dt, V²·s. */
 export interface MotorMetrics {
   /** largest voltage of the motor, trim included, V */
@@ -772,6 +1174,36 @@ export interface MotorMetrics {
    * cost, V²·s
    */
   effort: number;
+}
+
+/** A class that was made; its secret is told this once. */
+export interface NewClassReply {
+  /** for the board */
+  code: string;
+  /** the instructor's secret */
+  instructor: string;
+  /** fragment of the page's address, for students */
+  student_link: string;
+  /** address of the wall, relative to the page's; holds the secret */
+  instructor_link: string;
+  /** when it is deleted with all that is in it */
+  ends: string;
+}
+
+/** The instructor's new link; the old one has ended. */
+export interface NewInstructorLink {
+  /** the new secret */
+  instructor: string;
+  /** address of the wall, relative to the page's */
+  instructor_link: string;
+}
+
+/** A student's new personal link; the old one has ended. */
+export interface NewLink {
+  /** the new secret */
+  student: string;
+  /** fragment of the page's address */
+  link: string;
 }
 
 /** What estimates the states from the angles and the voltages. */
@@ -1209,6 +1641,16 @@ export interface ProposedR {
   V_y: number;
 }
 
+/** A question, as the head of a column. */
+export interface QuestionHead {
+  name: string;
+  kind: string;
+  text: string;
+  /** points there are */
+  points: number;
+  by_hand: boolean;
+}
+
 /** How far the inputs reach, or what the outputs tell. */
 export interface Reached {
   /** per input the controllability index, per output the observability index */
@@ -1551,9 +1993,96 @@ export interface Step {
   findings: Finding[];
 }
 
+/** A step, as the head of columns. */
+export interface StepHead {
+  name: string;
+  title: string;
+  /** points there are */
+  points: number;
+  goals: GoalHead[];
+  questions: QuestionHead[];
+}
+
+/** What is kept of a student's step. */
+export interface StepKept {
+  /** how many there were */
+  attempts: number;
+  /** those that were taken, 1-based */
+  hints: number[];
+  hand: HandMarked[];
+  /** of the newest draft or attempt */
+  design?: Record<string, unknown>;
+  answers?: Record<string, unknown>;
+  at?: string;
+  /** of the newest draft */
+  seq?: number;
+  best?: Best;
+}
+
 /** A design and an experiment. */
 export interface StepRequest extends DesignRequest {
   scenario?: ScenarioChanges;
+}
+
+/** A student's step on the wall. */
+export interface StepTold {
+  /** points given, by hand too */
+  points: number;
+  /** points there are */
+  of: number;
+  /** of the best attempt */
+  goals: (boolean | null)[];
+  /** of the newest one */
+  last?: (boolean | null)[];
+  /** how many */
+  attempts: number;
+  /** how many were taken */
+  hints: number;
+  /** answers in words that nobody has marked */
+  to_mark: number;
+}
+
+/** Everything of one student, for the instructor. */
+export interface StudentReply {
+  /** within this server */
+  id: number;
+  /** by order of joining */
+  number: number;
+  name: string;
+  email?: string;
+  login?: string;
+  joined: string;
+  last_seen: string;
+  /** the server's time */
+  at: string;
+  /** points given */
+  points: number;
+  /** points there are */
+  of: number;
+  steps: Record<string, Told>;
+}
+
+/** A student on the wall. */
+export interface StudentRow {
+  /** within this server */
+  id: number;
+  /** by order of joining */
+  number: number;
+  name: string;
+  email?: string;
+  login?: string;
+  /** where they are */
+  step?: string;
+  /** points given */
+  points: number;
+  /** points there are */
+  of: number;
+  joined: string;
+  last_seen: string;
+  online: boolean;
+  stable?: boolean;
+  poles?: Complex[];
+  steps: Record<string, StepTold>;
 }
 
 /** PI values and the whole loop's poles with them. */
@@ -1892,6 +2421,10 @@ export interface Term {
   meaning: string;
   unit: string;
   chapters: string[];
+}
+
+/** A reply's part that the lab's own format describes further (docs/labs.md). */
+export interface Told {
 }
 
 /** A formula in two notations. */

@@ -92,7 +92,7 @@ const live = new Live({
   onStatus: (connection) => store.set({ connection }),
 });
 addEventListener('online', () => live.reconnect());
-addEventListener('hashchange', () => address.navigated());
+addEventListener('hashchange', () => labs() || address.navigated());
 addEventListener('pagehide', () => address.flush());
 
 store.addEventListener('design', (event) => {
@@ -183,6 +183,17 @@ async function explore() {
   schedule();
 }
 let explored = false;
+
+/** Labs, where the address asks for one. */
+const labs = (hash = location.hash) =>
+  LAB.test(hash) &&
+  (opened ??= fetched(() => Promise.all([import('./labs/index.js'), styles('labs')])).then(
+    ([{ Labs }]) => new Labs(store, address),
+  ))
+    .then((own) => own.open(hash))
+    .catch(report);
+const LAB = /^#(labs\b|lab=|class=)/;
+/** @type {Promise<import('./labs/index.js').Labs>|undefined} */ let opened;
 
 const RETRIES = 24; // four minutes
 
@@ -318,8 +329,11 @@ async function start() {
     try {
       const [presets, methods] = await Promise.all([getPresets(), getMethods()]);
       store.set({ presets, methods });
+      const { hash } = location;
+      if (LAB.test(hash)) address.hold(hash.replace(/&(me|view)=.*/, ''));
       address.open(firstView());
       pins.open();
+      labs(hash);
       return;
     } catch {
       store.set({ connection: 'lost' });

@@ -219,6 +219,15 @@ export interface Cloud {
   share_within_limits: number;
 }
 
+/** A part of the design that can be locked. */
+export interface Lock {
+  name: string;
+  /** paths in a design */
+  keys: string[];
+  /** where the page changes them, as a selector; empty: nowhere */
+  controls: string;
+}
+
 export interface State {
   /** from which side the design is seen */
   view: View;
@@ -250,6 +259,8 @@ export interface State {
   pins: Pin[];
   /** names in locks.js */
   locks: string[];
+  /** what the step of a lab leaves free of these, and what it keeps back; its locks are not a link's */
+  task: { free: Lock[]; hidden: string[] } | null;
   /** any system, as a link has it (plant/link_text.js) */
   plant: string | null;
   plantPins: PlantPin[];

@@ -73,6 +73,7 @@ export class Explore {
       { class: 'onward' },
       h('a', { class: 'button primary', href: '#design', 'data-testid': 'explore-design' }, 'Design with all of it'),
       h('a', { class: 'button', href: '#paper-feedback' }, 'See where K comes from'),
+      h('a', { class: 'button', href: '#labs', 'data-testid': 'explore-labs' }, 'Labs'),
       button({ 'data-testid': 'explore-again', onclick: () => this.#again() }, 'Once more'),
     );
     this.volts = ['θ', 'ψ', 'θ̇', 'ψ̇'].map((state) => ({ k: h('span', { class: 'k' }), state: symbol(state) }));

@@ -32,10 +32,10 @@ const pinsOf = (pins) =>
     }));
 
 /** What a report has beside the design. @param {import('../types.js').State} state */
-const beside = ({ pins, requirements, locks }) => ({
-  pins: pinsOf(pins),
-  required: requirements,
-  remarks: !hidesRemarks({ locks }),
+const beside = (state) => ({
+  pins: pinsOf(state.pins),
+  required: state.requirements,
+  remarks: !hidesRemarks(state),
 });
 
 /** @param {import('../model/store.js').Store} store @param {import('../link/address.js').Address} address */

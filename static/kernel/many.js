@@ -8,6 +8,7 @@
  * @property {number} size  states of its loop
  * @property {ArrayLike<number>} spreads  half widths, in the order of the kernel's factors
  * @property {number} rigs
+ * @property {Float64Array} [drawn]  by which they differ, in the kernel's order; else drawn here
  * @typedef {import('../types.js').Cloud} Cloud
  */
 import { AT, FACTORS, FIGURES, OUTCOMES, RIGS } from './layout.js';
@@ -43,14 +44,15 @@ export class ManyRigs {
    * @returns {Generator<Cloud|null>} null after a part that tells nothing new; none at all where the kernel does not
    *   find the nominal design
    */
-  *cloud({ numbers, size, spreads, rigs }) {
+  *cloud({ numbers, size, spreads, rigs, drawn }) {
     this.#updates.numbers.set(numbers);
     this.#updates.numbers[AT.EACH_AXIS] = 0;
     const { outcome, figures } = this.#updates.update(size, SAMPLES);
     if (outcome[0] !== OUTCOMES.DONE) return;
     const order = figures[FIGURES.CONNECTED];
     const { factors, poles, whole } = this.#roomFor(size, rigs);
-    fillFactors(factors.floats, spreads, RIGS.LEAST);
+    if (drawn) factors.floats.set(drawn);
+    else fillFactors(factors.floats, spreads, RIGS.LEAST);
     whole.times.floats.set(timesOf(numbers[AT.DURATION]));
     yield* this.#run(poles, size, 0, rigs);
     const first = yield* this.#run(whole, size, 0, Math.min(FEW, rigs), this.now() + SOON_MS);

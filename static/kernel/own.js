@@ -33,6 +33,8 @@ export class Own {
   /** Computed here, and not compared yet. @type {Map<Design, Reply>} */ #made = new Map();
   /** Asked of the server. @type {Set<Design>} */ #asked = new Set();
   /** What has been computed, or could not be. @type {Design|null} */ #seen = null;
+  /** Which design came after which. @type {WeakMap<Design, number>} */ #ages = new WeakMap();
+  #newest = 0;
   /** The step of undo during which this took too long. */ #slow = -1;
   /** The page's pointer is down. */ #down = false;
   #broken = false;
@@ -75,6 +77,7 @@ export class Own {
   /** The design has changed. @returns {boolean} whether the server is to be asked later */
   edited() {
     const { design } = this.store.state;
+    if (design) this.#ages.set(design, ++this.#newest);
     const now = this.now();
     const quick = this.store.step === this.#step && now - this.#edited < REST_MS;
     // a hidden page has no frames; others may watch it
@@ -85,6 +88,11 @@ export class Own {
     if (this.#held) this.#timer = this.later(() => this.#askNow(), REST_MS);
     else if (design) this.#asked.add(design);
     return this.#held;
+  }
+
+  /** @param {Design|null} design @returns {number} 0 where it was there at the beginning */
+  #age(design) {
+    return (design && this.#ages.get(design)) ?? 0;
   }
 
   /** @param {Design} design */
@@ -164,8 +172,9 @@ export class Own {
       this.#asked.delete(design);
       this.#made.delete(design);
     }
-    const newer = design !== state.design && state.answered !== null && state.answered === state.design;
-    if (newer && state.reply) return { reply: withWords(state.reply, reply), heard: design, ...told };
+    // shown are numbers of a later design, the page's own, though the hand may have gone on since the last frame
+    const later = this.#age(state.answered) > this.#age(design);
+    if (later && state.reply) return { reply: withWords(state.reply, reply), heard: design, ...told };
     this.#asked.clear(); // what was overtaken on its way is answered by nobody
     return { reply, answered: design, heard: design, problem: null, ...told };
   }

@@ -64,12 +64,14 @@ export class Rigs {
    * @param {Record<string, number>} spreads  half widths, by names of parameters and tau_p, tau_y
    * @param {number} rigs
    * @param {(cloud: Cloud|null) => void} then  told of a few rigs' responses, then of all; null: the kernel cannot
+   * @param {Float64Array} [drawn]  by which the rigs differ, where that is not to be drawn: of each the factors of its
+   *   parameters and of tau_p, tau_y
    */
-  ask(design, preset, spreads, rigs, then) {
+  ask(design, preset, spreads, rigs, then, drawn) {
     const numbers = new Float64Array(AT.NUMBERS);
     fill(numbers, design, preset);
     const size = sizeOf(design, preset);
-    const task = { numbers, size, spreads: UNCERTAIN.map((name) => spreads[name] ?? 0), rigs };
+    const task = { numbers, size, spreads: UNCERTAIN.map((name) => spreads[name] ?? 0), rigs, drawn };
     this.#then = then;
     this.worker.postMessage(/** @type {Asked} */ ({ id: ++this.#id, task }), [numbers.buffer]);
   }

@@ -5,7 +5,7 @@
  * @typedef {import('../types.js').State} State
  * @typedef {import('./permalink.js').Known} Known
  */
-import { initialState, isView, viewOfPlace } from '../model/index.js';
+import { initialState, isView, STANDARD_VIEW, viewOfPlace } from '../model/index.js';
 import { linkOf, placeIn, readLink } from './permalink.js';
 import { troubleWords } from './trouble.js';
 
@@ -70,6 +70,7 @@ const browser = () => ({
 export class Address {
   #shown = '';
   #step = -1;
+  /** A lab's, in place of the design's. @type {{hash: string, end?: () => void}|null} */ #held = null;
   /** @type {string|null} */ #place = null;
   /** Whether the address names a whole view, which begins at its top. */ toTop = false;
   /** @type {unknown[]} */ #seen = [];
@@ -88,6 +89,20 @@ export class Address {
   get #known() {
     const { presets, methods } = this.store.state;
     return { presets, methods };
+  }
+
+  /** @param {string} hash empty: the design's @param {() => void} [end] a design's link is opened */
+  hold(hash, end) {
+    this.#held = hash ? { hash, end } : null;
+    this.#shown = this.of.hash(); // Back and Forward within a lab are not told here
+    this.#cancel();
+    if (this.#step >= 0) this.#write(this.store.state, this.#step);
+  }
+
+  /** A lab's, or the design's. @param {State} state @param {string|null} [place] */
+  #linkOf(state, place) {
+    if (!this.#held) return linkOf(state, this.#known, place);
+    return this.#held.hash + (state.view === STANDARD_VIEW ? '' : `&view=${state.view}`);
   }
 
   /** The present link, with its #. */
@@ -144,10 +159,12 @@ export class Address {
       this.#at(place);
       this.store.set({ view: viewOfPlace(place) ?? this.store.state.view });
       this.#seen = held(this.store.state);
-      this.#replace(linkOf(this.store.state, this.#known, this.#place));
+      this.#replace(this.#linkOf(this.store.state, this.#place));
       return;
     }
     this.#cancel();
+    this.#held?.end?.();
+    this.#held = null;
     const { plant = null, ...shown } = link.shown ?? {};
     this.store.set({ ...shown, notice: troubleWords(link.trouble) });
     if (!link.design) return;
@@ -202,11 +219,11 @@ export class Address {
   /** @param {State} state @param {number} step @returns {boolean} whether the address is right now */
   #write(state, step) {
     const fresh = step !== this.#step;
-    const link = linkOf(state, this.#known, fresh ? null : this.#place);
+    const link = this.#linkOf(state, fresh ? null : this.#place);
     if (link === this.#shown) return true;
     if (!this.budget.take(this.of.now())) return false;
     this.#wrote = this.of.now();
-    if (!fresh) return this.#replace(link);
+    if (!fresh || this.#held) return this.#replace(link);
     this.#place = null;
     this.#step = step;
     return this.#attempt(() => this.of.push(link), link);

@@ -1,11 +1,10 @@
-/** Shows what a link has locked: its controls are disabled and say why. The store is what keeps the values. */
+/** Shows what a link or lab has locked: its controls are disabled and say why. The store is what keeps the values. */
 import { LOCKS } from '../model/index.js';
-
-const WHY = 'Locked by the link that opened this page';
 
 export class LockedControls {
   /** @type {Element[]} */ #marked = [];
   #key = '';
+  #why = '';
 
   /** @param {HTMLElement} root */
   constructor(root) {
@@ -17,21 +16,25 @@ export class LockedControls {
    * @param {import('../types.js').State} state
    * @returns {boolean} whether the locks are others
    */
-  release({ locks }) {
-    const key = locks.join();
+  release({ locks, task }) {
+    const key = [locks, task?.free.map(({ name }) => name)].join();
+    this.#why = task ? 'Fixed in this step' : 'Locked by the link that opened this page';
     if (key === this.#key) return false;
     this.#key = key;
     for (const control of this.#marked) this.#free(control);
     this.#marked = [];
-    this.root.dataset.locked = key.replaceAll(',', ' ');
+    this.root.dataset.locked = task ? '' : locks.join(' ');
     return true;
   }
 
   /** After the panels, which enable what their own state allows. @param {import('../types.js').State} state */
-  render({ locks }) {
+  render({ locks, task }) {
     for (const name of locks.filter((lock) => LOCKS[lock].controls)) {
       for (const control of this.root.querySelectorAll(LOCKS[name].controls))
-        if (!(/** @type {HTMLInputElement} */ (control).disabled) || !control.hasAttribute('data-locked'))
+        if (
+          (!(/** @type {HTMLInputElement} */ (control).disabled) || !control.hasAttribute('data-locked')) &&
+          !task?.free.some((lock) => control.matches(lock.controls))
+        )
           this.#lock(/** @type {HTMLInputElement} */ (control));
     }
   }
@@ -41,9 +44,9 @@ export class LockedControls {
     control.disabled = true;
     if (control.hasAttribute('data-locked')) return;
     control.dataset.locked = control.title;
-    control.title = WHY;
+    control.title = this.#why;
     control.setAttribute('aria-disabled', 'true');
-    control.setAttribute('aria-description', WHY);
+    control.setAttribute('aria-description', this.#why);
     this.#marked.push(control);
   }
 

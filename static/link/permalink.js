@@ -102,7 +102,7 @@ const joined = (parts, separator) => parts.map(([key, text]) => `${key}=${escape
  * @returns {string} with its #; empty while there is no design
  */
 export function linkOf(state, { presets }, place = null, most = MOST) {
-  const { design, view, motion, showLinear, showMarks, showLag, spread, requirements, locks, plant } = state;
+  const { design, view, motion, showLinear, showMarks, showLag, spread, requirements, locks, plant, task } = state;
   if (!design) return '';
   const parts = designParts(design, presets);
   if (motion !== 'both') parts.push(['motion', motion]);
@@ -111,7 +111,7 @@ export function linkOf(state, { presets }, place = null, most = MOST) {
   if (showLag !== null) parts.push(['lag', String(showLag)]);
   if (spread) parts.push(['spread', String(spread)]);
   for (const [path, text] of differences(requirements, NONE)) parts.push([`req.${path}`, text]);
-  if (locks.length) parts.push(['lock', locks.join()]);
+  if (locks.length && !task) parts.push(['lock', locks.join()]);
   if (plant) parts.push(['plant', plant]);
   if (view !== STANDARD_VIEW) parts.push(['view', view]);
   if (place) parts.push(['at', place]);

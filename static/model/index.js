@@ -43,7 +43,7 @@ export {
   withObserverPoles,
   withRotorPole,
 } from './handles.js';
-export { hidesRemarks, lockNames, LOCKS } from './locks.js';
+export { guarded, hides, hidesRemarks, lockNames, LOCKS, remarked } from './locks.js';
 export { inverseOf, mixingOf } from './loop_values.js';
 export { COUPLINGS, LEADS, STRUCTURES } from './method_names.js';
 export { bringsIntegralAction, FULL_RANK, keyOf, nameOf, partOf, placesPoles } from './methods.js';
@@ -63,7 +63,7 @@ export {
   RANGES,
   verdictOf,
 } from './requirements.js';
-export { OBSERVER_POLES, QUANTITIES } from './quantities.js';
+export { OBSERVER_POLES, OUTER, QUANTITIES, ROTORS, STRUCTURE } from './quantities.js';
 export {
   allowed,
   asProposed,

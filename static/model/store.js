@@ -49,6 +49,7 @@ export const initialState = () => ({
   canRedo: false,
   pins: [],
   locks: [],
+  task: null,
   plant: null,
   plantPins: [],
   notice: null,
@@ -173,7 +174,8 @@ export class Store extends EventTarget {
   edit(change, { gesture, stamp } = {}) {
     const before = this.state.design;
     if (!before) return;
-    const after = guarded(before, change(before), this.state.locks);
+    const { locks, task } = this.state;
+    const after = guarded(before, change(before), locks, task?.free);
     if (after === before) return;
     if (this.#designs.keep(before, gesture)) this.step += 1;
     this.#put(after, stamp);

@@ -51,14 +51,18 @@ export class ProblemError extends Error {
 
 /**
  * @param {string|URL} path
- * @param {{method?: string, body?: BodyInit, type?: string}} [options]
+ * @param {{method?: string, body?: BodyInit, type?: string, secret?: string}} [options]
  * @returns {Promise<Response>} a good one
  */
-async function answerOf(path, { method = 'GET', body, type = 'application/json' } = {}) {
-  const headers = body === undefined ? undefined : { 'Content-Type': type };
+async function answerOf(path, { method = 'GET', body, type = 'application/json', secret } = {}) {
+  const headers = { ...(body && { 'Content-Type': type }), ...(secret && { 'Heli2dof-Secret': secret }) };
   const response = await reach(fetch(path instanceof URL ? path : at(path), { method, headers, body }));
   if (!response.ok)
-    throw new ProblemError({ title: response.statusText, ...(await response.json().catch(() => ({}))) });
+    throw new ProblemError({
+      title: response.statusText,
+      status: response.status,
+      ...(await response.json().catch(() => ({}))),
+    });
   return response;
 }
 
@@ -67,22 +71,25 @@ async function answerOf(path, { method = 'GET', body, type = 'application/json' 
  * @param {string|URL} path
  * @param {unknown} [body] makes it a POST
  * @param {string} [method]
+ * @param {string} [secret] of who asks
  * @returns {Promise<T>} as the contract has it
  */
-export async function call(path, body, method = body === undefined ? 'GET' : 'POST') {
-  const response = await answerOf(path, { method, body: body === undefined ? body : JSON.stringify(body) });
+export async function call(path, body, method = body === undefined ? 'GET' : 'POST', secret) {
+  const response = await answerOf(path, { method, body: body === undefined ? body : JSON.stringify(body), secret });
   const text = await reach(response.text());
   const json = text && (response.headers.get('content-type') ?? '').includes('json') ? JSON.parse(text) : {};
   return json;
 }
 
 /**
- * A file that the server makes of a design.
+ * A file of the server's, or one that it makes of a design.
  * @param {string} path
- * @param {unknown} design
+ * @param {unknown} [design]
+ * @param {string} [secret] of who asks
  */
-export const fileOf = async (path, design) => {
-  const response = await answerOf(path, { method: 'POST', body: JSON.stringify(design) });
+export const fileOf = async (path, design, secret) => {
+  const body = design === undefined ? undefined : JSON.stringify(design);
+  const response = await answerOf(path, { method: body === undefined ? 'GET' : 'POST', body, secret });
   return reach(response.blob());
 };
 

@@ -2,7 +2,7 @@
  * How the experiment is run: where it starts, what limits it, which controller, what disturbs it. Folded away; one line
  * says what differs from the standard.
  */
-import { bringsIntegralAction, experimentWords, isStandard, presetOf, standard } from '../model/index.js';
+import { bringsIntegralAction, experimentWords, isStandard, presetOf, remarked, standard } from '../model/index.js';
 import { button, byId, h, setAttr, setText } from '../ui/index.js';
 import {
   AccuracyPart,
@@ -64,10 +64,10 @@ export class ExperimentPanel {
 
   /** @param {import('../types.js').State} state */
   render(state) {
-    const { presets, design, reply, problem } = state;
+    const { presets, design, problem } = state;
     if (!design) return;
     const words = experimentWords(design.scenario).join(' · ');
-    const findings = (reply?.findings ?? []).filter((f) => TOLD_HERE.includes(f.code) && !problem);
+    const findings = remarked(state).filter((f) => TOLD_HERE.includes(f.code) && !problem);
     setText(this.words, `${findings.length ? '▲ ' : ''}${words || 'continuous controller, undisturbed'}`);
     setAttr(this.words, 'title', [words, ...findings.map((f) => f.message)].join('\n'));
     this.words.classList.toggle('warning', findings.length > 0);

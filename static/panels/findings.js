@@ -3,7 +3,7 @@
  * free for it.
  */
 import { fixed, say, t } from '../text/index.js';
-import { AXES, hidesRemarks, LOOP, missesLag, placeOf, textOf, tipOf, verdictOf } from '../model/index.js';
+import { AXES, hidesRemarks, LOOP, missesLag, placeOf, remarked, textOf, tipOf, verdictOf } from '../model/index.js';
 import { button, h, setText } from '../ui/index.js';
 import { leadTo } from './lead.js';
 
@@ -61,7 +61,7 @@ export function findingsOf(state) {
   );
   const rank = (/** @type {import('../types.js').Finding} */ f) =>
     (f.code === AWAY ? -1 : (RANK[f.severity] ?? 3)) - (CAUSES.includes(f.code) ? 0.5 : 0);
-  return [...own, ...(hidesRemarks(state) ? [] : (reply?.findings ?? []))].sort((a, b) => rank(a) - rank(b));
+  return [...own, ...remarked(state)].sort((a, b) => rank(a) - rank(b));
 }
 
 export class FindingsPanel {
@@ -154,7 +154,7 @@ export class FindingsPanel {
     );
 
     const calm = hidesRemarks(state)
-      ? 'Remarks on this design are hidden by the link that opened this page.'
+      ? `Remarks on this design are hidden ${state.task ? 'in this step' : 'by the link that opened this page'}.`
       : state.design?.scenario.saturation === false
         ? 'No warnings. Voltage limits are off in this experiment.'
         : 'No warnings. Motor voltages stay within their limits.';

@@ -76,7 +76,7 @@ export class HeaderPanel {
       (this.kept = h('span', { class: 'kept', hidden: true }, 'your changes are kept')),
     );
     root.append(
-      viewLinks(),
+      ...viewLinks(),
       h('div', { class: 'rig' }, this.select, this.rig, this.locked, this.source),
       h(
         'div',
@@ -131,7 +131,7 @@ export class HeaderPanel {
 
   /** @param {import('../types.js').State} state */
   render(state) {
-    const { presets, design, connection, canUndo, canRedo, locks, problem } = state;
+    const { presets, design, connection, canUndo, canRedo, locks, task, problem } = state;
     const changed = design ? changedWords(design) : '';
     setText(this.rig, changed || 'Parameters');
     this.rig.hidden = !changed && !isOfRig(problem?.field); // else the view's own link is enough
@@ -144,7 +144,7 @@ export class HeaderPanel {
     const source = presetOf({ presets, design })?.source ?? '';
     setText(this.source, source);
     this.source.title = source;
-    this.locked.hidden = !locks.length;
+    this.locked.hidden = !locks.length || task !== null;
     setText(this.locked, locks.length ? say`locked: ${lockNames(locks)}` : '');
     setAttr(this.locked, 'title', 'Locked by the link that opened this page');
     this.undo.disabled = !canUndo;

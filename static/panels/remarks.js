@@ -2,7 +2,7 @@
  * Findings where they concern: a few words at the loops and in the captions of the plots, in room that is kept for
  * them.
  */
-import { hidesRemarks, remarksOf } from '../model/index.js';
+import { remarked, remarksOf } from '../model/index.js';
 import { h, setAttr, setText } from '../ui/index.js';
 
 /** After which element each stands. */
@@ -24,8 +24,9 @@ export class Remarks {
   }
 
   /** @param {import('../types.js').State} state */
-  render({ reply, problem, locks, motion }) {
-    const remarks = remarksOf({ reply: hidesRemarks({ locks }) ? null : reply, problem, motion });
+  render(state) {
+    const { reply, problem, motion } = state;
+    const remarks = remarksOf({ reply: reply && { ...reply, findings: remarked(state) }, problem, motion });
     for (const { name, node } of this.spots) {
       const remark = remarks[name];
       setText(node, remark?.text ?? '');

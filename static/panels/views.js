@@ -14,8 +14,8 @@ export const goTo = (view) => {
   location.hash = view;
 };
 
-/** The view's link and title. @returns {HTMLElement} */
-export const viewLinks = () =>
+/** The views' links, and the one to labs. */
+export const viewLinks = () => [
   h(
     'nav',
     { class: 'views', 'aria-label': 'Views' },
@@ -30,7 +30,17 @@ export const viewLinks = () =>
         VIEWS[name].title,
       ),
     ),
-  );
+  ),
+  h(
+    'span',
+    { class: 'views to-labs' },
+    h(
+      'a',
+      { href: '#labs', 'data-testid': 'view-labs', title: 'Steps with goals, alone or in a class (G, then L)' },
+      'Labs',
+    ),
+  ),
+];
 
 /** @param {EventTarget|null} target */
 const isTyping = (target) =>
@@ -65,10 +75,10 @@ export class ViewSwitch {
   #key(e) {
     if (e.ctrlKey || e.metaKey || e.altKey || isTyping(e.target)) return;
     const key = e.key.toUpperCase();
-    const to = names.find((name) => VIEWS[name].key === key);
+    const to = key === 'L' ? 'labs' : names.find((name) => VIEWS[name].key === key);
     if (to && e.timeStamp - this.#led < 1500) {
       e.preventDefault();
-      goTo(to);
+      location.hash = to;
     }
     this.#led = key === 'G' ? e.timeStamp : -Infinity;
   }

@@ -11,6 +11,7 @@ import { copying, defined, Entries, nonzero } from './entries.js';
 import { rich } from './rich.js';
 import { memberOf } from './structure.js';
 import { SymbolCards } from './symbol_cards.js';
+import { toldOf } from './symbols.js';
 import { walk } from './walk.js';
 
 /**
@@ -51,7 +52,7 @@ export class FormulasPanel {
     this.cards = new SymbolCards(root, () => ({
       parameters: { ...presetOf(store.state)?.parameters, ...store.state.design?.parameters },
       components: {},
-      walk: this.#walk,
+      walk: toldOf(this.#walk, store.state),
     }));
     this.lazy = new Lazy(root, h('div'), store, {
       wait: '',

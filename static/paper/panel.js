@@ -9,6 +9,7 @@ import { placeIn } from '../link/index.js';
 import { countsOf } from './math.js';
 import { rich } from './rich.js';
 import { SymbolCards, SymbolList } from './symbol_cards.js';
+import { toldOf } from './symbols.js';
 import { walk } from './walk.js';
 import { Beyond } from './beyond.js';
 import { consequence } from './consequence.js';
@@ -81,7 +82,7 @@ export class PaperPanel {
     return {
       parameters: { ...preset?.parameters, ...this.store.state.design?.parameters },
       components: preset?.components ?? {},
-      walk: this.#walk,
+      walk: toldOf(this.#walk, this.store.state),
     };
   }
 

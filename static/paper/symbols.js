@@ -10,6 +10,7 @@
  * @typedef {{parameters: Record<string, number>, components: Record<string, number>, walk: Walk|null}} Now
  * @typedef {{text?: string, matrix?: number[][], of?: string}} Worth
  */
+import { hides } from '../model/index.js';
 import { complex } from '../text/index.js';
 import { clean, figure } from './math.js';
 
@@ -162,6 +163,11 @@ function worthBeyond(name, walk, part) {
   if (name in names) return number(names[name]);
   return /^(h|d)_/.test(name) ? {} : undefined;
 }
+
+/** A walk through the derivation, but for what a lab's step keeps back. @param {Walk|null} walk
+ * @param {Partial<import('../types.js').State>} state @returns {Walk|null} */
+export const toldOf = (walk, state) =>
+  walk?.refused === undefined && walk && hides(state, 'rga') ? { ...walk, rga: undefined } : walk;
 
 /**
  * What a symbol is worth on the present rig.

@@ -32,6 +32,7 @@ export class Results {
     this.Q = matrix('Q', ['u', 'u'], 'the nonzero rows of TB', true);
     this.M = matrix('M', ['x', 'm'], '[b₁ … A^(σ₁−1)b₁ | b₂ …]', true);
     this.rga = matrix('RGA', ['y', 'u'], 'of the plant at ω = 0', true);
+    this.rga.node.classList.add('relative-gain');
     this.facts = h('dl', { class: 'plant-facts', 'data-testid': 'plant-facts' });
     this.findings = h('ul', { class: 'plant-findings', 'data-testid': 'plant-findings' });
     this.verdict = h('p', { class: 'plant-verdict', role: 'status', 'data-testid': 'plant-verdict' });
@@ -69,7 +70,7 @@ export class Results {
   read({ analysis: a }) {
     const modes = (/** @type {import('../types.js').Complex[]} */ poles) =>
       poles.length ? polesLine(poles) : t('none');
-    /** @type {[string, string][]} */ const facts = [
+    /** @type {[string, string, string?][]} */ const facts = [
       [t('Poles, rad/s'), `${modes(a.poles)} (${a.stable ? t('stable') : t('not stable')})`],
       [t('Zeros, rad/s'), modes(a.zeros)],
       [t('Controllability indices'), a.inputs.indices.join(', ')],
@@ -77,9 +78,13 @@ export class Results {
     if (a.inputs.lost.length) facts.push([t('Not controllable'), modes(a.inputs.lost)]);
     if (a.outputs) facts.push([t('Observability indices'), a.outputs.indices.join(', ')]);
     if (a.outputs?.lost.length) facts.push([t('Not observable'), modes(a.outputs.lost)]);
-    if (a.niederlinski !== undefined) facts.push([t('Niederlinski index'), significant(a.niederlinski, 4)]);
+    if (a.niederlinski !== undefined)
+      facts.push([t('Niederlinski index'), significant(a.niederlinski, 4), 'relative-gain']);
     this.facts.replaceChildren(
-      ...facts.flatMap(([name, value]) => [h('dt', {}, name), h('dd', { translate: 'no' }, value)]),
+      ...facts.flatMap(([name, value, kind]) => [
+        h('dt', { class: kind }, name),
+        h('dd', { class: kind, translate: 'no' }, value),
+      ]),
     );
     for (const name of /** @type {const} */ (['T', 'Q', 'M', 'rga'])) this[name].show(a[name]);
   }

@@ -24,6 +24,8 @@ export class RecordingsPanel {
   constructor(root, store, plots) {
     this.store = store;
     this.feed = new RecordingFeed(store);
+    // a lab has fetched the recording of a student's rig
+    document.addEventListener('recording', (e) => this.feed.send([/** @type {CustomEvent} */ (e).detail]));
     const tool = (/** @type {string} */ id, /** @type {string} */ text, /** @type {() => void} */ act, title = '') =>
       button({ 'data-testid': `recording-${id}`, title: title || undefined, onclick: act }, text);
     this.file = h('input', {

@@ -75,7 +75,11 @@ export class Gestures {
   #under(e) {
     const { state } = this.plane.store;
     if (!state.design) return null;
-    return pick(this.plane.view, handlesOf(state.design, pairAlone(state)), this.plane.marks.order, this.#at(e), REACH);
+    const { handles, order } = this.plane.marks;
+    const poles = handlesOf(state.design, pairAlone(state));
+    // one that a lab's step fixes is not in the way of one below it
+    const free = state.task ? poles.map((p, i) => (handles[i].hasAttribute('aria-disabled') ? undefined : p)) : poles;
+    return pick(this.plane.view, free, order, this.#at(e), REACH);
   }
 
   /** @param {PointerEvent} e */

@@ -11,11 +11,12 @@ export function recall(name) {
   }
 }
 
-/** @param {string} name @param {string} value */
+/** @param {string} name @param {string} value @returns {boolean} whether it does */
 export function remember(name, value) {
   try {
     localStorage.setItem(PREFIX + name, value);
+    return true;
   } catch {
-    // storage is switched off or full
+    return false; // storage is switched off or full
   }
 }

@@ -8,11 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import httpx2
 import pytest
 from playwright.sync_api import Browser, Page
 
 from tests.browser import UNDRAWN, opened
 from tests.children import SERVE, served
+from tests.e2e.classroom import LABS, Classroom, calling
 from tests.patience import PATIENCE, until
 
 
@@ -59,3 +61,23 @@ def page_with_scene(chromium: Browser, app: App) -> Iterator[Page]:
     """The page with its scene, which has everything but pixels, and plays."""
     with opened(chromium, app.url, scene=UNDRAWN, moving=True) as page:
         yield page
+
+
+@pytest.fixture(scope="session")
+def lab_server() -> Iterator[App]:
+    """The app with the lab `wall` of these tests, and a database of its own."""
+    with running_app(labs=LABS, database="memory") as app:
+        yield app
+
+
+@pytest.fixture(scope="session")
+def rest(lab_server: App) -> Iterator[httpx2.Client]:
+    """Calls to that server."""
+    with calling(lab_server.url) as client:
+        yield client
+
+
+@pytest.fixture
+def room(rest: httpx2.Client) -> Classroom:
+    """A class there, with nobody in it."""
+    return Classroom.made(rest)

@@ -230,6 +230,35 @@ test('an answer to an earlier design brings its words alone, and takes no number
   assert.deepEqual(store.state.reply.findings, [finding('second')]);
 });
 
+test('an answer that comes between a move and its frame takes no numbers back either', () => {
+  store.set({ dragging: true });
+  edit(-3);
+  own.frame();
+  rest();
+  const asked = store.state.design;
+  const said = { ...structuredClone(store.state.reply), seq: 2, findings: [finding('second')] };
+  edit(-4);
+  own.frame();
+  const drawn = store.state.design;
+  edit(-5); // the hand has gone on; its frame is still to come
+  store.set(own.heard(said, asked));
+  assert.equal(K(), -4);
+  assert.deepEqual([store.state.answered, store.state.heard], [drawn, asked]);
+  assert.deepEqual(store.state.reply.findings, [finding('second')]);
+  own.frame();
+  assert.equal(K(), -5);
+});
+
+test('what only the server can answer is shown though the hand has gone on', () => {
+  store.edit((d) => ({ ...d, method: 'lqr' }));
+  store.set({ dragging: true });
+  edit(-3);
+  const { design } = store.state;
+  edit(-4);
+  store.set(own.heard({ ...words('second'), gains: { ...words().gains, K: [[-3]] } }, design));
+  assert.deepEqual([K(), store.state.answered], [-3, design]);
+});
+
 test('an answer that is quicker than the frame is not computed again; a step back is', () => {
   edit(-3, {});
   store.set(own.heard({ ...words('second'), gains: { ...words().gains, K: [[-3]] } }, store.state.design));

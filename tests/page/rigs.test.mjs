@@ -228,6 +228,22 @@ test('all poles come first, with a few responses; then all responses, the same r
   assert.deepEqual([...rigs.cloud({ ...task, numbers: parallel })], [], 'motors that act alike');
 });
 
+test('rigs may be given, and are those then', async () => {
+  const rigs = new ManyRigs(await instantiated(await compiled(readFileSync(MODULE))), () => 0);
+  const numbers = new Float64Array(AT.NUMBERS);
+  fill(numbers, DESIGN, PRESET);
+  const [count, spreads] = [5, Array(FACTORS).fill(0.1)];
+  const task = { numbers, size: sizeOf(DESIGN, PRESET), spreads, rigs: count };
+  const [usual] = [...rigs.cloud(task)].filter(Boolean);
+  const drawn = new Float64Array(FACTORS * count);
+  fillFactors(drawn, spreads, 0.02);
+  const [same] = [...rigs.cloud({ ...task, spreads: [], drawn })].filter(Boolean);
+  assert.deepEqual(same.poles, usual.poles);
+  const [nominal] = [...rigs.cloud({ ...task, drawn: drawn.fill(1) })].filter(Boolean);
+  assert.deepEqual(nominal.poles.subarray(0, 12), nominal.poles.subarray(12, 24), 'all alike');
+  assert.notDeepEqual(nominal.poles, usual.poles);
+});
+
 test('a slow rig is shown with fewer responses', async () => {
   let clock = 0;
   const rigs = new ManyRigs(await instantiated(await compiled(readFileSync(MODULE))), () => (clock += 15));

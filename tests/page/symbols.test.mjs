@@ -4,7 +4,7 @@ import { test } from 'node:test';
 
 import { inverseOf, mixingOf } from '../../static/model/loop_values.js';
 import { assumedWords, lagWords } from '../../static/paper/beyond_words.js';
-import { Glossary, signOf, symbolsIn, worthOf } from '../../static/paper/symbols.js';
+import { Glossary, signOf, symbolsIn, toldOf, worthOf } from '../../static/paper/symbols.js';
 
 /** A little of an element: what the server's MathML needs. @param {string} source */
 function parsed(source) {
@@ -234,4 +234,13 @@ test('what the lag margin says of a design', () => {
   assert.equal(assumedWords([]), '');
   assert.match(assumedWords(['yaw']), /for yaw’s rotor/);
   assert.match(assumedWords(['pitch', 'yaw']), /for pitch’s and yaw’s rotor/);
+});
+
+test('what a step of a lab keeps back is no symbol’s worth', () => {
+  const walk = { asked: {}, constants: {}, K: [[2]], rga: [[0.75]] };
+  const worth = (hidden, name) =>
+    worthOf(name, { parameters: {}, components: {}, walk: toldOf(walk, { task: { free: [], hidden } }) }).text;
+  assert.deepEqual([worth([], 'lambda_11'), worth([], 'k_11')], ['0.75', '2']);
+  assert.deepEqual([worth(['rga'], 'lambda_11'), worth(['rga'], 'k_11')], [undefined, '2']);
+  assert.equal(toldOf(null, { task: { free: [], hidden: ['rga'] } }), null);
 });
