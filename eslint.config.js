@@ -8,12 +8,13 @@ const FLOORS = [
   ['model', 'net'],
   ['ui', 'link', 'kernel'],
   ['charts'],
-  ['rigs'],
+  ['rigs', 'markdown', 'bodies'],
   ['plots', 'splane', 'scene', 'recordings', 'explore', 'exports', 'panels'],
-  ['paper', 'compare', 'rig', 'machine', 'clouds', 'plant'],
-  ['optimal'],
+  ['paper', 'compare', 'rig', 'machine', 'clouds', 'plant', 'labs'],
+  ['optimal', 'wall'],
+  ['scorm'],
 ];
-const TOP = ['static/main.js', 'static/api_docs.js'];
+const TOP = ['static/main.js', 'static/class.js', 'static/api_docs.js', 'static/lti/launch.js'];
 
 /** No room but these may be imported from a folder, whose modules begin their imports with `up`. */
 function doors(rooms, up) {

@@ -17,6 +17,8 @@ from heli2dof_core.engine import warm_up
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
+os.environ.setdefault("HELI2DOF_DATABASE", "memory")  # no test writes to a user's own
+
 settings.register_profile("ci", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("local", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("ci" if os.environ.get("CI") else "local")

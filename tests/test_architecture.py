@@ -88,7 +88,7 @@ def test_no_test_waits_for_time():
             "import app.main; app.main.create_app()",
             (
                 *("sympy", "control", "viser", "scipy.integrate", "scipy.signal"),
-                *("h5py", "openpyxl", "scipy.io", "jinja2"),
+                *("h5py", "openpyxl", "scipy.io", "jinja2", "sqlalchemy", "alembic", "yaml"),
             ),
         ),
         *(
@@ -115,7 +115,8 @@ def test_page_and_locks_name_no_other_host():
         path = ROOT / name
         if path.suffix in (".js", ".html", ".css", ".json", ".txt") and path.is_file():
             hosts = set(re.findall(r"https?://([\w.-]+)", path.read_text(encoding="utf-8")))
-            assert hosts <= {"www.w3.org", "127.0.0.1"}, (name, hosts)
+            # names of vocabularies, and no addresses that anything is fetched from
+            assert hosts <= {"www.w3.org", "127.0.0.1", "json-schema.org"}, (name, hosts)
 
 
 EVALUATING = {"eval", "exec", "compile", "sympify", "parse_expr", "parse_latex", "literal_eval", "__import__"}
