@@ -28,6 +28,7 @@ from app.ops.settings import Settings
 from tests.app.a_lab import A_LAB
 from tests.app.class_room import ClassRoom, labs_folder
 from tests.children import python
+from tests.loops import run
 from tests.patience import PATIENCE, until
 from tests.postgresql import PostgreSQL, postgresql
 
@@ -334,9 +335,9 @@ def test_of_many_writes_in_one_transaction_each_may_fail_alone(empty):
         writing.connection.execute(insert(classes).values(values))
         return k
 
-    outcomes = asyncio.run(all_at_once())
+    outcomes = run(all_at_once())
     assert [isinstance(outcome, ClassError) for outcome in outcomes] == [k % 3 == 0 for k in range(60)]
-    found = asyncio.run(database.read(lambda connection: connection.execute(select(classes.c.code)).all()))
+    found = run(database.read(lambda connection: connection.execute(select(classes.c.code)).all()))
     assert {row.code for row in found} == {f"C{k}" for k in range(60) if k % 3}
     database.close()
 

@@ -13,6 +13,7 @@ from app.classes.errors import ClassError, database_away
 from app.classes.lab_library import frozen_lab
 from app.classes.rows import ClassRow
 from tests.app.a_lab import A_LAB
+from tests.loops import run
 from tests.patience import PATIENCE
 
 
@@ -65,7 +66,7 @@ def test_a_first_look_that_fails_is_told_to_all_who_wait_for_it():
         assert not own._by_class  # who comes now looks anew
         assert database.asked == 1
 
-    asyncio.run(watch())
+    run(watch())
 
 
 def test_however_many_classes_are_watched_their_looks_take_one_reader(monkeypatch):
@@ -98,4 +99,4 @@ def test_however_many_classes_are_watched_their_looks_take_one_reader(monkeypatc
         for wall in walls:
             await wall.aclose()
 
-    asyncio.run(watch())
+    run(watch())

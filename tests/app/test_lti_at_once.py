@@ -16,6 +16,7 @@ from app.lti.links import Arrival, Place, enter, tie
 from app.lti.platforms import platform_of
 from app.lti.store import keep_platform
 from tests.app.a_lab import A_LAB
+from tests.loops import run
 from tests.postgresql import postgresql
 
 pytestmark = pytest.mark.slow
@@ -50,7 +51,7 @@ def test_who_comes_twice_at_one_moment_is_one_and_a_link_has_one_class():
             return found
 
         try:
-            found = asyncio.run(launched())
+            found = run(launched())
         finally:
             for database in replicas:
                 database.close()

@@ -24,6 +24,7 @@ from app.lti.services import Score, Services
 from app.main import create_app
 from tests.app.lti_course import Course, course_in, register, settings_in
 from tests.app.test_lti_tokens import PLATFORM
+from tests.loops import run as looped
 from tests.lti_platform import Link, Platform
 from tests.patience import PATIENCE, until
 from tests.postgresql import PostgreSQL, postgresql
@@ -312,5 +313,5 @@ def test_the_grader_goes_on_after_trouble(monkeypatch: pytest.MonkeyPatch) -> No
         with pytest.raises(asyncio.CancelledError):
             await Broken(None, None).run()  # type: ignore[arg-type]
 
-    asyncio.run(run())
+    looped(run())
     assert len(looks) == 3
