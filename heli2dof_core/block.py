@@ -26,6 +26,7 @@ from .kernels.update_layout import (
     OWN_INTEGRAL,
     POLES,
     ROTOR_POLES,
+    WITHOUT_MARGINS,
     block_shapes,
 )
 from .plant import plant
@@ -153,7 +154,7 @@ def given_numbers(task: Task, placed: Design | None, L: Floats | None, most_step
     if placed is not None:
         _give(numbers, placed)
     if L is not None:
-        numbers[L_GIVEN], numbers[GIVEN_L:] = 1.0, L.ravel()
+        numbers[L_GIVEN], numbers[GIVEN_L:WITHOUT_MARGINS] = 1.0, L.ravel()
     return numbers
 
 

@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from heli2dof_core.labs import LOCKS
 from heli2dof_core.labs.format import HINT, LAB, STEP
 from heli2dof_core.labs.kinds import Record
-from heli2dof_core.labs.measured import MEASURED
 from heli2dof_core.labs.quantities import OF_DESIGNS
 from heli2dof_core.labs.schema import PUBLISHED, schema_text
+from heli2dof_core.measured import MEASURED
 from tests.children import ROOT
 
 DOCS = ROOT / "docs" / "labs.md"

@@ -64,6 +64,14 @@ NUMBERS = (
         "MOST_STEPS",
         "AIMS",
     ),
+    *(
+        "WITHOUT_MARGINS",
+        "WITHOUT_LAG_MARGIN",
+        "WITHOUT_LINEAR",
+        "WITHOUT_RIG",
+        "WITHOUT_SCENARIO",
+        "WITHOUT_UNSTABLE",
+    ),
     "NUMBERS",
 )
 GIVEN = ("K_GIVEN", "GIVEN_K", "GIVEN_INVERSE", "OWN_INTEGRAL", "GIVEN_INTEGRAL", "L_GIVEN", "GIVEN_L")
@@ -77,6 +85,10 @@ COURSE = ("DEVIATION", "SHARE", "HELD", "OUTCOME", "IMPACTS", "REACHED")
 SENSITIVITY = ("SENSITIVITY_PEAK", "PEAK_FREQUENCY", "DISK_MARGIN", "DISK_FREQUENCY")
 MOTOR = ("PEAK_VOLTAGE", "EFFORT")
 ENDS = ("ENDED", "OUT_OF_STEPS", "OUT_OF_SWITCHES", "OUT_OF_BOUNDS")
+FOUND = (
+    *("FOUND_OUTCOME", "FOUND_RUNS", "SHARE_STABLE", "SHARE_WITHIN", "FOUND_FIGURES", "FOUND_SENSITIVITY"),
+    *("FOUND_MARGINS", "FOUND_COURSES", "FOUND_MOTORS", "FOUND_AXES", "FOUND_K", "FOUND_INVERSE", "FOUND"),
+)
 EXPERIMENT = ("REFERENCE", "START", "BOUND", "STOP")
 
 
@@ -103,6 +115,7 @@ def module() -> str:
         _places("How a course ended.", "ENDS", layout, ENDS),
         _list("Columns of a motor's margins.", "MARGINS", MARGINS),
         _places("Columns of what both motors bear.", "SENSITIVITY", layout, SENSITIVITY),
+        _places("Columns of a design among many.", "FOUND", update, FOUND),
         _numbers(),
         _object(
             "Of clouds: times of their responses, tolerance, least share of a parameter, percentiles of bands.",
@@ -179,7 +192,7 @@ def _set(
 
 
 SHAPES_HEAD = """/**
- * The arrays of the kernels `update` and `run_rigs` for a loop of n states: their elements' kind, and their shapes.
+ * The arrays of the kernels `update`, `run_rigs` and `run_designs` for a loop of n states: kinds and shapes.
  * Made of heli2dof_core/kernels/update_layout.py by `python -m tests.page_kernel`; not to be changed by hand.
  *
  * @typedef {['f64' | 'i64' | 'c128', ...number[]]} Kind  c128: two f64
@@ -194,6 +207,7 @@ def shapes() -> str:
         _shapes("What it fills.", "block", update.block_shapes, ("samples",)),
         _shapes("What it writes into besides.", "scratch", update.scratch_shapes, ("samples",)),
         _shapes("What `run_rigs` takes behind these.", "many", update.rigs_shapes, ("rigs", "times")),
+        _shapes("What `run_designs` takes behind these.", "designs", update.designs_shapes, ("designs",)),
     )
     return "\n".join((SHAPES_HEAD, *parts))
 

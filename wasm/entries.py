@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 ENTRIES = (
     "update",
     "run_rigs",
+    "run_designs",
     "eigenvalues",
 )
 """Names in `heli2dof_core.kernels.jit.ENTRIES`, which are those of the module's functions."""

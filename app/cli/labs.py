@@ -360,8 +360,8 @@ def schema() -> None:
 def figures(as_json: bool) -> None:
     """List what goals may require and questions may ask for, what can be locked, and the labs that ship."""
     from heli2dof_core.labs import LOCKS, shipped_labs
-    from heli2dof_core.labs.measured import MEASURED
     from heli2dof_core.labs.quantities import QUANTITIES
+    from heli2dof_core.measured import MEASURED
     from heli2dof_core.tables import Table
 
     if as_json:

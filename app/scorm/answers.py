@@ -14,9 +14,9 @@ from heli2dof_core.labs.amounts import DECIBEL, conversions, in_unit
 from heli2dof_core.labs.bodies import PATHS
 from heli2dof_core.labs.context import Context
 from heli2dof_core.labs.lab import Question
-from heli2dof_core.labs.measured import MEASURED
 from heli2dof_core.labs.quantities import Asked
 from heli2dof_core.labs.questions import ChoiceQuestion, NumberQuestion
+from heli2dof_core.measured import MEASURED
 from heli2dof_core.parameters import PARAMETER_INFO
 
 OF_THE_RIG = frozenset((*PARAMETER_INFO, "alpha", "beta", "gamma"))

@@ -6,30 +6,28 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from ..evaluate import Report, Step
 from ..figures import AXIS, MARGINS, MOTOR, RESPONSE, SENSITIVITY, STEP, AxisMetrics, Margins
 from ..figures.written import DASH, percent, told
 from ..metrics import NOT_SETTLED
 from ..scenario import Model
-from ..signals import AXES, INPUTS, OUTPUTS, Floats
+from ..signals import AXES, INPUTS, OUTPUTS
 
 
 @dataclass(frozen=True)
 class Row:
-    """One figure of an axis' step by one model; `text` gets the step, its axis' metrics and the trim voltages."""
+    """One figure of an axis' step by one model; `text` gets the step and its axis' metrics."""
 
     name: str
-    text: Callable[[Step, AxisMetrics, Floats], str]
+    text: Callable[[Step, AxisMetrics], str]
 
 
 def _response(name: str) -> Row:
     """The row of an axis' figure, or of its step's."""
     if name in STEP:
-        return Row(STEP[name].titled, lambda step, _, __: told(STEP[name], getattr(step.metrics, name)))
+        return Row(STEP[name].titled, lambda step, _: told(STEP[name], getattr(step.metrics, name)))
 
-    def text(_: Step, own: AxisMetrics, __: Floats) -> str:
+    def text(_: Step, own: AxisMetrics) -> str:
         if name == "settling_time" and not own.settled:
             return NOT_SETTLED
         return told(AXIS[name], getattr(own, name))
@@ -38,15 +36,13 @@ def _response(name: str) -> Row:
 
 
 def _motor(motor: int, name: str) -> Row:
-    """The row of a motor's figure; its peak by the linear model is that of its samples with the trim."""
+    """The row of a motor's figure."""
     symbol, figure = INPUTS[motor].name, MOTOR[name]
 
-    def text(step: Step, _: AxisMetrics, trim: Floats) -> str:
-        own, response = step.metrics.motors[symbol], step.response
+    def text(step: Step, _: AxisMetrics) -> str:
+        own = step.metrics.motors[symbol]
         if name != "peak":
             return told(figure, getattr(own, name))
-        if response.model == "linear":
-            return told(figure, float(np.max(np.abs(response.voltages[motor] + trim[motor]))))
         return f"limit {percent(own.saturated)}" if own.saturated > 0 else told(figure, own.peak)
 
     return Row(f"{symbol} {figure.titled}", text)
@@ -61,7 +57,7 @@ ROWS = (
 
 def merit(report: Report) -> tuple[list[str], list[tuple[str, ...]]]:
     """Head and rows of the table of both steps, each by the rig and by the linear model."""
-    trim, columns = report.design.trim, []
+    columns = []
     for axis, signal in zip(AXES, OUTPUTS, strict=True):
         both = report.axis_steps.get(signal.name)
         models: tuple[tuple[Model, str], ...] = (("nonlinear", f"{axis} step"), ("linear", "(linear)"))
@@ -69,7 +65,7 @@ def merit(report: Report) -> tuple[list[str], list[tuple[str, ...]]]:
             step = None if both is None else both[model]
             own = None if step is None else step.metrics.axes.get(signal.name)
             columns.append(
-                (label, [DASH if step is None or own is None else row.text(step, own, trim) for row in ROWS])
+                (label, [DASH if step is None or own is None else row.text(step, own) for row in ROWS])
             )
     rows = [(row.name, *(cells[i] for _, cells in columns)) for i, row in enumerate(ROWS)]
     return ["", *(label for label, _ in columns)], rows

@@ -61,6 +61,7 @@ def run_linear(
 ):  # fmt: skip
     """The loop without limits, exact: absolute states, (n, samples), voltages and figures of merit, as `layout` says.
 
+    Voltages are deviations from those at rest, `rest`; the motors' figures are of both together.
     n is one more than the size; the last state is 1, those behind the sixth are deviations, from `inner` on. `whole`
     and `law` are of the size's order, or of 4 or 6 where that is PLAIN. `poles` are those of `whole`. Scratch: `w`,
     `ladder` and `nodes`, `layout.exact_shapes`, and `f`, twice FOLLOWED.
@@ -77,6 +78,8 @@ def run_linear(
                 total += outputs[j, k] * M[k, i]
             slopes[j, i] = total
     exact_response(size, M, t[1], outputs, scratch, states, voltages)
+    for j in range(2):
+        outputs[j, len(size)] += rest[j]  # what is measured is the motors' whole voltage
     for k in range(len(t)):
         states[0, k] += theta_0
     own, ahead, end = f[:4], f[4:], t[-1]

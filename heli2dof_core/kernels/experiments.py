@@ -133,7 +133,7 @@ def run_of_linear_model(
     inner_start(numbers, trim, x, nothing, order, inner)
     run_linear(
         size, numbers[ANGLE], read_only(law), read_only(by_reference), read_only(whole), read_only(driven),
-        read_only(poles), x, read_only(inner[0]), read_only(t), int(numbers[MOST_STEPS]), read_only(nothing), v,
+        read_only(poles), x, read_only(inner[0]), read_only(t), int(numbers[MOST_STEPS]), read_only(trim), v,
         ladder, nodes, followed, states, voltages, axes, motors, course,
     )  # fmt: skip
 

@@ -67,6 +67,12 @@ from .update_layout import (
     ROTORS_PLACED,
     SAMPLE_TIME,
     STABLE,
+    WITHOUT_LAG_MARGIN,
+    WITHOUT_LINEAR,
+    WITHOUT_MARGINS,
+    WITHOUT_RIG,
+    WITHOUT_SCENARIO,
+    WITHOUT_UNSTABLE,
     block_shapes,
     made,
     scratch_shapes,
@@ -183,14 +189,16 @@ def update(
         stable = stable and figures[PLACED_STABLE] != 0.0
     figures[STABLE] = 1.0 if stable else 0.0
     start_lag = max(actuators[TAU], actuators[TAU + 1]) if placed else 0.0
-    least = least_lag(read_only(loop), start_lag, lag)
-    figures[LAG_MARGIN] = least if least > start_lag or stable else inf
+    figures[LAG_MARGIN] = nan
+    if numbers[WITHOUT_LAG_MARGIN] == 0.0:
+        least = least_lag(read_only(loop), start_lag, lag)
+        figures[LAG_MARGIN] = least if least > start_lag or stable else inf
     for i in range(2):
         for j in range(margins.shape[1]):
             margins[i, j] = nan
     for j in range(len(sensitivity)):
         sensitivity[j] = nan
-    if stable:
+    if stable and numbers[WITHOUT_MARGINS] == 0.0:
         fill_margins(read_only(loop), opened, p, margins)
         sensitivity_peaks(read_only(loop), read_only(connected[:states]), frequencies, sensitivity)
     # experiments
@@ -203,20 +211,25 @@ def update(
             numbers, trim, estimator, order, period, size_of_exponential, exponential, estimated
         )
     runs = 0
+    if not stable and numbers[WITHOUT_UNSTABLE] != 0.0:
+        return
     for left_out in range(-1, 2):
         if left_out >= 0 and (numbers[EACH_AXIS] == 0.0 or isnan(numbers[ASKED + left_out])):
+            continue
+        if left_out < 0 and numbers[WITHOUT_SCENARIO] != 0.0:
             continue
         x, n = experiments[runs], runs
         experiment_numbers(numbers, kind, K, integral, 1 - left_out if left_out >= 0 else -1, x)
         if numbers[DIGITAL] != 0.0:
             controller_settings(numbers, trim, x, size_of_exponential, exponential, settings)
-        run_of_linear_model(
-            size, numbers, trim, law, by_reference, whole, driven, poles[: states + apart], order, x, t, inner,
-            nothing, estimator, v, ladder, nodes, followed, linear[n], voltages[n, 0], axes[n, 0], motors[n, 0],
-            courses[n, 0],
-        )  # fmt: skip
+        if numbers[WITHOUT_LINEAR] == 0.0:
+            run_of_linear_model(
+                size, numbers, trim, law, by_reference, whole, driven, poles[: states + apart], order, x, t, inner,
+                nothing, estimator, v, ladder, nodes, followed, linear[n], voltages[n, 0], axes[n, 0], motors[n, 0],
+                courses[n, 0],
+            )  # fmt: skip
         for disturbed in range(2):
-            if disturbed == 1 and numbers[DISTURBED] == 0.0:
+            if numbers[WITHOUT_RIG] != 0.0 or (disturbed == 1 and numbers[DISTURBED] == 0.0):
                 break
             run_of_rig(
                 size, numbers, disturbed == 1, rig, trim, law, by_reference, integral, poles[: states + apart], order,

@@ -63,7 +63,11 @@ EACH_AXIS, MOST_STEPS = 82, 83
 # What another method or an exact computation has found: whether K is given, K (2×6), Ĝ(0)⁻¹ (2×2), whether it has an
 # integral action of its own, that (2×2), whether it aims at the poles; whether L is given, L (4×2)
 K_GIVEN, GIVEN_K, GIVEN_INVERSE, OWN_INTEGRAL, GIVEN_INTEGRAL, AIMS = 84, 85, 97, 101, 102, 106
-L_GIVEN, GIVEN_L, NUMBERS = 107, 108, 116
+L_GIVEN, GIVEN_L = 107, 108
+# What is left out (0: nothing): margins and sensitivity, the lag margin, the linear model's experiments, the rig's,
+# the scenario's own experiment, so that the axes' alone are all there are; and all experiments of an unstable loop
+WITHOUT_MARGINS, WITHOUT_LAG_MARGIN, WITHOUT_LINEAR, WITHOUT_RIG = 116, 117, 118, 119
+WITHOUT_SCENARIO, WITHOUT_UNSTABLE, NUMBERS = 120, 121, 122
 
 # How an update ended: all is filled; K takes exact numbers, as a closed form would lose digits; the motors act alike;
 # the family is none of this rig's; a dead zone reaches beyond its motor's limit; a thrust curve has no slope at the
@@ -220,6 +224,26 @@ def rigs_shapes(size: int, rigs: int, times: int) -> dict[str, tuple[Shape, str]
         "stable": ((rigs,), real),
         "within": ((rigs,), real),
     }
+
+
+# Of a design among many, a row: how its update ended, and the number of its runs; the shares of its rigs that are
+# stable and that stay within their limits (NaN without rigs); the figures, sensitivity and margins of the block; and
+# of each run by both models the course, the motors and the axes, where those of the rig's steps are without the
+# disturbance; K and Ĝ(0)⁻¹
+FOUND_OUTCOME, FOUND_RUNS, SHARE_STABLE, SHARE_WITHIN, FOUND_FIGURES = 0, 1, 2, 3, 4
+FOUND_SENSITIVITY = FOUND_FIGURES + FIGURES
+FOUND_MARGINS = FOUND_SENSITIVITY + SENSITIVITY
+FOUND_COURSES = FOUND_MARGINS + 2 * MARGINS
+FOUND_MOTORS = FOUND_COURSES + RUNS * 2 * COURSE
+FOUND_AXES = FOUND_MOTORS + RUNS * 2 * 2 * MOTOR_METRICS
+FOUND_K = FOUND_AXES + RUNS * 2 * 2 * AXIS_METRICS
+FOUND_INVERSE = FOUND_K + 12
+FOUND = FOUND_INVERSE + 4
+
+
+def designs_shapes(size: int, designs: int) -> dict[str, tuple[Shape, str]]:
+    """What `run_designs` fills, behind all that `run_rigs` takes: the loops' poles, slowest first, and the rows."""
+    return {"found_poles": ((designs, size), "complex128"), "found": ((designs, FOUND), "float64")}
 
 
 def made(shapes: dict[str, tuple[Shape, str]]) -> list[Any]:

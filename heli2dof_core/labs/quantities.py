@@ -9,11 +9,11 @@ from types import MappingProxyType
 from typing import Any
 
 from ..evaluate import Report
+from ..measured import MEASURED, Where, worse
 from ..parameters import PARAMETER_INFO
 from .bodies import PATHS
 from .context import Context, Evaluated, Which
 from .edges import largest_gain, largest_step
-from .measured import MEASURED, Where, worse
 
 Read = Callable[[Evaluated, Sequence[int]], float | None]
 NAME = re.compile(r"([A-Za-z][A-Za-z0-9_.]*)(?:\[([1-9])(?:\s*,\s*([1-9]))?\])?")

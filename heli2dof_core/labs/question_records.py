@@ -5,6 +5,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import Any
 
+from ..measured import MEASURED, Where
 from .amounts import DECIBEL, amount, factor, in_unit, si_of, split_amount, unit_of
 from .goals.goal import MOST_POINTS
 from .kinds import (
@@ -23,7 +24,6 @@ from .kinds import (
     known,
 )
 from .lab import Question
-from .measured import MEASURED, Where
 from .nodes import Fields, Node, Scalar
 from .quantities import QUANTITIES, Asked, quantity_named
 from .questions import ChoiceQuestion, NumberQuestion, TextQuestion

@@ -15,9 +15,6 @@ from .augmented import inner_start, own_states
 from .experiment import experiment
 from .response import Measured, Response, course_response, end_of_course, room
 
-AT_REST = fixed(np.zeros(2))
-"""Its voltages are deviations from the trim."""
-
 
 def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = None) -> Response:
     """Step response of the loop without limits, exact at every sample.
@@ -46,7 +43,7 @@ def simulate_linear(loop: Loop, scenario: Scenario, most_steps: int | None = Non
         inner_start(loop, x)[0],
         t,
         most_steps or kernels.most_steps,
-        AT_REST,
+        fixed(loop.design.plant.trim),
         *map(np.empty, exact_shapes(len(size))),
         np.empty(FOLLOWED_TWICE),
         states,

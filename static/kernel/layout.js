@@ -47,7 +47,13 @@ export const AT = {
   EACH_AXIS: 82,
   MOST_STEPS: 83,
   AIMS: 106,
-  NUMBERS: 116,
+  WITHOUT_MARGINS: 116,
+  WITHOUT_LAG_MARGIN: 117,
+  WITHOUT_LINEAR: 118,
+  WITHOUT_RIG: 119,
+  WITHOUT_SCENARIO: 120,
+  WITHOUT_UNSTABLE: 121,
+  NUMBERS: 122,
 };
 
 /** Parameters, in the numbers' order. */
@@ -120,6 +126,23 @@ export const MARGINS = ['gain_margin', 'gain_reduction_margin', 'phase_margin', 
 
 /** Columns of what both motors bear. */
 export const SENSITIVITY = { SENSITIVITY_PEAK: 0, PEAK_FREQUENCY: 1, DISK_MARGIN: 2, DISK_FREQUENCY: 3 };
+
+/** Columns of a design among many. */
+export const FOUND = {
+  FOUND_OUTCOME: 0,
+  FOUND_RUNS: 1,
+  SHARE_STABLE: 2,
+  SHARE_WITHIN: 3,
+  FOUND_FIGURES: 4,
+  FOUND_SENSITIVITY: 16,
+  FOUND_MARGINS: 20,
+  FOUND_COURSES: 28,
+  FOUND_MOTORS: 76,
+  FOUND_AXES: 100,
+  FOUND_K: 220,
+  FOUND_INVERSE: 232,
+  FOUND: 236,
+};
 
 /** Experiments in a block, filled or not. */
 export const RUNS = 3;

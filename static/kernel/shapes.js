@@ -1,5 +1,5 @@
 /**
- * The arrays of the kernels `update` and `run_rigs` for a loop of n states: their elements' kind, and their shapes.
+ * The arrays of the kernels `update`, `run_rigs` and `run_designs` for a loop of n states: kinds and shapes.
  * Made of heli2dof_core/kernels/update_layout.py by `python -m tests.page_kernel`; not to be changed by hand.
  *
  * @typedef {['f64' | 'i64' | 'c128', ...number[]]} Kind  c128: two f64
@@ -102,11 +102,17 @@ export const many = (n, rigs, times) => ({
   own: ['f64', n === 6 ? 36 : 172],
   modes: ['i64', n === 6 ? 8 : 12],
   y: ['f64', n],
-  one: ['f64', 116],
+  one: ['f64', 122],
   x: ['f64', 17],
   course_of_rig: ['f64', times, n],
   rig_poles: ['c128', rigs, n],
   angles: ['f64', rigs, 2, times],
   stable: ['f64', rigs],
   within: ['f64', rigs],
+});
+
+/** What `run_designs` takes behind these. @param {number} n @param {number} designs @returns {Record<string, Kind>} */
+export const designs = (n, designs) => ({
+  found_poles: ['c128', designs, n],
+  found: ['f64', designs, 236],
 });

@@ -104,15 +104,6 @@ export function worst(figure, values, limits) {
 }
 
 /**
- * The largest voltage that the linear model asks for, trim included.
- * @param {import('../types.js').Step} step @param {Motor} motor
- */
-function linearPeak(step, motor) {
-  const trim = step.trim[motor];
-  return Array.from(step[motor]).reduce((most, v) => Math.max(most, Math.abs(v + trim)), 0);
-}
-
-/**
  * A goal's figure, several times where both axes or motors are meant; null where no such axis is stepped.
  * @param {Goal} goal
  * @param {Reply} reply
@@ -137,11 +128,7 @@ export function valuesOf(goal, reply, theta0 = 0) {
     });
   if (of === 'motor') {
     const courses = steps === 'together' ? [reply.step[model]] : axes.flatMap((axis) => courseOf(axis) ?? []);
-    return courses.flatMap((step) =>
-      motors.map((motor) =>
-        model === 'linear' && name === 'peak' ? linearPeak(step, motor) : figureIn(step.metrics?.[motor], name),
-      ),
-    );
+    return courses.flatMap((step) => motors.map((motor) => figureIn(step.metrics?.[motor], name)));
   }
   if (of === 'margins')
     return motors.map((motor) => figureIn(reply.margins?.[motor === 'V_p' ? 'pitch' : 'yaw'], name));

@@ -44,24 +44,11 @@ export function motorText(m, name) {
 }
 
 /**
- * What the linear model asks of a motor, trim included.
- * @param {import('../types.js').Step|undefined} step
- * @param {Motor} name
- */
-export function linearPeak(step, name) {
-  if (!step) return undefined;
-  let peak = 0;
-  for (let i = 0; i < step[name].length; i++) peak = Math.max(peak, Math.abs(step[name][i] + step.trim[name]));
-  return peak;
-}
-
-/**
  * One figure of an axis' step, `known` of the registry. `value` is compared with the linear model's and shown as the
  * registry says; `most` replaces that text where the rig has something else to say.
  * @typedef {import('../model/figures.js').Figure} Known
  * @typedef {{id: string, group: string, known: Known, more?: boolean, name: () => (Node|string)[], title: string,
  *   value: (m: Metrics|undefined, axis: Axis) => number|undefined,
- *   linear?: (step: import('../types.js').Step|undefined) => number|undefined,
  *   most?: (m: Metrics|undefined, axis: Axis) => string|undefined}} Figure
  * One figure of the loop: per motor, or of both at once.
  * @typedef {{id: string, group: string, more?: boolean, name: () => (Node|string)[], title: string,
@@ -105,7 +92,6 @@ const motorRows = (name) =>
         title:
           `${tipOf(known).replace('the motor', `the ${name === 'V_p' ? 'pitch' : 'yaw'} motor`)}; or the share of ` +
           'time at its limit. In parentheses what the linear model asks for.',
-        linear: (/** @type {import('../types.js').Step|undefined} */ step) => linearPeak(step, name),
         most: (/** @type {Metrics|undefined} */ m) => limitText(m, name),
       }),
     }));
@@ -243,7 +229,7 @@ export class MetricsPanel {
       FIGURES.forEach((row, i) => {
         const { own, linear, cell } = this.figures[i][j];
         const value = row.value(metrics, axis);
-        const ideal = row.linear ? row.linear(pair?.linear) : row.value(pair?.linear.metrics, axis);
+        const ideal = row.value(pair?.linear.metrics, axis);
         const most = row.most?.(metrics, axis);
         const missed = (row.id === 'settling' || row.id === 'overshoot') && verdict?.[row.id] === true;
         const text = most ?? textOf(row.known, value);

@@ -87,7 +87,8 @@ def check_linear(loop, scenario, samples=4001, digits=None):
         assert metrics.settled == (expected["entered"] is not None and not leaves)
     by_reference = loop.voltage_from_reference @ (resolved[:2] - offset)
     for motor, name in enumerate(("V_p", "V_y")):
-        peak = largest(t, loop.voltage_from_state[motor] @ deviations + by_reference[motor])
+        rest = loop.design.plant.trim[motor]
+        peak = largest(t, loop.voltage_from_state[motor] @ deviations + by_reference[motor] + rest)
         worst = max(worst, abs(own.motors[name].peak - peak) / max(peak, 1e-3))
     return worst
 

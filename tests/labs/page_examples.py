@@ -14,7 +14,7 @@ from app.contract.encoding import json_text
 from app.contract.evaluation import report_reply
 from heli2dof_core.evaluate import evaluate
 from heli2dof_core.labs import mark, read_lab, start_body, student_rig, student_view
-from heli2dof_core.labs.measured import MEASURED
+from heli2dof_core.measured import MEASURED
 from heli2dof_core.request import spec_of
 
 HERE = Path(__file__).parent

@@ -11,9 +11,9 @@ from click.testing import CliRunner
 
 from app.cli.group import heli2dof
 from heli2dof_core.labs import LOCKS, read_file, student_rig
-from heli2dof_core.labs.measured import MEASURED
 from heli2dof_core.labs.quantities import QUANTITIES
 from heli2dof_core.labs.schema import schema_text
+from heli2dof_core.measured import MEASURED
 
 SMALL = Path(__file__).with_name("small.yaml")
 

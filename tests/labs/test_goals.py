@@ -24,8 +24,8 @@ from heli2dof_core.labs import (
 from heli2dof_core.labs.bodies import body_of_flat
 from heli2dof_core.labs.goals import RECORDS
 from heli2dof_core.labs.goals.cloud import RIGS
-from heli2dof_core.labs.measured import MEASURED, worst
 from heli2dof_core.labs.rigs import solution_flat
+from heli2dof_core.measured import MEASURED, worst
 from tests.core.random_specs import random_specs
 
 SMALL = (Path(__file__).with_name("small.yaml")).read_text(encoding="utf-8")

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from heli2dof_core.labs import mark, read_lab, student_rig
-from heli2dof_core.labs.measured import MEASURED
+from heli2dof_core.measured import MEASURED
 from tests.labs.attempts import AXES, MOTORS, Others, random_attempts
 
 ATTEMPTS = int(os.environ.get("HELI2DOF_LAB_ATTEMPTS", "40"))
@@ -43,10 +43,6 @@ OF_AXIS = (
 BARE = HEAD + "      - {figure: norm, max: 1e9}\n"
 
 
-SAMPLED = 0.01
-"""Relative: a linear model's largest voltage is that of its 501 samples, 12 ms apart, and never above the peak."""
-
-
 def expected(others: Others) -> Iterator[tuple[str, float | None, float]]:
     """Goals' fields in YAML, the value by others, and how far they may be apart."""
     for i, axis in enumerate(AXES):
@@ -60,8 +56,7 @@ def expected(others: Others) -> Iterator[tuple[str, float | None, float]]:
                 least = 1e-4 if name in ("overshoot", "undershoot") else 1e-6  # %, below which none is told
                 yield f"figure: {name}, axis: {axis}, model: {model}", value, 1e-4 * size + least
             for motor in MOTORS:
-                room = 1e-2 if model == "nonlinear" else SAMPLED * own[motor]
-                yield f"figure: V_peak, axis: {axis}, motor: {motor}, model: {model}", own[motor], room
+                yield f"figure: V_peak, axis: {axis}, motor: {motor}, model: {model}", own[motor], 1e-2
         for motor in MOTORS:
             effort = rig[f"{motor} effort"]
             yield f"figure: effort, axis: {axis}, motor: {motor}", effort, 1e-4 * effort + 1e-6
@@ -116,8 +111,6 @@ def test_marks_are_those_of_others(attempts):
                 unsettled += name == "settling_time"
                 continue
             above, below = limits(name, value)
-            if name == "V_peak" and "model: linear" in fields:
-                below -= SAMPLED * value
             lines += [f"{{{fields}, max: {above!r}}}", f"{{{fields}, max: {below!r}}}"]
             lines += [f"{{{fields}, min: {below!r}}}", f"{{{fields}, min: {above!r}}}"]
             verdicts += [True, False, True, False]

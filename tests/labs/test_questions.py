@@ -9,8 +9,8 @@ from heli2dof_core import Observer, PoleSet, Spec, evaluate, preset
 from heli2dof_core.labs import mark, read_lab, start_body, student_rig
 from heli2dof_core.labs.amounts import amount, in_unit, unit_of, units_for
 from heli2dof_core.labs.marking import right_answers
-from heli2dof_core.labs.measured import MEASURED
 from heli2dof_core.labs.quantities import QUANTITIES, quantity_named
+from heli2dof_core.measured import MEASURED
 
 HEAD = """
 lab: 1

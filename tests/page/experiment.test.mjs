@@ -18,7 +18,7 @@ import {
 } from '../../static/model/experiment.js';
 import { differs } from '../../static/text/format.js';
 import { findingsOf } from '../../static/panels/findings.js';
-import { linearPeak, motorText, notSettled } from '../../static/panels/metrics.js';
+import { motorText, notSettled } from '../../static/panels/metrics.js';
 import { QUANTITIES } from '../../static/model/quantities.js';
 import { NONE } from '../../static/model/requirements.js';
 import { designOf, requestOf } from '../../static/model/store.js';
@@ -146,9 +146,7 @@ test('figures differ from five percent on, and what is missing from what is ther
   );
 });
 
-test('the linear model’s peak has the trim, and a limit its share of time', () => {
-  assert.equal(linearPeak({ V_p: [1, -20, 3], trim: { V_p: 12 } }, 'V_p'), 15);
-  assert.equal(linearPeak(undefined, 'V_p'), undefined);
+test('a motor’s peak, or the share of time at its limit', () => {
   assert.equal(motorText({ V_p: { peak: 24, saturated: 0.004 } }, 'V_p'), 'at limit 0.4 %');
   assert.equal(motorText({ V_p: { peak: 12.34, saturated: 0 } }, 'V_p'), '12.3 V');
 });

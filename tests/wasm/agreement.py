@@ -18,6 +18,7 @@ RIGS = ("rig_poles", "angles", "stable", "within")
 FILLED = {
     "update": tuple(re.sub("^open$", "own_poles", name) for name in block_shapes(6, 2)),
     "run_rigs": RIGS,
+    "run_designs": ("found_poles", "found"),
     "eigenvalues": ("real", "imaginary"),
 }
 """What a kernel is asked for; all else that it writes into is scratch."""

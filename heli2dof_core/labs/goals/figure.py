@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from ...measured import MEASURED, Axis, Measured, Model, Motor, Steps, Where, stepped, worst
 from ..context import Context
 from ..kinds import Amount, Member, OneOf, Reading, Record, Schema, Unusable, known
 from ..lab import Goal, Outcome
-from ..measured import MEASURED, Axis, Measured, Model, Motor, Steps, Where, stepped, worst
 from ..nodes import Fields, Node, Scalar
 from .goal import SHARED, BaseGoal, limits_text, require_limits
 

@@ -11,13 +11,11 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, Literal
 
-import numpy as np
-
-from ..evaluate import Report
-from ..figures import AXIS, DESIGN, LOOP, MARGINS, MOTOR, SENSITIVITY, STEP, Figure
-from ..figures.written import DASH, in_shown_unit, percent, rounded, told
-from ..metrics import NOT_SETTLED
-from ..scenario import Model
+from .evaluate import Report
+from .figures import AXIS, DESIGN, LOOP, MARGINS, MOTOR, SENSITIVITY, STEP, Figure
+from .figures.written import DASH, in_shown_unit, percent, rounded, told
+from .metrics import NOT_SETTLED
+from .scenario import Model
 
 Of = Literal["axis", "step", "motor", "margins", "sensitivity", "loop", "design"]
 Axis = Literal["theta", "psi", "both"]
@@ -56,6 +54,7 @@ class Measured:
         name: in files.
         figure: of the registry.
         of: what it belongs to.
+        own: its name in the registry of that kind.
         read: its values, several where both axes or motors are meant; None where there is none.
         unlimited: whether no value says that it has no limit.
     """
@@ -63,6 +62,7 @@ class Measured:
     name: str
     figure: Figure
     of: Of
+    own: str
     read: Read
     unlimited: bool = False
 
@@ -221,21 +221,10 @@ def _of_motor(name: str) -> Read:
         found: list[float | None] = []
         for axis in axes:
             own = metrics_of(report, axis, where)
-            for motor in _motors(where):
-                if name == "peak" and where.model == "linear":
-                    found.append(_linear_peak(report, axis, motor))
-                else:
-                    found.append(None if own is None else own[motor][name])
+            found += [None if own is None else own[motor][name] for motor in _motors(where)]
         return found
 
     return read
-
-
-def _linear_peak(report: Report, axis: str | None, motor: str) -> float:
-    """The largest voltage of the linear model, trim included, as page and report have it."""
-    step = (report.step if axis is None else report.axis_steps[axis])["linear"]
-    i = _MOTORS.index(motor)
-    return float(np.max(np.abs(step.response.voltages[i] + report.design.trim[i])))
 
 
 def _of_margins(name: str) -> Read:
@@ -299,7 +288,9 @@ def _registry() -> Mapping[str, Measured]:
             if figure.notation == "flag":
                 continue
             name = _NAMES.get((of, own), own)
-            found[name] = Measured(name, figure, of, read(own), figure.absent.startswith("where unlimited"))
+            found[name] = Measured(
+                name, figure, of, own, read(own), figure.absent.startswith("where unlimited")
+            )
     return MappingProxyType(found)
 
 
