@@ -9,7 +9,8 @@
 (501,)
 
 `read_recording(path)` reads what a rig did; `driven_in_segments` lays the model over it and `identify` finds
-the rig's parameters. `formulas()` gives the derivation
+the rig's parameters. `design_map(spec, "yaw-pair", "overshoot")` tells what each place of a pair would give.
+`formulas()` gives the derivation
 as SymPy objects, `to_control()` of a plant, a design or a loop a
 `control.StateSpace`. Results are frozen; a notebook shows them as small tables.
 
@@ -39,6 +40,7 @@ from .formulas import formulas, observer_formulas, rotor_formulas
 from .interaction import Interaction, interaction, rga_over_frequency
 from .loop import Loop, close_loop
 from .metrics import StepMetrics
+from .nearest import Move, Nearest, nearest
 from .parameters import Parameters
 from .placement.assess import Assessment, place_poles
 from .placement.full_rank import full_rank
@@ -49,6 +51,7 @@ from .poles import PoleSet, match_poles, pole_error
 from .presets import PRESETS, Preset, preset
 from .relative_gains import best_pairing, diagonal_dominance, niederlinski_index, relative_gain_array
 from .request import spec_of
+from .requirements import Requirement, requirements_of
 from .robustness import Cloud, Uncertainty, cloud
 from .rotors import Actuators, AxisFriction, Friction, Rotor, Rotors
 from .scenario import Digital, Disturbance, Limits, OuterLoop, PIGains, Scenario
@@ -59,11 +62,15 @@ from .tuning import Suggestion, suggest_pi
 if TYPE_CHECKING:
     from . import paper as paper
     from . import symbolic as symbolic
+    from .finder import Bounds, Designs, Find, find
+    from .many import Measure
+    from .maps import DesignMap, design_map
     from .placement.symbols import SymbolicPlacement, symbolic_place
     from .recordings.files.opened import read_recording
     from .recordings.identification import Identification, identify
     from .recordings.overlay import Overlay, driven_by_references, driven_by_voltages, driven_in_segments
     from .recordings.recording import Columns, Recording
+    from .tracks import Track, track
 
 __all__ = [
     "METHODS",
@@ -71,14 +78,18 @@ __all__ = [
     "Actuators",
     "Assessment",
     "AxisFriction",
+    "Bounds",
     "Cloud",
     "Columns",
     "Comparison",
     "Components",
     "Design",
+    "DesignMap",
+    "Designs",
     "Digital",
     "Disturbance",
     "Estimator",
+    "Find",
     "Finding",
     "Friction",
     "Heli2DofError",
@@ -87,7 +98,10 @@ __all__ = [
     "InvalidInputError",
     "Limits",
     "Loop",
+    "Measure",
     "MethodUnavailableError",
+    "Move",
+    "Nearest",
     "Observer",
     "OuterLoop",
     "Overlay",
@@ -98,6 +112,7 @@ __all__ = [
     "Preset",
     "Recording",
     "Report",
+    "Requirement",
     "Response",
     "Rotor",
     "Rotors",
@@ -109,6 +124,7 @@ __all__ = [
     "StructureUnavailableError",
     "Suggestion",
     "SymbolicPlacement",
+    "Track",
     "Uncertainty",
     "UncontrollableError",
     "UnpairedPolesError",
@@ -120,17 +136,20 @@ __all__ = [
     "compare",
     "compare_splits",
     "design",
+    "design_map",
     "diagonal_dominance",
     "driven_by_references",
     "driven_by_voltages",
     "driven_in_segments",
     "evaluate",
+    "find",
     "formulas",
     "full_rank",
     "identify",
     "interaction",
     "loop_of",
     "match_poles",
+    "nearest",
     "niederlinski_index",
     "observer_formulas",
     "place",
@@ -140,23 +159,29 @@ __all__ = [
     "preset",
     "read_recording",
     "relative_gain_array",
+    "requirements_of",
     "rga_over_frequency",
     "rotor_formulas",
     "simulate",
     "spec_of",
     "suggest_pi",
     "symbolic_place",
+    "track",
     "warm_up",
 ]
 
 
 _LATE = {
+    **dict.fromkeys(("DesignMap", "design_map"), ".maps"),
+    "Measure": ".many",
     **dict.fromkeys(("Identification", "identify"), ".recordings.identification"),
     **dict.fromkeys(
         ("Overlay", "driven_by_references", "driven_by_voltages", "driven_in_segments"), ".recordings.overlay"
     ),
     **dict.fromkeys(("Columns", "Recording"), ".recordings.recording"),
     "read_recording": ".recordings.files.opened",
+    **dict.fromkeys(("Bounds", "Designs", "Find", "find"), ".finder"),
+    **dict.fromkeys(("Track", "track"), ".tracks"),
     **dict.fromkeys(("SymbolicPlacement", "symbolic_place"), ".placement.symbols"),
 }
 """Modules of what is not imported before it is asked for."""

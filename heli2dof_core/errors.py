@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 
 class Heli2DofError(ValueError):
@@ -37,12 +38,20 @@ class Heli2DofError(ValueError):
         self.value = value
         self.hint = hint
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """As processes send it to one another, whatever its kind is made of."""
+        return _again, (type(self), self.args), self.__dict__
+
     def name_field(self, field: str) -> None:
         """Calls the offending input by another path, in the message too."""
         message = str(self)
         if self.field and message.startswith(f"{self.field} "):
             self.args = (field + message[len(self.field) :],)
         self.field = field
+
+
+def _again(kind: type[Heli2DofError], args: tuple[Any, ...]) -> Heli2DofError:
+    return kind.__new__(kind, *args)
 
 
 class InvalidInputError(Heli2DofError):

@@ -9,7 +9,7 @@ Whether a value meets its limits is judged of what is shown of it, as in labs (`
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import floor, inf, isfinite, isnan
@@ -19,13 +19,12 @@ import numpy as np
 
 from .checks import checked_number, require_within
 from .errors import InvalidInputError, within_field
-from .figures.written import percent
-from .many import SHARES, Measure
+from .figures.written import DASH, percent
+from .many import SHARE_FIGURES, SHARES, Measure
 from .measured import MEASURED, Axis, Measured, Motor, Steps, Where
 from .scenario import Model
 from .signals import Floats
 
-_WORDS = {"share_stable": "Uncertain rigs, stable", "share_within_limits": "Uncertain rigs, within limits"}
 _CHOICES = {"axis": Axis, "motor": Motor, "model": Model, "steps": Steps}
 _LIMITS = ("max", "min", "share")
 MOST = 32
@@ -82,10 +81,7 @@ class Requirement:
     @property
     def words(self) -> str:
         """What is judged: ``Settling time, pitch step``; and on which share of the rigs."""
-        known = self.measured
-        if known is None:
-            return _WORDS[self.measure.name]
-        own = known.words(self.measure.where)
+        own = words_of(self.measure)
         return own if self.share is None else f"{own}, on {_written(self.share)} of the rigs"
 
     @property
@@ -100,10 +96,7 @@ class Requirement:
 
     def written(self, value: float | None) -> str:
         """A value of the figure as it is shown; words where there is none."""
-        known = self.measured
-        if known is not None:
-            return known.written(None if value is None or not isfinite(value) else value)
-        return "–" if value is None or isnan(value) else f"{_rounded_down(value):g} %"
+        return written(self.measure, value)
 
     def meets(self, value: float | None) -> bool:
         """Whether one rig's value does; None, NaN and ±∞ are values that do not exist or have no limit."""
@@ -135,24 +128,66 @@ class Requirement:
         value, known = np.asarray(values, dtype=float), self.measured
         unlimited = np.isinf(value) if known is not None else np.zeros(value.shape, dtype=bool)
         size = np.abs(value) if known is not None and known.figure.signed else value
-        low, high = self._edges
+        low, high = self.edges
         with np.errstate(invalid="ignore"):
-            out = np.maximum((size - high) / self._scale(self.max), (low - size) / self._scale(self.min))
+            out = np.maximum((size - high) / self.scale(self.max), (low - size) / self.scale(self.min))
         # NaN compares as false: what does not exist is missed by more than anything
         out = np.where(np.isnan(value), inf, np.maximum(np.where(np.isnan(out), 0.0, out), 0.0))
         free = known is not None and known.unlimited and self.max is None
         return np.where(unlimited, 0.0 if free else inf, out)
 
     @cached_property
-    def _edges(self) -> tuple[float, float]:
+    def edges(self) -> tuple[float, float]:
         """The least and the largest float that meet the limits: rounding as shown lets a little more than these."""
         low = -inf if self.min is None else _edge(replace(self, max=None, share=None), self.min, -1.0)
         return low, inf if self.max is None else _edge(replace(self, min=None, share=None), self.max, 1.0)
 
-    def _scale(self, limit: float | None) -> float:
+    def scale(self, limit: float | None) -> float:
+        """What missing a limit counts by: its size, of one near 0 the figure's own step."""
         known = self.measured
         least = 0.01 if known is None else known.figure.least or 1e-3
         return max(abs(limit or 0.0), least)
+
+    def nearest_limit(self, value: float) -> float:
+        """The limit that is nearer to a value."""
+        limits = [limit for limit in (self.min, self.max) if limit is not None]
+        return min(limits, key=lambda limit: abs(value - limit))
+
+    def admitting(self, value: float) -> float:
+        """The limit that a value, as it is shown, just meets; in the figure's unit."""
+        known = self.measured
+        if known is None:
+            return _rounded_down(value) / 100.0
+        shown = known.shown(value)
+        if known.figure.notation == "decibel":
+            return 10.0 ** (shown / 20.0)
+        return shown / known.figure.scale
+
+    def apart(self, stepped: Collection[str] = ("theta", "psi")) -> tuple[Requirement, ...]:
+        """The same as requirements that the worse value decides: of each axis and motor where the better one does.
+
+        That a rise takes at least 0.2 s on both axes is met where the quicker one takes as long; a figure of both
+        tells of the slower one.
+
+        Args:
+            stepped: the axes that are stepped; of both, those count.
+        """
+        known, where = self.measured, self.measure.where
+        if known is None:
+            return (self,)
+        worse = self.min if known.figure.better == "higher" else self.max
+        if worse is not None and (self.max is None or self.min is None):
+            return (self,)
+        axes: Sequence[Axis | None] = (where.axis,)
+        if known.may_have_axis and where.axis in (None, "both"):
+            axes = [axis for axis in ("theta", "psi") if axis in stepped] or axes
+        if known.of == "motor" and where.steps == "together":
+            axes = (where.axis,)
+        motors: Sequence[Motor | None] = (where.motor,)
+        if known.may_have_motor and where.motor in (None, "both"):
+            motors = ("V_p", "V_y")
+        every = [replace(where, axis=axis, motor=motor) for axis in axes for motor in motors]
+        return tuple(replace(self, measure=replace(self.measure, where=own)) for own in every)
 
     def told(self) -> dict[str, Any]:
         """Its object in a request, flat: what `requirements_of` reads under the figure's name."""
@@ -220,6 +255,22 @@ def told_measure(measure: Measure) -> dict[str, Any]:
     said = _allowed(known) if known is not None else {}
     own = {name: getattr(where, name) for name, allowed in said.items() if allowed}
     return {"measure": measure.name, **{name: value for name, value in own.items() if value is not None}}
+
+
+def words_of(measure: Measure) -> str:
+    """What is measured: ``Settling time, pitch step``."""
+    known = MEASURED.get(measure.name)
+    return SHARE_FIGURES[measure.name].title if known is None else known.words(measure.where)
+
+
+def written(measure: Measure, value: float | None) -> str:
+    """A value as it is shown; words where there is none (None, NaN) or no limit (infinite, None where it may be)."""
+    known = MEASURED.get(measure.name)
+    if known is None:
+        return DASH if value is None or isnan(value) else f"{_rounded_down(value):g} %"
+    if value is not None and isnan(value) and known.unlimited:
+        return DASH
+    return known.written(None if value is None or not isfinite(value) else value)
 
 
 def between(low: str | None, high: str | None) -> str:

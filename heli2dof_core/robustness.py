@@ -17,9 +17,10 @@ from .errors import InvalidInputError
 from .evaluate import Report, evaluate
 from .frozen import Frozen, frozen, read_only
 from .kernels.update_layout import made, rigs_shapes
-from .loop import Loop
+from .on_rigs import require_continuous
 from .parameters import PARAMETER_INFO
 from .quantities import Quantity, documented, require_valid
+from .rotors import Actuators
 from .scratch import scratch
 from .signals import AXES, Complexes, Floats
 from .spec import Spec
@@ -141,21 +142,22 @@ def cloud_in_parts(
         InvalidInputError: the scenario has a digital controller or a disturbance.
         Heli2DofError: the design does not exist.
     """
-    known = spec.scenario
-    for name, there in (
-        ("digital", known.digital is not None),
-        ("disturbance", known.disturbance is not None),
-        ("noise", any(known.noise)),
-    ):
-        if there:
-            raise InvalidInputError(
-                f"uncertain rigs take no {name}: their controller is continuous and their motors undisturbed",
-                field=f"scenario.{name}",
-                hint="Leave it out.",
-            )
+    require_continuous(spec.scenario)
     report = evaluate(_nominal(spec))
-    _require_lags(report.loop, uncertainty)
+    require_lags(spec.actuators, uncertainty)
     yield from rigs_in_parts(spec, report, random_factors(uncertainty), check, first)
+
+
+def uncertain_factors(spec: Spec, uncertainty: Uncertainty) -> Floats:
+    """`random_factors` for a spec that can be put on uncertain rigs.
+
+    Raises:
+        InvalidInputError: the scenario has a digital controller or a disturbance, or a rotor without a time
+            constant shall be uncertain of it.
+    """
+    require_continuous(spec.scenario)
+    require_lags(spec.actuators, uncertainty)
+    return random_factors(uncertainty)
 
 
 def _nominal(spec: Spec) -> Spec:
@@ -252,10 +254,14 @@ def _factors(rng: np.random.Generator, spread: Floats, uncertainty: Uncertainty)
     return np.maximum(1.0 + spread * deviations, SMALLEST)
 
 
-def _require_lags(loop: Loop, uncertainty: Uncertainty) -> None:
-    """Only a rotor that has a time constant can be uncertain of it."""
-    own = np.zeros(2) if loop.actuators is None else loop.actuators.tau
-    for name, axis, tau in zip(LAGS, AXES, own.tolist(), strict=True):
+def require_lags(own: Actuators | None, uncertainty: Uncertainty) -> None:
+    """Only a rotor that has a time constant can be uncertain of it.
+
+    Raises:
+        InvalidInputError: one is uncertain and has none.
+    """
+    known = np.zeros(2) if own is None else own.tau
+    for name, axis, tau in zip(LAGS, AXES, known.tolist(), strict=True):
         share = uncertainty.spread.get(name, 0.0)
         if share and not tau:
             raise InvalidInputError(

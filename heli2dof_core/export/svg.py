@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
-from math import ceil, floor, log10
 
 import numpy as np
 
 from ..frozen import Frozen
 from ..signals import Floats
 from ..tables import number
+from ..ticks import ticks
 
 WIDTH, HEIGHT = 340, 210
 LEFT, RIGHT, TOP, BOTTOM = 46, 10, 10, 34
@@ -34,15 +34,6 @@ class Marks:
     points: Sequence[complex]
     shape: str
     labels: Sequence[str] = ()
-
-
-def ticks(low: float, high: float, most: int = 6) -> list[float]:
-    """Round numbers from `low` to `high`, in steps of 1, 2 or 5 times a power of ten."""
-    raw = (high - low) / most
-    power = 10.0 ** floor(log10(raw))
-    step = next(power * factor for factor in (1, 2, 5, 10) if power * factor >= raw * (1 - 1e-9))
-    first = ceil(low / step - 1e-9)
-    return [step * k for k in range(first, floor(high / step + 1e-9) + 1)]
 
 
 def thinned(x: Floats, y: Floats, most: int = MOST_POINTS) -> tuple[Floats, Floats]:

@@ -14,10 +14,11 @@ from math import nan
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..block import Task, given_numbers, size_of
 from ..engine import engine
-from ..errors import Heli2DofError, InvalidInputError
+from ..errors import Heli2DofError, InvalidInputError, nobody_leaves
 from ..estimators import estimator
 from ..evaluate import evaluate, place
 from ..kernels.update_layout import (
@@ -73,9 +74,15 @@ class Found(NamedTuple):
     rows: Floats
     poles: Complexes
 
+    @property
+    def stable(self) -> NDArray[np.bool_]:
+        """Of which designs the loop is stable, (n,); of none that does not exist."""
+        return (self.rows[:, FOUND_OUTCOME] == DONE) & (self.rows[:, FOUND_FIGURES + STABLE] != 0.0)
 
-def _nothing_to_check() -> None:
-    """Work that is always wanted."""
+    @property
+    def abscissa(self) -> Floats:
+        """The largest real part of each loop's poles, rad/s, (n,); NaN of what does not exist."""
+        return np.where(self.rows[:, FOUND_OUTCOME] == DONE, self.poles[:, 0].real, nan)
 
 
 class Many:
@@ -126,6 +133,11 @@ class Many:
         """
         return self.numbers_of(self.spec)
 
+    @property
+    def changes_in_place(self) -> bool:
+        """Whether designs may be made of `row` by other numbers: the kernel finds K and L of each itself."""
+        return self._task.rest.has_closed_form and not self._task.rest.has_kalman_filter
+
     def numbers_of(self, spec: Spec, *, given: bool = False) -> Floats:
         """A spec's row, with K and L from outside the kernel where this cannot find them, or with `given` always.
 
@@ -160,7 +172,7 @@ class Many:
         self,
         rows: Floats,
         spec_of: Callable[[int], Spec] | None = None,
-        check: Callable[[], None] = _nothing_to_check,
+        check: Callable[[], None] = nobody_leaves,
     ) -> Found:
         """The designs of `rows`, (n, NUMBERS).
 
@@ -254,7 +266,7 @@ def evaluate_many(
     factors: Floats | None = None,
     threads: int = 1,
     most_steps: int = MOST_STEPS,
-    check: Callable[[], None] = _nothing_to_check,
+    check: Callable[[], None] = nobody_leaves,
 ) -> Floats:
     """Figures of any designs, (n, measures), whatever they differ in; as `Many.values`.
 

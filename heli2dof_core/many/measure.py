@@ -20,14 +20,16 @@ SHARES: Mapping[str, int] = MappingProxyType(
 """Shares of uncertain rigs, 0 to 1, beside the figures of `measured.MEASURED`; where a row of found has them."""
 SHARE_FIGURES: Mapping[str, Figure] = MappingProxyType(
     {
-        name: Figure(
-            term, meaning, better="higher", shown="%", digits=0, title=f"{term[:1].upper()}{term[1:]}"
-        )
-        for name, term, meaning in (
-            ("share_stable", "stable rigs", "share of the uncertain rigs whose linear loop is stable"),
+        name: Figure(title.lower(), meaning, better="higher", shown="%", digits=0, title=title)
+        for name, title, meaning in (
+            (
+                "share_stable",
+                "Uncertain rigs, stable",
+                "share of the uncertain rigs whose linear loop is stable",
+            ),
             (
                 "share_within_limits",
-                "rigs within limits",
+                "Uncertain rigs, within limits",
                 "share of the uncertain rigs whose motors stay below their limits and whose pitch meets no stop",
             ),
         )
@@ -101,6 +103,10 @@ class Measure:
         if self.name not in SHARES:
             return MEASURED[self.name].written(value)
         return "–" if value is None else percent(value)
+
+    def shown(self, value: float) -> float:
+        """The value as it is shown, a number in the unit that people read."""
+        return MEASURED[self.name].shown(value) if self.name not in SHARES else round(100 * value, 1)
 
     @property
     def runs(self) -> frozenset[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import inf, nan
+from math import atan, inf, nan
 
 import numpy as np
 from numpy.typing import NDArray
@@ -172,7 +172,7 @@ def _of_sensitivity(name: str, found: Floats) -> Floats:
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.where(alpha < 2, (2 + alpha) / (2 - alpha), nan)
     if name == "phase":
-        return 2 * np.arctan(alpha / 2)
+        return np.array([2 * atan(own / 2) for own in alpha.tolist()])  # NumPy's may differ in the last digit
     own = found[:, FOUND_SENSITIVITY + _OF_SENSITIVITY[name]]
     return np.where(np.isinf(own), nan, own) if name.endswith("frequency") else own
 

@@ -14,9 +14,10 @@ from heli2dof_core import PRESETS, OuterLoop, PoleSet, Scenario, Spec, Structure
 from heli2dof_core.evaluate import Report
 from heli2dof_core.export import FORMATS, Beside
 from heli2dof_core.export.report import _templates
-from heli2dof_core.export.svg import HEIGHT, LEFT, WIDTH, Curve, chart, number, thinned, ticks
+from heli2dof_core.export.svg import HEIGHT, LEFT, WIDTH, Curve, chart, number, thinned
 from heli2dof_core.figures.written import decibel, fixed, percent, seconds, significant
 from heli2dof_core.findings import Finding
+from heli2dof_core.ticks import ticks
 
 BASE = Spec.from_preset(preset())
 SPECS = {

@@ -128,6 +128,8 @@ def everything_else() -> Iterator[Any]:
     yield heli.suggest_pi(heli.place(SPEC))
     lagged = SPEC.changed(rotors=heli.Rotors(heli.Rotor(0.1), heli.Rotor(0.1)), measured="observer")
     yield lag_track(heli.loop_of(lagged.changed(place_rotors=True))), heli.loop_of(lagged).padded
+    yield heli.design_map(SPEC, "yaw-pair", "norm", size=(3, 2))
+    yield heli.track(lagged, "gain", (0.0, 2.0), 5), heli.place(lagged)
     yield symmetric_root_locus(heli.place(SPEC.changed(method="lqr")), bryson_weights(SPEC.limits))
     for name in heli.METHODS:
         C = np.eye(1, 4) if name == "lqr-integral" else None

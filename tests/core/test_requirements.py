@@ -82,7 +82,7 @@ def test_requests_are_read_and_told_again():
         "Settling time, yaw step, on 95 % of the rigs",
         "Largest |voltage|, pitch motor, either step",
         "Phase margin, both motors",
-        "Uncertain rigs, stable",
+        "Stable rigs",
     ]
     assert [own.limit_text for own in found] == ["≤ 0.80 s", "≤ 1.20 s", "≤ 20.0 V", "≥ 45.8366°", "≥ 95 %"]
     assert [own.uncertain for own in found] == [False, True, False, False, True]
@@ -113,3 +113,20 @@ def test_refusals_name_the_field(given, field):
     with pytest.raises(InvalidInputError) as caught:
         requirements_of(given)
     assert caught.value.field == field
+
+
+def test_limits_on_the_better_side_are_of_each_axis_and_motor():
+    def told(given: dict) -> list[tuple]:
+        return [
+            (own.measure.where.axis, own.measure.where.motor) for own in requirements_of(given)[0].apart()
+        ]
+
+    assert told({"rise_time": {"max": 0.2}}) == [("both", None)]
+    assert told({"rise_time": {"min": 0.2}}) == [("theta", None), ("psi", None)]
+    assert told({"rise_time": {"min": 0.2, "max": 0.3}}) == [("theta", None), ("psi", None)]
+    assert told({"phase_margin": {"min": 0.7}}) == [(None, None)]
+    assert told({"phase_margin": {"max": 0.7}}) == [(None, "V_p"), (None, "V_y")]
+    assert told({"V_peak": {"min": 3, "motor": "V_p"}}) == [("theta", "V_p"), ("psi", "V_p")]
+    assert told({"share_stable": {"max": 0.5}}) == [(None, None)]
+    (own,) = requirements_of({"rise_time": {"min": 0.2}})[0].apart(["psi"])
+    assert own.measure.where.axis == "psi"

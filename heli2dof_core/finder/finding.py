@@ -1,0 +1,150 @@
+"""From what is asked to the designs that are told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+
+from ..errors import Heli2DofError, nobody_leaves
+from ..signals import Floats
+from ..spec import Spec
+from .ask import Find
+from .problem import Problem
+from .proof import proved
+from .result import Candidate, Designs
+from .search import Search
+from .why import Contradiction
+
+MOST_TOLD, MOST_ON_RIGS = 60, 24
+"""Designs that are told; where each is put on uncertain rigs."""
+MOST_POINTS = 100
+THREADS = 2
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a search is.
+
+    Attributes:
+        tried, designs: of the budget.
+        seconds: since it began.
+        met: how many of those tried meet everything.
+        points: figures of the best so far, (n, k), at most `MOST_POINTS`, as they are told.
+    """
+
+    tried: int
+    designs: int
+    seconds: float
+    met: int
+    points: Floats
+
+
+def find(
+    spec: Spec,
+    ask: Find,
+    check: Callable[[], None] = nobody_leaves,
+    progress: Callable[[Progress], None] | None = None,
+    threads: int = THREADS,
+) -> Designs:
+    """Designs that meet what is required, along the front of what is to be small.
+
+    The same seed gives the same designs, unless the time had run out (`Designs.stopped`).
+
+    Args:
+        spec: the design that is there, with rig and experiment; what is not free stays.
+        ask: what is free, required and minimized.
+        check: called now and then; what it raises ends the search.
+        progress: called every now and then with what is known so far.
+        threads: that compute, at most.
+
+    Raises:
+        InvalidInputError: what is asked does not fit the design.
+        Heli2DofError: the design that is there does not exist.
+    """
+    for part in find_in_parts(spec, ask, check, threads):
+        if isinstance(part, Designs):
+            return part
+        if progress is not None:
+            progress(part)
+    raise AssertionError("a search ends with its designs")
+
+
+def find_in_parts(
+    spec: Spec, ask: Find, check: Callable[[], None] = nobody_leaves, threads: int = THREADS
+) -> Iterator[Progress | Designs]:
+    """The same as it goes: progress, and the designs last."""
+    begin = perf_counter()
+    problem = Problem(spec, ask, threads, check)
+    search = Search(problem, ask.designs, begin + ask.seconds)
+    for _ in search.run():
+        yield _progress(search, begin)
+    why = None
+    if search.front is None:
+        contradiction = Contradiction(search)
+        for _ in contradiction.run():
+            yield _progress(search, begin)
+        why = contradiction.why
+    candidates = _told(search)
+    if why is not None and any(own.met for own in candidates):
+        why = None
+    present = _present(problem, spec)
+    seconds = perf_counter() - begin
+    yield Designs(ask, problem.told, candidates, present, search.used, seconds, search.stopped, why)
+
+
+def _progress(search: Search, begin: float) -> Progress:
+    points = np.zeros((0, len(search.problem.ask.minimize)))
+    if search.front is not None and search.problem.ask.minimize:
+        chosen = search.front.taken(thinned(search.front.goals, MOST_POINTS))
+        points = search.problem.figures(chosen)
+    return Progress(
+        min(search.used, search.designs), search.designs, perf_counter() - begin, search.met, points
+    )
+
+
+def _present(problem: Problem, spec: Spec) -> Candidate | None:
+    try:
+        return proved(problem, [spec])[0]
+    except Heli2DofError:
+        return None
+
+
+def _told(search: Search) -> tuple[Candidate, ...]:
+    """The front, proved; where nothing meets everything, the nearest misses."""
+    problem, most = search.problem, MOST_TOLD if search.problem.on_all is None else MOST_ON_RIGS
+    if search.front is not None:
+        own = search.front.taken(thinned(search.front.goals, most))
+    else:
+        assert search.kept is not None
+        own = search.kept.taken(np.argsort(search.kept.missed, kind="stable")[: most // 4])
+    specs = []
+    for point in own.points:
+        try:
+            specs.append(problem.space.design(point))
+        except Heli2DofError:
+            continue
+    found = proved(problem, specs)
+    met = [design for design in found if design.met]
+    # on all uncertain rigs a design may miss what it met on some
+    return tuple(met if met else found)
+
+
+def thinned(goals: Floats, most: int) -> np.ndarray:
+    """Of a front, (n, k), so many rows at most, spread along it, both ends among them; in their order."""
+    count = len(goals)
+    if count <= most:
+        return np.arange(count)
+    scale = np.ptp(goals, axis=0)
+    points = goals / np.where(scale > 0, scale, 1.0)
+    chosen = (
+        [0] if goals.shape[1] == 1 else [int(i) for i in dict.fromkeys(np.argmin(points, axis=0).tolist())]
+    )
+    distance = np.min([np.sum((points - points[i]) ** 2, axis=1) for i in chosen], axis=0)
+    while len(chosen) < most:
+        i = int(np.argmax(distance))
+        chosen.append(i)
+        distance = np.minimum(distance, np.sum((points - points[i]) ** 2, axis=1))
+    return np.sort(np.array(chosen))

@@ -1,0 +1,19 @@
+"""Why not: the smallest move of poles or loops with which a design would meet what is required of it."""
+
+from __future__ import annotations
+
+from .answer import FARTHEST, WITHIN, Move, Nearest, nearest
+from .handles import GROUPS, HANDLES, Free, Handle, distance
+
+__all__ = [
+    "FARTHEST",
+    "GROUPS",
+    "HANDLES",
+    "WITHIN",
+    "Free",
+    "Handle",
+    "Move",
+    "Nearest",
+    "distance",
+    "nearest",
+]

@@ -1,0 +1,166 @@
+"""The points among which is searched: what they stand for, in numbers and as a spec."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heli2dof_core import InvalidInputError, Spec
+from heli2dof_core.finder.ask import Bounds, Find
+from heli2dof_core.finder.problem import Problem
+from heli2dof_core.finder.proof import proved
+from heli2dof_core.finder.space import Space, pair_point, pair_values, rounded
+from heli2dof_core.many import SHARES
+from heli2dof_core.requirements import requirements_of
+from tests.finder.problems import SOLVABLE, UNSOLVABLE
+
+EVERY = [*SOLVABLE, *UNSOLVABLE]
+REQUIRED = requirements_of({"overshoot": {"max": 5}})
+
+
+@pytest.mark.parametrize("case", EVERY, ids=lambda case: case.name)
+def test_numbers_and_specs_are_the_same_designs(case):
+    problem = Problem(case.spec(), case.find)
+    points = np.random.default_rng(1).random((20, problem.space.size))
+    for row, point in zip(problem.rows(points), points, strict=True):
+        own = problem.many.numbers_of(problem.space.design(point), given=not problem.closed_form)
+        assert np.array_equal(row, own, equal_nan=True)
+
+
+@pytest.mark.parametrize("case", SOLVABLE, ids=lambda case: case.name)
+def test_what_is_searched_by_is_what_evaluate_tells(case):
+    problem = Problem(case.spec(), case.find)
+    points = np.random.default_rng(2).random((24, problem.space.size))
+    tried = problem.tried(points)
+    stable = tried.missed < 100
+    assert np.any(stable)
+    own = tried.taken(stable)
+    designs = proved(problem, [problem.space.design(point) for point in own.points])
+    columns = {measure: i for i, measure in enumerate(problem.measures)}
+    for design, values, excess in zip(designs, own.values, own.excess, strict=True):
+        assert design.stable
+        for measure, value in zip(problem.told, design.values, strict=True):
+            if measure.name not in SHARES:
+                assert np.array_equal(value, values[columns[measure]], equal_nan=True), measure
+        for need, judged, missed in zip(case.find.require, design.required, excess, strict=True):
+            if not need.uncertain:
+                assert judged.met == (missed == 0.0), need
+
+
+def test_a_pair_goes_from_real_to_complex_through_a_double_pole():
+    points = np.array([[0.6, kind] for kind in (0.0, 0.25, 0.4999999, 0.5, 0.5000001, 0.75, 1.0)])
+    pairs = pair_values(points, (1.0, 50.0), 0.3)
+    upper, other = pairs[:, 0] + 1j * pairs[:, 1], pairs[:, 2] + 1j * pairs[:, 3]
+    assert np.all(pairs[:4, 1] == 0.0) and np.all(pairs[5:, 1] > 0.0)
+    assert np.abs(upper[2:5] - upper[3]).max() < 1e-2 and np.abs(other[2:5] - upper[3]).max() < 1e-2
+    sizes = np.sqrt(np.abs(upper * other))
+    assert sizes == pytest.approx(np.full(len(points), sizes[3]), rel=1e-3)  # four digits
+    assert np.abs(other[5:] - upper[5:].conj()).max() == 0.0
+    assert -upper[-1].real / abs(upper[-1]) == pytest.approx(0.3, rel=1e-3)  # the least damping
+    assert np.abs(upper).min() >= 1.0 - 1e-3 and np.abs(other).max() <= 50.0 * (1 + 1e-3)
+
+
+def test_a_pair_is_found_again():
+    rng = np.random.default_rng(3)
+    points = rng.random((300, 2))
+    for point, values in zip(points, pair_values(points, (0.5, 40.0), 0.2), strict=True):
+        again = pair_point(complex(*values[:2]), complex(*values[2:]), (0.5, 40.0), 0.2)
+        assert pair_values(np.array([again]), (0.5, 40.0), 0.2)[0] == pytest.approx(
+            values, rel=1e-3, abs=1e-3
+        )
+        assert (
+            again == pytest.approx(point, abs=2e-2) or abs(point[1] - 0.5) < 0.1
+        )  # flat near the double pole
+
+
+def test_the_design_that_is_there_is_one_of_the_points():
+    for case in EVERY:
+        space = Space(case.spec(), case.find)
+        again = space.design(space.point_of(space.spec))
+        for own, found in zip(again.poles.values, space.spec.poles.values, strict=True):
+            assert abs(own - found) < 1e-2 * abs(found) or set(np.round(again.poles.array, 2)) == set(
+                np.round(space.spec.poles.array, 2)
+            )
+        assert again.outer.pitch.kp == pytest.approx(space.spec.outer.pitch.kp, rel=1e-3)
+        assert again.structure.family == space.spec.structure.family
+        assert (again.outer.pairing, again.outer.decoupler) == (
+            space.spec.outer.pairing,
+            space.spec.outer.decoupler,
+        )
+
+
+def test_numbers_have_four_digits():
+    assert rounded(np.array([[12.34567, -0.00123456], [1e5 / 3, 0.0]])).tolist() == [
+        [12.35, -0.001235],
+        [33330.0, 0.0],
+    ]
+
+
+def test_bounds_hold():
+    bounds = Bounds(poles=(2.0, 9.0), damping=0.7, kp=(3.0, 5.0), ti=(0.2, 0.3))
+    space = Space(Spec.from_preset(), Find(("poles", "loops"), REQUIRED, bounds=bounds))
+    for point in np.random.default_rng(4).random((200, space.size)):
+        own = space.design(point)
+        assert all(2.0 * 0.999 <= abs(p) <= 9.0 * 1.001 for p in own.poles.values)
+        assert all(-p.real >= 0.699 * abs(p) for p in own.poles.values)
+        assert all(3.0 <= pi.kp <= 5.0 and 0.2 <= pi.ti <= 0.3 for pi in (own.outer.pitch, own.outer.yaw))
+
+
+@pytest.mark.parametrize(
+    ("changes", "free", "field"),
+    [
+        ({"method": "lqr"}, ("poles",), "free"),
+        ({}, ("poles", "weights"), "free"),
+        ({}, ("rotor_poles",), "free"),
+        ({"outer": "none"}, ("loops",), "free"),
+        ({"outer": "none"}, ("pairing",), "free"),
+        ({"method": "knv0"}, ("structure",), "free"),
+        ({"coupling": "axis-decoupled"}, ("shift",), "free"),
+        ({}, ("observer",), "free"),
+    ],
+)
+def test_what_has_no_effect_cannot_be_free(changes, free, field):
+    with pytest.raises(InvalidInputError) as caught:
+        Space(Spec.from_preset(**changes), Find(free, REQUIRED))
+    assert caught.value.field == field
+
+
+@pytest.mark.parametrize(
+    ("ask", "field"),
+    [
+        ({"free": ()}, "free"),
+        ({"free": ("poles", "gains")}, "free.1"),
+        ({"require": ()}, "require"),
+        ({"designs": 5}, "designs"),
+        ({"seconds": 0.0}, "seconds"),
+        ({"require": requirements_of({"share_stable": {"min": 0.9}})}, "uncertainty"),
+        ({"require": requirements_of({"overshoot": {"max": 5, "share": 0.9}})}, "uncertainty"),
+    ],
+)
+def test_refusals_name_the_field(ask, field):
+    with pytest.raises(InvalidInputError) as caught:
+        Find(**{"free": ("poles",), "require": REQUIRED, **ask})
+    assert caught.value.field == field
+
+
+@pytest.mark.parametrize(
+    ("bounds", "field"),
+    [
+        ({"poles": (5.0, 1.0)}, "bounds.poles"),
+        ({"kp": (0.0, 1.0)}, "bounds.kp"),
+        ({"damping": 0.0}, "bounds.damping"),
+    ],
+)
+def test_bounds_that_are_none_are_refused(bounds, field):
+    with pytest.raises(InvalidInputError) as caught:
+        Bounds(**bounds)
+    assert caught.value.field == field
+
+
+def test_a_figure_that_is_neither_good_small_nor_large_is_not_minimized():
+    measure = requirements_of({"lambda_11": {"max": 2}})[0].measure
+    with pytest.raises(InvalidInputError) as caught:
+        replace(Find(("poles",), REQUIRED), minimize=(measure,))
+    assert caught.value.field == "minimize.0"
