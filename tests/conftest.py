@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 os.environ.setdefault("HELI2DOF_DATABASE", "memory")  # no test writes to a user's own
+os.environ.setdefault("HELI2DOF_WORKERS", "0")  # an app within a test's process has its slow work there, too
 
 settings.register_profile("ci", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("local", deadline=None, suppress_health_check=[HealthCheck.too_slow])

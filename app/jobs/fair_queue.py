@@ -1,9 +1,10 @@
-"""What waits for the slow threads: bounded, and in turn, so that nobody takes more than a share."""
+"""What waits for threads and workers: bounded, and in turn, so that nobody takes more than a share."""
 
 from __future__ import annotations
 
 import threading
 from collections import Counter, OrderedDict, deque
+from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any
@@ -29,9 +30,24 @@ class Job:
     """A piece of work: `future` becomes its outcome, and once `cancelled` is set nobody wants it any more."""
 
     client: Client
-    work: Any
+    function: Any
+    args: tuple[Any, ...] = ()
+    report: Callable[[Any], None] = lambda _part: None
     future: Future[Any] = field(default_factory=Future)
     cancelled: threading.Event = field(default_factory=threading.Event)
+    _call_off: Callable[[], object] | None = None
+
+    def call_off(self) -> None:
+        """Nobody wants it any more: whoever does it is told, now or when it begins."""
+        self.cancelled.set()
+        if self._call_off is not None:
+            self._call_off()
+
+    def call_off_by(self, call_off: Callable[[], object]) -> None:
+        """Sets how whoever does it now is told."""
+        self._call_off = call_off
+        if self.cancelled.is_set():
+            call_off()
 
 
 class FairQueue:

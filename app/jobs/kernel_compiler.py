@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
 
@@ -35,16 +36,21 @@ class KernelCompiler:
         self._child: subprocess.Popen[bytes] | None = None
         self._closed = threading.Event()
 
-    def run(self) -> None:
-        """Compiles and loads; whatever fails leaves the interpreted kernels in place, with a warning."""
+    def run(self, whole: Callable[[], None] = lambda: None) -> None:
+        """Compiles and loads; whatever fails leaves the interpreted kernels in place, with a warning.
+
+        Args:
+            whole: is called as soon as other processes may load, too.
+        """
         if engine().compiled:
+            whole()
             return
         began = perf_counter()
         try:
             seed_cache()
             # Compiled twice where another server that starts on the same cache rewrites it while this one loads.
             ways = (self._loaded, self._compiled_and_loaded, self._compiled_and_loaded)
-            if not any(way() for way in ways) and not self._closed.is_set():
+            if not any(way(whole) for way in ways) and not self._closed.is_set():
                 raise RuntimeError("Numba's cache does not keep what was compiled")
         except Exception as error:
             _log.warning("the kernels stay interpreted, responses take twenty times longer: %s", error)
@@ -52,11 +58,14 @@ class KernelCompiler:
             if engine().compiled:
                 _log.info("kernels ready after %.1f s", perf_counter() - began)
 
-    def _loaded(self) -> bool:
+    def _loaded(self, whole: Callable[[], None]) -> bool:
         """Loads what an earlier start has left, where all of it is there; this process never compiles."""
-        return kept() and self._load()
+        if not kept():
+            return False
+        whole()
+        return self._load()
 
-    def _compiled_and_loaded(self) -> bool:
+    def _compiled_and_loaded(self, whole: Callable[[], None]) -> bool:
         if self._closed.is_set():
             return False
         command, environment = compiler()
@@ -66,6 +75,7 @@ class KernelCompiler:
             return False
         if status:
             raise RuntimeError(f"the compiler's process ended with status {status}")
+        whole()
         return self._load()
 
     def _load(self) -> bool:

@@ -12,8 +12,9 @@ from prometheus_client import (
     PlatformCollector,
     ProcessCollector,
 )
-from prometheus_client.core import GaugeMetricFamily
+from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily
 from prometheus_client.exposition import choose_encoder
+from prometheus_client.metrics_core import Metric
 from prometheus_client.registry import Collector
 
 _UPDATE = (0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 10.0)
@@ -67,9 +68,14 @@ class Metrics:
         gauge = Gauge("heli2dof_scene_sessions", "3D scenes that exist", registry=self.registry)
         gauge.set_function(count)
 
-    def watch_pools(self, waiting: Callable[[], Mapping[str, int]]) -> None:
-        """Tells how much work waits in each pool."""
-        self.registry.register(_Pools(waiting))
+    def watch_pools(
+        self,
+        waiting: Callable[[], Mapping[str, int]],
+        running: Callable[[], Mapping[str, int]],
+        died: Callable[[], int],
+    ) -> None:
+        """Tells how much work waits and is done in each pool, and how many workers have ended while they did some."""
+        self.registry.register(_Pools(waiting, running, died))
 
     def request(self, method: str, route: str, status: int, seconds: float) -> None:
         """Counts an answered request."""
@@ -86,12 +92,21 @@ class Metrics:
 class _Pools(Collector):
     """The pools' queues, read when somebody asks."""
 
-    def __init__(self, waiting: Callable[[], Mapping[str, int]]) -> None:
-        self._waiting = waiting
+    def __init__(
+        self,
+        waiting: Callable[[], Mapping[str, int]],
+        running: Callable[[], Mapping[str, int]],
+        died: Callable[[], int],
+    ) -> None:
+        self._waiting, self._running, self._died = waiting, running, died
 
-    def collect(self) -> list[GaugeMetricFamily]:
-        """One gauge with a value for each pool."""
-        gauge = GaugeMetricFamily("heli2dof_pool_waiting", "Work that waits for a thread", labels=["pool"])
-        for pool, count in self._waiting().items():
-            gauge.add_metric([pool], count)
-        return [gauge]
+    def collect(self) -> list[Metric]:
+        """Gauges with a value for each pool, and a counter."""
+        waiting = GaugeMetricFamily("heli2dof_pool_waiting", "Work that waits for its turn", labels=["pool"])
+        running = GaugeMetricFamily("heli2dof_pool_running", "Work that is being done", labels=["pool"])
+        for gauge, counts in ((waiting, self._waiting()), (running, self._running())):
+            for pool, count in counts.items():
+                gauge.add_metric([pool], count)
+        told = "Workers that ended while they did something, which was begun again"
+        died = CounterMetricFamily("heli2dof_workers_died", told, self._died())
+        return [waiting, running, died]

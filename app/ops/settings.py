@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from importlib.util import find_spec
 from ipaddress import ip_network
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -18,6 +19,7 @@ Words = Annotated[tuple[str, ...], NoDecode]
 _ORIGIN = re.compile(r"https?://(\[[0-9a-f:]+\]|[a-z0-9.-]+)(:\d{1,5})?", re.ASCII)
 _ANCESTOR = re.compile(r"'self'|'none'|(https?://)?(\*\.)?[a-z0-9.-]+(:(\d{1,5}|\*))?", re.ASCII)
 _HOST = re.compile(r"(\*\.)?[a-z0-9.-]+|\[[0-9a-f:]+\]", re.ASCII)
+_SCHEDULER = re.compile(r"[a-z]+://[^\s/]+", re.ASCII)
 _SHORTEST_TOKEN = 16
 
 
@@ -119,10 +121,19 @@ class Settings(BaseSettings):
     sockets: int = Field(default=4000, ge=1, description="most WebSockets at once")
     sockets_per_address: int = Field(default=1000, ge=1, description="most WebSockets of one address at once")
     message_rate: float = Field(default=250.0, gt=0, description="messages a second on one WebSocket")
-    slow_threads: int = Field(
-        default=2, ge=1, le=64, description="threads for clouds, identifications, comparisons, exports"
+    workers: int = Field(
+        default=2,
+        ge=0,
+        le=64,
+        description="processes for clouds, identifications, comparisons, exports; `0`: threads of the server",
     )
-    slow_waiting: int = Field(default=256, ge=1, description="most jobs that wait for these threads")
+    worker_bytes: int = Field(
+        default=2**30, ge=2**26, description="most memory of such a job, bytes, beyond what all share"
+    )
+    dask: str = Field(
+        default="", description="scheduler of a Dask cluster in their place, as `tcp://host:8786`"
+    )
+    slow_waiting: int = Field(default=256, ge=1, description="most jobs that wait for these processes")
     slow_each: int = Field(default=8, ge=1, description="most of them for one connection")
     slow_seconds: float = Field(default=60.0, gt=0, description="after which such a job is given up, s")
     recordings: int = Field(default=400, ge=1, description="most recordings kept at once")
@@ -183,6 +194,15 @@ class Settings(BaseSettings):
     def _ancestors(cls, value: tuple[str, ...]) -> tuple[str, ...]:
         quoted = tuple(f"'{word}'" if word in ("self", "none") else word for word in value)
         return _each(quoted, _ANCESTOR, "is no source of frames, as https://moodle.example is") or ("'none'",)
+
+    @field_validator("dask")
+    @classmethod
+    def _cluster(cls, value: str) -> str:
+        if value and not _SCHEDULER.fullmatch(value):
+            raise ValueError("it is no address of a scheduler, as tcp://host:8786 is")
+        if value and find_spec("distributed") is None:
+            raise ValueError("distributed is not installed: pip install 'heli2dof[dask]'")
+        return value
 
     @field_validator("access_token", "operator_key")
     @classmethod
