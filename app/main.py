@@ -19,6 +19,7 @@ from .edge.connections import Connections
 from .edge.limits import SocketCounts, read_in_small_parts
 from .edge.middleware import with_middleware
 from .edge.problem_page import problem_page
+from .jobs.choice import workers_of
 from .jobs.compute import Compute
 from .lti.late import Lti
 from .ops.cached_files import CachedFiles
@@ -33,16 +34,20 @@ from .routes import (
     derivation,
     design,
     exports,
+    find,
     frequency,
     health,
     labs,
     live,
     lti,
+    maps,
     motion,
+    nearest,
     recordings,
     robustness,
     students,
     systems,
+    tracks,
 )
 
 _DESCRIPTION = (
@@ -75,7 +80,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     settings = settings or Settings()
     metrics, connections, counts = Metrics(), Connections(), SocketCounts()
     compute = Compute(
-        slow_threads=settings.slow_threads,
+        workers=workers_of(settings.workers, settings.worker_bytes, settings.dask, (__name__,)),
         most_waiting=settings.slow_waiting,
         most_each=settings.slow_each,
         seconds=settings.slow_seconds,
@@ -84,7 +89,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     kept = Classes(settings, compute)
     launches = Lti(settings, compute, kept)
     metrics.watch_sessions(lambda: len(sessions))
-    metrics.watch_pools(lambda: compute.waiting)
+    metrics.watch_pools(lambda: compute.waiting, lambda: compute.running, lambda: compute.died)
 
     @contextlib.asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
@@ -117,9 +122,13 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(catalogue.build_router())
     app.include_router(design.build_router(compute))
     app.include_router(frequency.build_router(compute))
+    app.include_router(tracks.build_router(compute))
+    app.include_router(find.build_router(compute))
+    app.include_router(nearest.build_router(compute))
     app.include_router(derivation.build_router(compute))
     app.include_router(systems.build_router(compute))
     app.include_router(comparison.build_router(compute))
+    app.include_router(maps.build_router(compute))
     app.include_router(motion.build_router(compute))
     app.include_router(recordings.build_router(compute, settings))
     app.include_router(exports.build_router(compute))

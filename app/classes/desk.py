@@ -18,7 +18,7 @@ from .feeds import Feeds
 from .frozen_labs import FrozenLabs
 from .handed import Draft, Handed
 from .keys import new_secret, secret_for
-from .lab_library import KnownLab, Labs
+from .lab_library import KnownLab, Labs, frozen_lab
 from .marking import Marker
 from .people import NewClass, NewStudent
 from .rows import ClassRow, class_by_code, for_instructor, for_student, student_by_id, told_time
@@ -182,9 +182,7 @@ class Desk:
         require_step(known, step)
         if not known.steps[step].get("recording"):
             raise ClassError(404, "This step has no recording.", "no_recording")
-        from heli2dof_core.labs.recordings import recording_csv
-
-        return await self._compute.run_slow(recording_csv, known.lab, step, seed)
+        return await self._compute.run_slow(_recorded, known.file, known.lab.name, step, seed)
 
     # Alone, without a class: nothing is kept.
 
@@ -321,3 +319,9 @@ def require_step(known: KnownLab, step: str) -> None:
 
 def _instructor_link(code: str, secret: str) -> str:
     return f"class#class={code}&key={secret}"
+
+
+def _recorded(text: str, name: str, step: str, seed: int) -> bytes:
+    from heli2dof_core.labs.recordings import recording_csv
+
+    return recording_csv(frozen_lab(text, name).lab, step, seed)

@@ -1,10 +1,10 @@
-"""Marking in the compute threads: in turn, and nobody is sent away because many hand in at once."""
+"""Marking in threads and workers: in turn, and nobody is sent away because many hand in at once."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Mapping, Sequence
-from dataclasses import fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from typing import Any
 
 import numpy as np
@@ -13,12 +13,23 @@ from heli2dof_core.errors import within_field
 from heli2dof_core.labs import mark, student_rig
 
 from ..jobs.compute import Caller, Compute, check_cancelled, current_caller
-from .lab_library import KnownLab
+from .lab_library import KnownLab, frozen_lab
 
 _AT_ONCE = 32
 """Marks of this server in the threads' queue at once; all others wait here, where nobody is refused."""
 _QUICK = frozenset(("figure", "setting"))
-"""Kinds of goals that take milliseconds; others have the threads for what takes seconds."""
+"""Kinds of goals that take milliseconds; others go where what takes seconds is done."""
+
+
+@dataclass(frozen=True)
+class _Attempt:
+    """What is handed in."""
+
+    step: str
+    seed: int
+    body: Mapping[str, Any]
+    answers: Mapping[str, Any]
+    hints: tuple[int, ...]
 
 
 class Marker:
@@ -56,17 +67,21 @@ class Marker:
         kinds = {goal.get("kind", "figure") for goal in known.steps[step]["goals"]}
         run = self._compute.run if kinds <= _QUICK else self._compute.run_slow
 
-        def work() -> dict[str, Any]:
-            rig = student_rig(known.lab, seed)
-            given = {"hints": tuple(hints), "seed": seed, "check": check_cancelled}
-            with within_field("design"):
-                return told(mark(known.lab, step, rig, body, answers, **given).as_dict())
-
+        attempt = _Attempt(step, seed, body, answers, tuple(hints))
         try:
             async with self._room:
-                return await run(work)
+                return await run(_marked, known.file, known.lab.name, attempt)
         finally:
             current_caller.set(caller)
+
+
+def _marked(lab_text: str, name: str, attempt: _Attempt) -> dict[str, Any]:
+    """The marks; takes the lab as text, since its goals hold functions, which cannot be sent."""
+    lab, seed = frozen_lab(lab_text, name).lab, attempt.seed
+    rig = student_rig(lab, seed)
+    given = {"hints": attempt.hints, "seed": seed, "check": check_cancelled}
+    with within_field("design"):
+        return told(mark(lab, attempt.step, rig, attempt.body, attempt.answers, **given).as_dict())
 
 
 def told(value: Any) -> Any:

@@ -9,7 +9,7 @@ import click
 
 from ..contract.exports import FORMATS
 from .fields import DESIGN, LOOPS, SCENARIO, body, takes
-from .output import refusals
+from .output import refusals, written
 
 _LIST = "\n".join(f"  {each.name:<12} {each.title}" for each in FORMATS.values())
 
@@ -28,15 +28,4 @@ def export(
     chosen = FORMATS[name]
     with refusals(as_json):
         content = chosen.content(StepRequest.model_validate(body(base, values)).to_spec())
-    if output == Path("-"):
-        click.echo(content, nl=False)
-        return
-    path = output or Path(chosen.filename)
-    try:
-        with path.open("wb" if force else "xb") as file:
-            file.write(content)
-    except FileExistsError as error:
-        raise click.ClickException(f"{path} is there already; --force writes over it") from error
-    except OSError as error:
-        raise click.ClickException(f"cannot write {path}: {error.strerror}") from error
-    click.echo(path)
+    written(content, output or Path(chosen.filename), force=force)

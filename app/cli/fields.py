@@ -32,7 +32,7 @@ from heli2dof_core.request import SCENARIO as SCENARIO_PLACE
 from heli2dof_core.scenario import Model
 
 from ..contract.places import COLUMNS as COLUMNS_PLACE
-from .values import Assignment, Choice, Name, Numbers, Poles, Split, Words
+from .values import Assignment, Choice, Name, Numbers, Poles, Ranges, Size, Split, Words
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -170,6 +170,49 @@ SCENARIO = (
 MODEL = Option("--model", "scenario.model", Name(lambda: get_args(Model)), "nonlinear, or linear.")
 FREQUENCIES = Option("--frequencies", "frequencies", Numbers(), "Where |RGA(jω)| is wanted, rad/s: 0,1,10.")
 
+_MOVED = "pitch-pair or yaw-pair, x ± jy; pitch-pi or yaw-pi, k_p and T_i."
+
+
+def _figures() -> Iterable[str]:
+    from heli2dof_core.many import SHARES
+    from heli2dof_core.measured import MEASURED
+
+    return (*MEASURED, *SHARES)
+
+
+MAP = (
+    Option("--move", "map.move", Name(_words("maps", "Move")), _MOVED),
+    Option("--measure", "map.measure", Name(_figures), "The figure, settling_time by default."),
+    Option(
+        "--axis",
+        "map.axis",
+        Name(_words("measured", "Axis")),
+        "That is stepped; both, the worse, by default.",
+    ),
+    Option("--motor", "map.motor", Name(_words("measured", "Motor")), "Likewise."),
+    Option("--model", "map.model", Name(lambda: get_args(Model)), "nonlinear, or linear."),
+    Option(
+        "--steps", "map.steps", Name(_words("measured", "Steps")), "alone, each axis by itself, or together."
+    ),
+    Option(
+        "--over",
+        "map.over",
+        Ranges(),
+        "From where to where: --over=-15:0,0:12; around the design by default.",
+    ),
+    Option("--size", "map.size", Size(), "Places along x and y, 64x48 by default."),
+    Option("--real/--no-real", "map.real", None, "Both poles of the pair are real, x and y."),
+    Option("--scale", "map.scale", Name(_words("maps", "Scale")), "Of gains: log, or linear."),
+    Option(
+        "--uncertainty",
+        "map.uncertainty.spread",
+        Assignment(lambda: PARAMETERS.fields),
+        "For shares of rigs: relative, of a parameter: J_p=0.2; repeatable. By default 0.1 of all but g.",
+    ),
+    Option("--rigs", "map.uncertainty.samples", click.INT, "For shares: how many rigs, 200 by default."),
+    Option("--seed", "map.uncertainty.seed", click.INT, "Of these."),
+)
+
 COLUMNS = (
     Option(
         "--column",
@@ -208,7 +251,7 @@ HELD_OUT = Option(
     "Share of the time, its end, that is left for validation; 0: nothing.",
 )
 RECORDED = (*COLUMNS, SEPARATOR, DECIMAL, DRIVER, SEGMENT, FREE, HELD_OUT)
-ALL = (*DESIGN, *LOOPS, *SCENARIO, MODEL, FREQUENCIES, *RECORDED)
+ALL = (*DESIGN, *LOOPS, *SCENARIO, MODEL, FREQUENCIES, *RECORDED, *MAP)
 
 
 def takes(*options: Option) -> Callable[[F], F]:

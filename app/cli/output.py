@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -62,6 +63,26 @@ def print_json(reply: Any) -> None:
     from ..contract.encoding import json_bytes
 
     click.echo(json_bytes(reply))
+
+
+def written(content: str | bytes, path: Path | None, *, force: bool) -> None:
+    """Writes a file and prints its name; to standard output where there is no path, or where it is -.
+
+    Raises:
+        click.ClickException: it is there already, and `force` does not say to write over it; or it cannot be written.
+    """
+    if path is None or path == Path("-"):
+        click.echo(content, nl=False)
+        return
+    data = content.encode() if isinstance(content, str) else content
+    try:
+        with path.open("wb" if force else "xb") as file:
+            file.write(data)
+    except FileExistsError as error:
+        raise click.ClickException(f"{path} is there already; --force writes over it") from error
+    except OSError as error:
+        raise click.ClickException(f"cannot write {path}: {error.strerror}") from error
+    click.echo(path)
 
 
 @contextmanager

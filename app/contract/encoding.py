@@ -22,6 +22,11 @@ def json_response(value: Any, status: int = 200) -> Response:
     return Response(json_bytes(value), status, media_type="application/json")
 
 
+def json_content(content: bytes) -> Response:
+    """JSON that a worker has made, as a response."""
+    return Response(content, media_type="application/json")
+
+
 def json_text(value: Any) -> str:
     """JSON for a text frame."""
     return json_bytes(value).decode()

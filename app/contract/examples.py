@@ -26,6 +26,23 @@ EXAMPLES: dict[str, dict[str, tuple[str, Json]]] = {
     },
     "LoopsRequest": {"bode": ("L(jω) at three frequencies, rad/s", {"frequencies": [0.1, 1, 10]})},
     "StepRequest": {"pitch": ("A step of 0.2 rad in pitch", {"scenario": _PITCH})},
+    "MapRequest": {
+        "pair": (
+            "What each place of yaw's pair would give",
+            {"map": {"move": "yaw-pair", "measure": "settling_time", "axis": "psi", "size": [24, 18]}},
+        ),
+        "gains": (
+            "The disk margin over pitch's gains",
+            {
+                "map": {
+                    "move": "pitch-pi",
+                    "over": [[1, 100], [0.1, 10]],
+                    "measure": "disk_margin",
+                    "size": [16, 12],
+                }
+            },
+        ),
+    },
     "ExportRequest": {
         "pitch": ("A step of 0.2 rad in pitch", {"scenario": _PITCH}),
         "pins": (
@@ -46,6 +63,47 @@ EXAMPLES: dict[str, dict[str, tuple[str, Json]]] = {
     },
     "CompareRequest": {
         "three": ("Three methods", {"methods": ["full-rank", "tits-yang", "lqr"]}),
+    },
+    "TrackRequest": {
+        "locus": ("The loop opened at the pitch motor: its root locus", {"track": {"path": "gain.pitch"}}),
+        "lag": (
+            "Both rotors' lag, with the disk margin and the settling time of a pitch step",
+            {
+                "track": {
+                    "path": "rotors.tau",
+                    "over": [0.01, 0.3],
+                    "points": 50,
+                    "measures": [{"measure": "disk_margin"}, {"measure": "settling_time", "axis": "theta"}],
+                }
+            },
+        ),
+    },
+    "FindRequest": {
+        "quick": (
+            "Quick steps with few volts, along the front",
+            {
+                "find": {
+                    "free": ["poles", "loops"],
+                    "require": {"overshoot": {"max": 5}, "disk_margin": {"min": 0.5}},
+                    "minimize": ["settling_time", "V_peak"],
+                    "designs": 600,
+                }
+            },
+        ),
+        "contradictory": (
+            "More margin than there is: what contradicts",
+            {"find": {"require": {"disk_margin": {"min": 2.5}}, "designs": 400}},
+        ),
+    },
+    "NearestRequest": {
+        "settling": (
+            "Both steps shall settle within 0.8 s and overshoot by no more than 3 %",
+            {"nearest": {"require": {"settling_time": {"max": 0.8}, "overshoot": {"max": 3}}}},
+        ),
+        "yaw": (
+            "The yaw step alone, by yaw's poles",
+            {"nearest": {"require": {"settling_time": {"max": 0.8, "axis": "psi"}}, "free": ["yaw-pair"]}},
+        ),
     },
     "RobustnessRequest": {
         "inertia": ("A hundred rigs, 20 % about the inertia", {"uncertainty": {"J_p": 0.2}, "samples": 100}),

@@ -19,9 +19,11 @@ from heli2dof_core.request import path_of
 
 from ..classes.errors import ClassError
 from ..jobs.fair_queue import BusyError, OverdueError
+from ..jobs.workers import WorkerLostError
 from ..ops.logs import request_id
 from .encoding import json_bytes
 
+_LESS = "Ask for less: fewer rigs, a shorter experiment or a looser tolerance."
 Page = Callable[[Request, Mapping[str, Any]], Response | None]
 _log = logging.getLogger(__name__)
 
@@ -63,8 +65,8 @@ class Problem(BaseModel):
 
 
 _HANDLED = (
-    *(Heli2DofError, RequestValidationError, HTTPException, ClassError, BusyError, OverdueError),
-    Exception,
+    *(Heli2DofError, RequestValidationError, HTTPException, ClassError),
+    *(BusyError, OverdueError, WorkerLostError, MemoryError, Exception),
 )
 
 
@@ -104,15 +106,8 @@ def problem_of(error: Exception) -> dict[str, Any]:  # noqa: PLR0911
             return problem(error.status, error.detail, error.code, hint=error.hint, **error.more)
         case JSONDecodeError():
             return problem(422, f"Not JSON: {error}.", "invalid_json", hint="Send one JSON object.")
-        case BusyError():
-            return problem(503, str(error), "busy", hint=f"Ask again in {error.retry_after} s.")
-        case OverdueError():
-            return problem(
-                503,
-                str(error),
-                "overdue",
-                hint="Ask for less: fewer rigs, a shorter experiment or a looser tolerance.",
-            )
+        case BusyError() | OverdueError() | WorkerLostError() | MemoryError():
+            return _of_slow_work(error)
         case HTTPException(status_code=400):  # FastAPI's own, for a body that its parser gives up on
             hint = "Send one JSON object in UTF-8, not nested a thousand deep."
             return problem(422, "The body is not JSON.", "invalid_json", hint=hint)
@@ -121,6 +116,20 @@ def problem_of(error: Exception) -> dict[str, Any]:  # noqa: PLR0911
         case _:
             known = {"request_id": request_id.get()} if request_id.get() else {}
             return problem(500, "The server failed to answer; this is a bug.", "internal_error", **known)
+
+
+def _of_slow_work(error: BusyError | OverdueError | WorkerLostError | MemoryError) -> dict[str, Any]:
+    match error:
+        case BusyError():
+            return problem(503, str(error), "busy", hint=f"Ask again in {error.retry_after} s.")
+        case OverdueError():
+            return problem(503, str(error), "overdue", hint=_LESS)
+        case WorkerLostError():
+            return problem(503, str(error), "lost", hint=f"Ask again in {error.retry_after} s, or for less.")
+        case MemoryError():
+            return problem(
+                503, "This takes more memory than the server gives it.", "too_much_memory", hint=_LESS
+            )
 
 
 def problem_response(body: Mapping[str, Any], headers: Mapping[str, str] | None = None) -> Response:

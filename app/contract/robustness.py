@@ -19,12 +19,29 @@ MOST_POLES = 2000
 """Rigs whose poles are sent; more make no other picture."""
 
 
+Spreads = dict[str, Annotated[float, Field(json_schema_extra={"minimum": 0.0, "maximum": MOST_SPREAD})]]
+
+
+class UncertainRigs(asked(UNCERTAINTY)):
+    """How far the rigs may differ from the nominal one, where other calls put designs on them."""
+
+    spread: Spreads | None = Field(
+        default=None,
+        max_length=len(UNCERTAIN),
+        json_schema_extra={"propertyNames": {"enum": [*UNCERTAIN]}},
+        description="relative, per parameter and per rotor's lag; by default 0.1 for all parameters but g",
+    )
+
+    def to_uncertainty(self) -> Uncertainty:
+        """The core's uncertainty."""
+        own = UNCERTAINTY.given(self.model_dump(exclude_unset=True))
+        return Uncertainty(**own) if self.spread is None else Uncertainty(self.spread, **own)
+
+
 class RobustnessRequest(StepRequest, asked(UNCERTAINTY)):
     """A design, an experiment, and how far the rigs may differ from the nominal one."""
 
-    uncertainty: (
-        dict[str, Annotated[float, Field(json_schema_extra={"minimum": 0.0, "maximum": MOST_SPREAD})]] | None
-    ) = Field(
+    uncertainty: Spreads | None = Field(
         default=None,
         max_length=len(UNCERTAIN),
         json_schema_extra={"propertyNames": {"enum": [*UNCERTAIN]}},

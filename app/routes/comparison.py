@@ -8,8 +8,8 @@ from heli2dof_core.comparison import compare, compare_splits
 
 from ..contract.comparison import CompareRequest, Comparison, Split, comparison_reply, splits_reply
 from ..contract.design import DesignRequest
-from ..contract.encoding import json_response
-from ..contract.model import Reply, described
+from ..contract.encoding import json_bytes, json_content, json_response
+from ..contract.model import described
 from ..contract.placement import Method, Placement, PlaceRequest, assessment_reply, methods_reply
 from ..jobs.compute import Compute
 
@@ -24,17 +24,26 @@ def build_router(compute: Compute) -> APIRouter:
 
     @router.post("/place", **described(Placement, "State feedback for any controllable (A, B)"))
     async def place(request: PlaceRequest) -> Response:
-        return json_response(await compute.run_slow(lambda: assessment_reply(request.place())))
+        return json_content(await compute.run_slow(_placement, request))
 
     @router.post("/compare", **described(Comparison, "The same poles through several methods"))
     async def compare_(request: CompareRequest) -> Response:
-        def work() -> Reply:
-            return comparison_reply(compare(request.to_spec(), request.methods, request.tuning))
-
-        return json_response(await compute.run_slow(work))
+        return json_content(await compute.run_slow(_comparison, request))
 
     @router.post("/splits", **described(list[Split], "All ways to deal four poles into two pairs"))
     async def splits(request: DesignRequest) -> Response:
-        return json_response(await compute.run_slow(lambda: splits_reply(compare_splits(request.to_spec()))))
+        return json_content(await compute.run_slow(_splits, request))
 
     return router
+
+
+def _placement(request: PlaceRequest) -> bytes:
+    return json_bytes(assessment_reply(request.place()))
+
+
+def _comparison(request: CompareRequest) -> bytes:
+    return json_bytes(comparison_reply(compare(request.to_spec(), request.methods, request.tuning)))
+
+
+def _splits(request: DesignRequest) -> bytes:
+    return json_bytes(splits_reply(compare_splits(request.to_spec())))

@@ -32,13 +32,15 @@ def build_router(compute: Compute) -> APIRouter:
     @router.post("/export/{format}", **_described())
     async def export(request: ExportRequest, name: FormatName, link: Link = None) -> Response:
         chosen = require_known(name, FORMATS, "format")
-        content = await compute.run_slow(
-            lambda: chosen.content(request.to_spec(), link or "", request.beside())
-        )
+        content = await compute.run_slow(_content, chosen.name, request, link or "")
         headers = {"Content-Disposition": f'attachment; filename="{chosen.filename}"'}
         return Response(content, media_type=chosen.media_type, headers=headers)
 
     return router
+
+
+def _content(name: str, request: ExportRequest, link: str) -> bytes:
+    return FORMATS[name].content(request.to_spec(), link, request.beside())
 
 
 def _described() -> dict[str, Any]:

@@ -109,7 +109,7 @@ class _Live:
         try:
             answer = await self._compute.run(_evaluate, self._reader, text, self._binary, MEDIUM_STEPS)
             if answer is None:
-                answer = await self._compute.run_slow(_evaluate, self._reader, text, self._binary)
+                answer = await self._compute.run_slow(_evaluate_alone, text, self._binary)
         except Exception as error:
             return _refusal(error, text)
         return answer
@@ -148,6 +148,10 @@ def _is_small(spec: Spec) -> bool:
     scenario, structure = spec.scenario, spec.structure
     plain = spec.method == FULL_RANK and structure.shift is None
     return plain and scenario.digital is None and scenario.samples <= MOST_SAMPLES
+
+
+def _evaluate_alone(text: str | bytes, binary: bool) -> str | bytes:
+    return _evaluate(LiveReader(), text, binary)
 
 
 def _evaluate(

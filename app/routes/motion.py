@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import asyncio
 from typing import Annotated
 from urllib.parse import quote
 
-from fastapi import APIRouter, HTTPException, Query, Request, Response
+from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import RedirectResponse
 
 from heli2dof_core import Spec, loop_of, preset, simulate
@@ -21,8 +20,6 @@ from ..scene.motion import MotionFormat, motion_file
 from ..scene.poses import Motion
 
 Kind = Annotated[MotionFormat, Query(alias="format")]
-MOST_WAITING = 8
-"""Files asked for at one time; one is made after the other."""
 _QUERY_CHARACTERS = ":/%#?=@[]!$&'()*+,;"
 """Left as they are in an address; what else a client may have sent there is percent-encoded."""
 _TYPES: dict[MotionFormat, str] = {"html": "text/html; charset=utf-8", "viser": "application/octet-stream"}
@@ -32,9 +29,6 @@ _NAMES: dict[MotionFormat, str] = {"html": "heli2dof-motion.html", "viser": "hel
 def build_router(compute: Compute) -> APIRouter:
     """The route motion under /api/v1, and the address that it had before."""
     router = APIRouter(prefix="/api/v1", tags=["scene"])
-    free = asyncio.Lock()
-    waiting = 0
-
     content = {kind.partition(";")[0]: {"schema": {"type": "string"}} for kind in _TYPES.values()}
 
     @router.post(
@@ -42,19 +36,7 @@ def build_router(compute: Compute) -> APIRouter:
         **described_files("The motion as a file: an HTML page that plays offline, or a .viser file", content),
     )
     async def motion(request: StepRequest, kind: Kind = "html") -> Response:
-        nonlocal waiting
-        if waiting >= MOST_WAITING:
-            busy = "Too many motions are being made into files at this moment; try again in a few seconds."
-            raise HTTPException(503, busy, {"Retry-After": "5"})
-        rig, title = _of_rig(request)
-        spec = request.to_spec()
-        waiting += 1
-        try:
-            played = await compute.run_slow(_motion, spec, request.scenario.model)
-            async with free:  # one at a time leaves a processor to the designs
-                content = await asyncio.to_thread(motion_file, rig, played, kind, _title(title, spec))
-        finally:
-            waiting -= 1
+        content = await compute.run_slow(_file, request, kind)
         name = {"Content-Disposition": f'attachment; filename="{_NAMES[kind]}"'}
         return Response(content, media_type=_TYPES[kind], headers=name)
 
@@ -71,6 +53,12 @@ def build_router(compute: Compute) -> APIRouter:
 def _of_rig(request: StepRequest) -> tuple[RigName, str]:
     chosen = preset(request.preset)
     return "aero" if chosen.rig == "aero" else "helicopter", chosen.title
+
+
+def _file(request: StepRequest, kind: MotionFormat) -> bytes:
+    rig, title = _of_rig(request)
+    spec = request.to_spec()
+    return motion_file(rig, _motion(spec, request.scenario.model), kind, _title(title, spec))
 
 
 def _motion(spec: Spec, model: Model) -> Motion:

@@ -37,7 +37,9 @@ async def serve_with_progress(socket: WebSocket, answer: Callable[[Any, Send], A
                 text = await received(socket)
             finally:
                 answering.cancel()
-                await asyncio.gather(answering, return_exceptions=True)
+                await asyncio.wait({answering})
+                if not answering.cancelled():
+                    answering.exception()  # the visitor has gone; it is looked at
     except WebSocketDisconnect:
         pass
 

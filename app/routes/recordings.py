@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 from dataclasses import replace
 from typing import Annotated, Any
 
 from fastapi import APIRouter, HTTPException, Query, Request, Response, WebSocket
 
-from heli2dof_core import Spec, loop_of, preset
+from heli2dof_core import loop_of, preset
 from heli2dof_core.engine import engine
 from heli2dof_core.export.machine import machine_lines
 from heli2dof_core.recordings.files import Dialect, joined_tables, read_table, write_csv
@@ -19,9 +18,9 @@ from heli2dof_core.recordings.recording import Table, recording_of
 from heli2dof_core.recordings.samples import deviating_rig, named_columns, sample_recording
 from heli2dof_core.scenario import Digital
 
-from ..contract.encoding import described_files, json_response, json_text
+from ..contract.encoding import described_files, json_bytes, json_content, json_response, json_text
 from ..contract.identification import IdentifyRequest, identification_reply, identified, progress_reply
-from ..contract.model import Reply, described
+from ..contract.model import described
 from ..contract.recordings import (
     JoinRequest,
     OverlayReply,
@@ -32,8 +31,7 @@ from ..contract.recordings import (
     overlay_reply,
     preview_reply,
 )
-from ..edge.messages import Mailbox
-from ..jobs.compute import Compute, check_cancelled, current_caller
+from ..jobs.compute import Compute, check_cancelled, current_caller, report
 from ..jobs.recording_store import RecordingStore
 from ..ops.settings import Settings
 from .progress_socket import Send, serve_with_progress
@@ -87,7 +85,7 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
     async def overlay(key: str, request: OverlayRequest) -> Response:
         await _wait_for_kernels()
         table = store.get(key)
-        return json_response(await compute.run_slow(lambda: _overlay(request, table)))
+        return json_content(await compute.run_slow(_overlay, request, table))
 
     @router.websocket("/identify")
     async def identifying(socket: WebSocket) -> None:
@@ -95,9 +93,10 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
 
         async def answer(data: Any, send: Send) -> None:
             request = IdentifyRequest.model_validate(data)
-            spec = request.to_spec()
+            request.to_spec()  # what is refused is refused at once
             await _wait_for_kernels()
-            await _identify(send, spec, request, compute, store)
+            async for part in compute.stream(_identify, request, store.get(request.recording)):
+                await send(part)
 
         await serve_with_progress(socket, answer)
 
@@ -135,37 +134,20 @@ def _sample(request: SampleRequest) -> bytes:
     return write_csv(named_columns(run), comments)
 
 
-def _overlay(request: OverlayRequest, table: Table) -> Reply:
+def _overlay(request: OverlayRequest, table: Table) -> bytes:
     recording = recording_of(table, request.columns.to_columns())
-    return overlay_reply(request.driver, recording, overlaid(request, recording, check_cancelled))
+    return json_bytes(overlay_reply(request.driver, recording, overlaid(request, recording, check_cancelled)))
 
 
-async def _identify(
-    send: Send, spec: Spec, request: IdentifyRequest, compute: Compute, store: RecordingStore
-) -> None:
-    """Runs in the pool for what takes seconds; progress comes from there, of which only the newest waits."""
-    table, loop = store.get(request.recording), asyncio.get_running_loop()
-    news = Mailbox[Progress | None]()
+def _identify(request: IdentifyRequest, table: Table) -> str:
+    """The result as text; how far the search is meanwhile."""
 
-    def report(progress: Progress) -> None:
-        check_cancelled()
-        loop.call_soon_threadsafe(news.put, progress)
+    def tell(progress: Progress) -> None:
+        report(json_text(progress_reply(progress)))
 
-    def work() -> Reply:
-        recording = recording_of(table, request.columns.to_columns())
-        return identification_reply(identified(request, spec, recording, report, check_cancelled), recording)
-
-    running = asyncio.ensure_future(compute.run_slow(work))
-    running.add_done_callback(lambda _: news.put(None))
-    try:
-        while (progress := await news.take()) is not None:
-            await send(json_text(progress_reply(progress)))
-        await send(json_text(await running))
-    finally:
-        if not running.done():
-            running.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
-                await asyncio.gather(running, return_exceptions=True)
+    recording = recording_of(table, request.columns.to_columns())
+    found = identified(request, request.to_spec(), recording, tell, check_cancelled)
+    return json_text(identification_reply(found, recording))
 
 
 def _upload_options() -> dict[str, Any]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from fastapi import APIRouter, Response, WebSocket
 
-from heli2dof_core.robustness import Cloud, cloud, cloud_in_parts
+from heli2dof_core.robustness import cloud, cloud_in_parts
 
 from ..contract.encoding import json_bytes, json_text
 from ..contract.model import described
@@ -27,12 +27,7 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
     async def robustness(request: RobustnessRequest) -> Response:
         metrics.clouds.inc()
 
-        def work() -> bytes:
-            return json_bytes(
-                cloud_reply(cloud(request.to_spec(), request.to_uncertainty(), check_cancelled))
-            )
-
-        return Response(await compute.run_slow(work), media_type="application/json")
+        return Response(await compute.run_slow(_cloud, request), media_type="application/json")
 
     @router.websocket("/robustness")
     async def progressing(socket: WebSocket) -> None:
@@ -41,9 +36,7 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
         async def answer(data: Any, send: Send) -> None:
             request = RobustnessRequest.model_validate(data)
             metrics.clouds.inc()
-            spec, uncertainty = request.to_spec(), request.to_uncertainty()
-            parts = cloud_in_parts(spec, uncertainty, check_cancelled)
-            while (part := await compute.run_slow(_following, parts)) is not None:
+            async for part in compute.stream(_parts, request):
                 await send(part)
 
         await serve_with_progress(socket, answer)
@@ -51,7 +44,13 @@ def build_router(compute: Compute, metrics: Metrics) -> APIRouter:
     return router
 
 
-def _following(parts: Iterator[Cloud]) -> str | None:
-    """The next part as text, made in the pool too: twelve thousand poles would hold up the event loop."""
-    part = next(parts, None)
-    return None if part is None else json_text(cloud_reply(part))
+# Text is made in the worker, too: twelve thousand poles would hold up the event loop.
+
+
+def _cloud(request: RobustnessRequest) -> bytes:
+    return json_bytes(cloud_reply(cloud(request.to_spec(), request.to_uncertainty(), check_cancelled)))
+
+
+def _parts(request: RobustnessRequest) -> Iterator[str]:
+    for part in cloud_in_parts(request.to_spec(), request.to_uncertainty(), check_cancelled):
+        yield json_text(cloud_reply(part))

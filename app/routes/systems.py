@@ -10,8 +10,8 @@ from heli2dof_core.checks import require_known
 from heli2dof_core.export.any_system import STEM
 from heli2dof_core.systems.textbook import EXAMPLES
 
-from ..contract.encoding import described_files, json_response
-from ..contract.model import Reply, described
+from ..contract.encoding import described_files, json_bytes, json_content, json_response
+from ..contract.model import described
 from ..contract.system_replies import FILES, design_reply, example_reply, formulas_reply, read_reply
 from ..contract.systems import (
     SystemDesign,
@@ -40,33 +40,47 @@ def build_router(compute: Compute) -> APIRouter:
         "/read", **described(SystemRead, "A pasted system: matrices, letters, modes, zeros, indices")
     )
     async def read(request: SystemText) -> Response:
-        return json_response(await compute.run_slow(lambda: read_reply(request.text, check_cancelled)))
+        return json_content(await compute.run_slow(_read, request.text))
 
     @router.post(
         "/design",
         **described(SystemDesign, "State feedback and observer of any system, with their responses"),
     )
     async def design(request: SystemDesignRequest) -> Response:
-        return json_response(await compute.run_slow(lambda: design_reply(request)))
+        return json_content(await compute.run_slow(_design, request))
 
     @router.post(
         "/formulas", **described(SystemFormulas, "K and L of any system of few states, in closed form")
     )
     async def formulas(request: SystemFormulasRequest) -> Response:
-        def work() -> Reply:
-            return formulas_reply(request, check_cancelled)
-
-        return json_response(await compute.run_slow(work))
+        return json_content(await compute.run_slow(_formulas, request))
 
     @router.post("/export/{format}", **_described())
     async def export(request: SystemDesignRequest, name: FormatName, link: Link = None) -> Response:
         require_known(name, FILES, "format")
-        suffix, media_type, make = FILES[name]
-        content = await compute.run_slow(lambda: make(request, link or ""))
+        suffix, media_type, _ = FILES[name]
+        content = await compute.run_slow(_file, name, request, link or "")
         headers = {"Content-Disposition": f'attachment; filename="{STEM}{suffix}"'}
         return Response(content, media_type=media_type, headers=headers)
 
     return router
+
+
+def _read(text: str) -> bytes:
+    return json_bytes(read_reply(text, check_cancelled))
+
+
+def _design(request: SystemDesignRequest) -> bytes:
+    return json_bytes(design_reply(request))
+
+
+def _formulas(request: SystemFormulasRequest) -> bytes:
+    return json_bytes(formulas_reply(request, check_cancelled))
+
+
+def _file(name: str, request: SystemDesignRequest, link: str) -> bytes:
+    make = FILES[name][2]
+    return make(request, link)
 
 
 def _described() -> dict[str, Any]:

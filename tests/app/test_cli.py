@@ -21,6 +21,7 @@ from app.cli.values import Poles
 from app.contract.experiment import StepRequest
 from app.contract.frequency import RgaRequest
 from app.contract.identification import IdentifyRequest
+from app.contract.maps import MapRequest
 from app.contract.recordings import OverlayRequest
 from tests.children import ROOT, environment, python
 from tests.patience import PATIENCE
@@ -88,6 +89,39 @@ WORDS = ("--preset", "quanser-aero-2", "--poles", "-2,-3,-1.5±1j")
             "robustness",
             {**RIG, "samples": 20, "seed": 3, "uncertainty": {"J_p": 0.2}},
         ),
+        (
+            ("map", *WORDS, "--move", "yaw-pair", "--measure", "overshoot", "--axis", "psi", "--size", "5x4"),
+            "map",
+            {**RIG, "map": {"move": "yaw-pair", "measure": "overshoot", "axis": "psi", "size": [5, 4]}},
+        ),
+        (
+            (
+                *(
+                    "map",
+                    *WORDS,
+                    "--move",
+                    "pitch-pi",
+                    "--over=1:9,0.1:2",
+                    "--size",
+                    "4x3",
+                    "--scale",
+                    "linear",
+                ),
+                *("--measure", "share_stable", "--uncertainty", "J_p=0.2", "--rigs", "5", "--seed", "2"),
+            ),
+            "map",
+            {
+                **RIG,
+                "map": {
+                    "move": "pitch-pi",
+                    "over": [[1, 9], [0.1, 2]],
+                    "size": [4, 3],
+                    "scale": "linear",
+                    "measure": "share_stable",
+                    "uncertainty": {"spread": {"J_p": 0.2}, "samples": 5, "seed": 2},
+                },
+            },
+        ),
     ],
 )
 def test_json_is_what_the_rest_api_replies(client, words, call, request_body):
@@ -127,6 +161,14 @@ def test_a_design_comes_from_a_file_and_options_change_it(tmp_path):
         (("step", "--ti-yaw", "0"), "loops.yaw.ti", "--ti-yaw"),
         (("step", "--duration", "nan"), "scenario.duration", "--duration"),
         (("robustness", "--rigs", "0"), "samples", ""),
+        (("map", "--move", "pitch"), "map.move", "--move"),
+        (("map", "--move", "pitch-pi", "--over=0:1,1:2"), "map.over.0.0", "--over"),
+        (("map", "--move", "yaw-pair", "--measure", "norm", "--axis", "psi"), "map.axis", "--axis"),
+        (
+            ("map", "--move", "yaw-pair", "--measure", "share_stable", "--uncertainty", "mass=1"),
+            "map.uncertainty.spread.mass",
+            "--uncertainty",
+        ),
         (("symbolic", "nonsense"), "names", ""),
         (("symbolic", "--lead", "roll"), "lead", "--lead"),
         (
@@ -189,6 +231,22 @@ def test_progress_is_on_the_terminal_alone(monkeypatch):
     assert "600/600" in screen.export_text()
 
 
+def test_a_map_is_a_table_a_picture_or_rows(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    words = ("map", *WORDS, "--move", "yaw-pair", "--measure", "norm", "--size", "6x5")
+    shown = run(*words).stdout
+    assert "Norm of K" in shown and "6 × 5 places of yaw's pair" in shown and "best" in shown
+    assert max(map(len, shown.split("\n"))) <= 120
+    assert run(*words, "--svg").stdout.strip() == "heli2dof_map.svg"
+    assert (tmp_path / "heli2dof_map.svg").read_text(encoding="utf-8").startswith("<svg ")
+    assert "--force" in run(*words, "--svg", status=1).stderr
+    assert run(*words, "-o", "own.csv").stdout.strip() == "own.csv"
+    rows = (tmp_path / "own.csv").read_text(encoding="utf-8")
+    assert rows == run(*words, "--csv", "-o", "-").stdout
+    assert "--svg" in run(*words, "-o", "own.txt", status=2).stderr
+    assert "--move" in run("map", status=2).stderr
+
+
 def test_an_export_is_a_file_and_is_not_written_over(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     name = run("export", "csv", *WORDS).stdout.strip()
@@ -203,7 +261,7 @@ def test_an_export_is_a_file_and_is_not_written_over(tmp_path, monkeypatch):
 
 
 def test_every_option_names_a_field_that_exists():
-    requests = StepRequest, RgaRequest, OverlayRequest, IdentifyRequest
+    requests = StepRequest, RgaRequest, OverlayRequest, IdentifyRequest, MapRequest
     schemas = [request.model_json_schema() for request in requests]
     schemas.append({"properties": {name: {} for name in ("separator", "decimal")}})  # of the query
     for option in ALL:

@@ -32,7 +32,7 @@ SMALL = {
     "request_burst": 30,
     "sockets": 6,
     "sockets_per_address": 4,
-    "slow_threads": 1,
+    "workers": 1,
     "slow_waiting": 3,
     "slow_each": 2,
     "slow_seconds": 10 * PATIENCE,

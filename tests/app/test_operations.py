@@ -204,6 +204,7 @@ def test_a_servers_log_says_what_was_done_and_not_by_whom(tmp_path: Path):
             "HELI2DOF_TRUSTED_PROXIES: '10.0.0.0/99' does not appear",
         ),
         ("HELI2DOF_DRAIN", "nan", "HELI2DOF_DRAIN: input should be"),
+        ("HELI2DOF_DASK", "10.0.0.1:8786", "HELI2DOF_DASK: it is no address of a scheduler"),
     ],
 )
 def test_a_wrong_value_ends_it_with_one_line_that_names_the_variable(
@@ -218,6 +219,16 @@ def test_a_wrong_value_ends_it_with_one_line_that_names_the_variable(
     (line,) = result.stderr.splitlines()
     assert line.startswith(f"heli2dof: {says}")
     assert "secret123" not in line
+
+
+def test_a_cluster_asks_for_its_package(monkeypatch: pytest.MonkeyPatch):
+    assert Settings(dask="tcp://10.0.0.1:8786").dask == "tcp://10.0.0.1:8786"
+    monkeypatch.setattr("app.ops.settings.find_spec", lambda name: None)
+    with pytest.raises(ValidationError) as refused:
+        Settings(dask="tcp://10.0.0.1:8786")
+    assert complaint(refused.value) == (
+        "HELI2DOF_DASK: distributed is not installed: pip install 'heli2dof[dask]'"
+    )
 
 
 def test_words_are_read_from_one_variable(monkeypatch: pytest.MonkeyPatch):

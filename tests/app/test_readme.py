@@ -99,8 +99,8 @@ def test_python_example_runs(capsys, monkeypatch):
     plt.close("all")
 
 
-def save_recordings():
-    """A rig's run as the files that the README names."""
+def save_files():
+    """A rig's run and a study as the files that the README names."""
     spec = Spec.from_preset(preset())
     loop, digital = close_loop(place(spec), spec.outer), Digital()
     rig = deviating_rig(spec.parameters, 0.1, 1)
@@ -111,6 +111,7 @@ def save_recordings():
     savemat("run.mat", {"t": made.t, **degrees})
     for name, values in signals.items():
         Path(f"{name}.csv").write_bytes(write_csv({"time": made.t, name: values}))
+    Path("gains.toml").write_text("study = 1\n[rigs]\ncount = 20\n")
     Path("plant.m").write_text("A = [0 1; 20.6 0]; B = [0; 1]; C = [1 0]; p = [-2 -3];")
 
 
@@ -120,7 +121,7 @@ def test_command_lines_run(tmp_path, monkeypatch):
     from app.cli.group import heli2dof
 
     monkeypatch.chdir(tmp_path)
-    save_recordings()
+    save_files()
     lines = [
         line for block in blocks(README, "sh") for line in block.split("\n") if line.startswith("heli2dof ")
     ]

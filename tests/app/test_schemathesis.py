@@ -87,6 +87,34 @@ RULES: dict[str, dict[str, str]] = {
         "invalid_input duration": "length over sample time is bounded",
     },
     "POST /api/v1/robustness": RIGS,
+    **dict.fromkeys(
+        ["POST /api/v1/map", "POST /api/v1/map/{format}"],
+        RIGS
+        | {
+            "invalid_input map.(move|real|scale)": "a method may not depend on it; poles have no logarithms",
+            "invalid_input map.(axis|motor|model|steps)": "only some figures have them; an axis may not be stepped",
+            "invalid_input map.over.*": "ends rise, and are what poles or gains may be",
+            "invalid_input map.size": "the product of both sides is bounded",
+            "invalid_input map.uncertainty.*": "shares need rigs; their number times the places is bounded",
+        },
+    ),
+    "POST /api/v1/find": RIGS
+    | {
+        "invalid_input find.free": "loops, weights, rotors, an observer may not be there, or be without effect",
+        "invalid_input find.(require|minimize).*": "limits rise; a figure has an axis, a motor or neither",
+        "invalid_input find.bounds.*": "ranges rise, above 0",
+        "invalid_input find.uncertainty.*": "shares need rigs, and each of those told is put on all",
+    },
+    **dict.fromkeys(
+        [f"POST /api/v1/track{kind}" for kind in ("", "/csv", "/svg")],
+        EXPERIMENT
+        | {
+            "invalid_input track.(path|kept)": "a pair is real or complex; weights are of some methods",
+            "invalid_input track.(over|scale)": "each number has a range of its own; no equal factors from 0",
+            "invalid_input track.measures.*": "a figure has an axis, a motor or neither; kept gains have none",
+            "invalid_input uncertainty": "shares are of uncertain rigs",
+        },
+    ),
     "POST /api/v1/place": {
         "unpaired_poles": "each complex pole needs its conjugate",
         "uncontrollable": "the rank of [B, AB, …]",
@@ -180,6 +208,8 @@ STREAM = "/api/v1/classes/{code}/events"
 """Has no end that one could wait for; `test_classes_replicas.py` listens to it."""
 del DOCUMENT["paths"][STREAM]
 BODIES = {call: media["schema"]["$ref"].removeprefix(BY) for call, media in bodies(DOCUMENT).items()}
+SEARCH = "POST /api/v1/find"
+"""Takes as long as it is given."""
 whole = schema_of(DOCUMENT, examples=True, coverage=False, fuzzing=True)
 fields = schema_of(first_fields(DOCUMENT), examples=False, coverage=True, fuzzing=False)
 sent: Counter[tuple[str, str, str]] = Counter()
@@ -251,6 +281,8 @@ def check(case, base: str, kind: str) -> None:
     sent[BODIES.get(label, "no JSON body"), label, kind] += 1
     if case.meta.generation.mode.is_positive:
         admit(case, base)
+        if label == SEARCH and isinstance(case.body, dict):
+            case.body["find"] |= {"seconds": min(case.body["find"].get("seconds", 60.0), 0.3)}
     response = case.call(base_url=base, timeout=PATIENCE)
     excepted = [positive_data_acceptance] if refusal(case, response) else []
     case.validate_response(response, excluded_checks=excepted, transport_kwargs={"base_url": base})

@@ -1,0 +1,425 @@
+"""The finder: what is asked of it, how far it is, and what it has found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from math import isfinite
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from heli2dof_core.errors import Heli2DofError
+from heli2dof_core.estimators import Observer
+from heli2dof_core.figures.figure import Better
+from heli2dof_core.finder import Bounds, Candidate, Designs, Find, Free, Give, Progress, find_in_parts
+from heli2dof_core.finder.ask import LONGEST_SEARCH, MOST_DESIGNS, MOST_MINIMIZED
+from heli2dof_core.finder.result import gives_text, why_text
+from heli2dof_core.many import SHARE_FIGURES, SHARES, Measure
+from heli2dof_core.measured import MEASURED, Axis, Motor, Steps
+from heli2dof_core.placement.method import Weights
+from heli2dof_core.request import WEIGHTED
+from heli2dof_core.requirements import (
+    MOST,
+    Requirement,
+    measure_of,
+    requirements_of,
+    told_measure,
+    words_of,
+    written,
+)
+from heli2dof_core.scenario import Model as RigModel
+from heli2dof_core.signals import AXES
+from heli2dof_core.spec import Spec
+
+from .experiment import StepRequest
+from .fields import Strict, Whole
+from .model import Complex, Model, Reply, poles_reply
+from .requirements import LimitedFigure, OfResponse
+from .robustness import UncertainRigs
+
+FIGURES = (*MEASURED, *SHARES)
+THREADS = 2
+"""That a search takes of the server."""
+
+
+class RequiredFigure(LimitedFigure):
+    """Limits of one figure, on the nominal rig and on a share of uncertain ones."""
+
+    share: float | None = Field(
+        default=None,
+        json_schema_extra={"minimum": 0.0, "maximum": 1.0},
+        description="least share of the uncertain rigs that meet them, beside the nominal one",
+    )
+
+
+class MinimizedFigure(OfResponse):
+    """A figure that is made as good as it can be."""
+
+    measure: Annotated[str, Field(json_schema_extra={"enum": [*FIGURES]})]
+
+
+_Range = Annotated[list[float], Field(min_length=2, max_length=2)]
+
+
+class FindBounds(Strict):
+    """How far what is free may go, [least, largest]; what is left out follows from the design."""
+
+    poles: _Range | None = Field(default=None, description="size of a pole, rad/s")
+    damping: float = Field(
+        default=0.3,
+        json_schema_extra={"minimum": 1e-6, "maximum": 1.0},
+        description="least damping ratio of a complex pair",
+    )
+    rotor_poles: _Range | None = Field(default=None, description="size of a rotor's pole, rad/s")
+    kp: _Range | None = Field(default=None, description="proportional gains, V/rad")
+    ti: _Range | None = Field(default=None, description="integral times, s")
+    shift: _Range = Field(default=[-1.0, 1.0], description="shift c of Luenberger's basis")
+    observer: _Range | None = Field(default=None, description="size of an observer's pole, rad/s")
+    weights: _Range = Field(default=[1e-2, 1e2], description="factors on the present weights")
+
+
+class FindOptions(Strict):
+    """What is free, what is required, and what is made as good as can be."""
+
+    free: list[Free] = Field(default=["poles"], min_length=1, max_length=9, description="what may change")
+    require: dict[str, RequiredFigure | Annotated[list[RequiredFigure], Field(max_length=MOST)]] = Field(
+        default={},
+        max_length=MOST,
+        json_schema_extra={"propertyNames": {"enum": [*FIGURES]}},
+        description="by figure its limits, several in a list",
+    )
+    minimize: list[Annotated[str, Field(json_schema_extra={"enum": [*FIGURES]})] | MinimizedFigure] = Field(
+        default=[],
+        max_length=MOST_MINIMIZED,
+        description="figures that are made as small as they can be, or as large where more is better",
+    )
+    uncertainty: UncertainRigs | None = Field(default=None, description="needed for shares of uncertain rigs")
+    bounds: FindBounds = FindBounds()
+    designs: Annotated[Whole, Field(json_schema_extra={"minimum": 100, "maximum": MOST_DESIGNS})] = Field(
+        default=20_000,
+        description="how many are tried, at most; one on uncertain rigs counts as many as there are rigs",
+    )
+    seconds: float = Field(
+        default=60.0,
+        json_schema_extra={"minimum": 0.1, "maximum": LONGEST_SEARCH},
+        description="after which the search ends in any case",
+    )
+    seed: Annotated[Whole, Field(json_schema_extra={"minimum": 0, "maximum": 2**32 - 1})] = Field(
+        default=0, description="the same seed gives the same designs"
+    )
+
+    def to_find(self) -> Find:
+        """The core's.
+
+        Raises:
+            InvalidInputError: something is unknown or out of its range.
+        """
+        own = self.model_dump(exclude_unset=True, exclude_none=True)
+        given = {name: own[name] for name in ("designs", "seconds", "seed") if name in own}
+        bounds: dict[str, Any] = {
+            name: tuple(value) if isinstance(value, list) else value
+            for name, value in own.get("bounds", {}).items()
+        }
+        return Find(
+            free=tuple(self.free),
+            require=_read("require", lambda: requirements_of(own.get("require", {}))),
+            minimize=tuple(
+                _read(f"minimize.{i}", lambda one=one: measure_of(one))
+                for i, one in enumerate(own.get("minimize", ()))
+            ),
+            uncertainty=None if self.uncertainty is None else self.uncertainty.to_uncertainty(),
+            bounds=Bounds(**bounds),
+            **given,
+        )
+
+
+def _read(path: str, make: Callable[[], Any]) -> Any:
+    try:
+        return make()
+    except Heli2DofError as error:
+        error.name_field(f"{path}.{error.field}".rstrip("."))
+        raise
+
+
+class FindRequest(StepRequest):
+    """A design, an experiment, and what is sought around them."""
+
+    find: FindOptions
+
+    def in_parts(self, check: Callable[[], None]) -> Iterator[Progress | Designs]:
+        """Searches; `check` is called now and then, and what it raises ends the work.
+
+        Raises:
+            Heli2DofError: as `to_spec` and `finder.find`.
+        """
+        spec = self.to_spec()
+        with _within_find():
+            ask = self.find.to_find()
+            yield from find_in_parts(spec, ask, check, THREADS)
+
+
+_OF_FIND = {*FindOptions.model_fields}
+_OF_RIGS = {*UncertainRigs.model_fields}
+
+
+@contextmanager
+def _within_find() -> Iterator[None]:
+    """Calls what is refused of the search by its path in the request; what is the design's keeps its own."""
+    try:
+        yield
+    except Heli2DofError as error:
+        first = error.field.partition(".")[0]
+        if first in _OF_FIND:
+            error.name_field(f"find.{error.field}")
+        elif first in _OF_RIGS:
+            error.name_field(f"find.uncertainty.{error.field}")
+        raise
+
+
+class FindProgress(Model):
+    """How far a search is."""
+
+    done: bool = Field(description="false: more comes")
+    tried: int = Field(description="of the designs")
+    designs: int = Field(description="the budget")
+    seconds: float
+    met: int = Field(description="how many of those tried meet everything")
+    points: list[list[float]] = Field(
+        description="the minimized figures of the best so far, a row per design; those with values alone"
+    )
+
+
+class ToldFigure(Model):
+    """A figure that is told of every design."""
+
+    measure: str
+    axis: Axis | None = None
+    motor: Motor | None = None
+    model: RigModel | None = None
+    steps: Steps | None = None
+    title: str
+    unit: str = Field(description="empty of ratios and shares, 0 to 1")
+    better: Better
+    minimized: bool
+
+
+class ToldRequirement(Model):
+    """A requirement."""
+
+    figure: int = Field(description="its place among the figures")
+    max: float | None = None
+    min: float | None = None
+    share: float | None = None
+    words: str
+    limit: str
+
+
+class FoundFigure(Model):
+    """A figure of one design."""
+
+    value: float | None = Field(None, description="left out where there is none, or no limit")
+    text: str
+
+
+class FoundRequirement(Model):
+    """A requirement of one design."""
+
+    met: bool
+    share: float | None = Field(None, description="of the uncertain rigs that meet it")
+
+
+class PresentDesign(Model):
+    """The design that was sent."""
+
+    figures: list[FoundFigure]
+    required: list[FoundRequirement]
+    stable: bool
+    met: bool
+
+
+class FoundLoop(Model):
+    """An axis' PI loop."""
+
+    kp: float = Field(description="V/rad")
+    ti: float = Field(description="s")
+
+
+class FoundLoops(Model):
+    """Both PI loops."""
+
+    pitch: FoundLoop
+    yaw: FoundLoop
+
+
+class FoundObserver(Model):
+    """The observer: its poles, and what was not free of it."""
+
+    poles: list[Complex]
+    coupling: str
+    lead: str
+
+
+class FoundChanges(Model):
+    """What was free, to be put in the request's place."""
+
+    poles: list[Complex] | None = None
+    rotor_poles: list[Complex] | None = None
+    loops: FoundLoops | None = None
+    coupling: str | None = None
+    lead: str | None = None
+    shift: float | None = None
+    pairing: str | None = None
+    decoupler: bool | None = None
+    observer: FoundObserver | None = None
+    weights: dict[str, dict[str, float]] | None = None
+
+
+class FoundDesign(PresentDesign):
+    """One design."""
+
+    design: FoundChanges
+
+
+class FoundGive(Model):
+    """What one requirement would have to become."""
+
+    requirement: int
+    value: float | None = Field(None, description="left out where nothing was found")
+    text: str
+    by: float | None = Field(None, description="by how much it would have to give")
+    others: bool = Field(description="whether all other requirements are met then")
+    message: str
+
+
+class FoundWhy(Model):
+    """Why nothing meets everything, as far as was seen."""
+
+    requirements: list[int] = Field(description="the smallest set that no design tried meets together")
+    message: str
+    gives: list[FoundGive]
+
+
+class FindReply(Model):
+    """The designs found."""
+
+    done: bool
+    met: bool = Field(description="whether they meet everything; else these are the nearest misses")
+    figures: list[ToldFigure]
+    requirements: list[ToldRequirement]
+    designs: list[FoundDesign]
+    present: PresentDesign | None = Field(None, description="left out where it does not exist")
+    tried: int
+    seconds: float
+    stopped: bool = Field(description="whether the time had run out before all designs were tried")
+    seed: int
+    why: FoundWhy | None = None
+
+
+def part_reply(part: Progress | Designs) -> Reply:
+    """Progress, or the answer."""
+    return progress_reply(part) if isinstance(part, Progress) else find_reply(part)
+
+
+def progress_reply(part: Progress) -> Reply:
+    """How far it is."""
+    points = [row for row in part.points.tolist() if all(map(isfinite, row))]
+    return {
+        "done": False,
+        "tried": part.tried,
+        "designs": part.designs,
+        "seconds": part.seconds,
+        "met": part.met,
+        "points": points,
+    }
+
+
+def find_reply(found: Designs) -> Reply:
+    """The answer."""
+    ask, measures = found.ask, found.measures
+    reply: Reply = {
+        "done": True,
+        "met": found.met,
+        "figures": [_figure(own, minimized=own in ask.minimize) for own in measures],
+        "requirements": [_requirement(own, measures.index(own.measure)) for own in ask.require],
+        "designs": [
+            {"design": changes_of(own.spec, ask.free), **_candidate(own, measures)}
+            for own in found.candidates
+        ],
+        "tried": found.tried,
+        "seconds": found.seconds,
+        "stopped": found.stopped,
+        "seed": ask.seed,
+    }
+    if found.present is not None:
+        reply["present"] = _candidate(found.present, measures)
+    if found.why is not None:
+        reply["why"] = {
+            "requirements": list(found.why.requirements),
+            "message": why_text(found),
+            "gives": [_give(ask.require[own.requirement], own) for own in found.why.gives],
+        }
+    return reply
+
+
+def _figure(measure: Measure, *, minimized: bool) -> Reply:
+    known = MEASURED.get(measure.name)
+    figure = SHARE_FIGURES[measure.name] if known is None else known.figure
+    about = {"title": words_of(measure), "unit": figure.unit, "better": figure.better}
+    return {**told_measure(measure), **about, "minimized": minimized}
+
+
+def _requirement(need: Requirement, figure: int) -> Reply:
+    limits = {name: value for name in ("max", "min", "share") if (value := getattr(need, name)) is not None}
+    return {"figure": figure, **limits, "words": need.words, "limit": need.limit_text}
+
+
+def _candidate(own: Candidate, measures: tuple[Measure, ...]) -> Reply:
+    figures = [
+        {**({"value": value} if isfinite(value) else {}), "text": written(measure, value)}
+        for measure, value in zip(measures, own.values, strict=True)
+    ]
+    required = [
+        {"met": one.met, **({} if one.share is None else {"share": one.share})} for one in own.required
+    ]
+    return {"figures": figures, "required": required, "stable": own.stable, "met": own.met}
+
+
+def _give(need: Requirement, give: Give) -> Reply:
+    text = gives_text(need, give)
+    reply: Reply = {"requirement": give.requirement, "text": text, "others": give.others_met}
+    if give.value is not None:
+        limit = need.share if need.share is not None else need.nearest_limit(give.value)
+        reply |= {"value": give.value, "by": abs(give.value - limit)}
+        rest = "all others are met" if give.others_met else "those that contradict it are met"
+        return reply | {"message": f"{need.words}: {text} in place of {need.limit_text}; then {rest}."}
+    return reply | {"message": f"{need.words}: nothing was found that meets the others."}
+
+
+def changes_of(spec: Spec, free: tuple[Free, ...]) -> Reply:
+    """What was free of a design, as a request says it."""
+    structure, outer = spec.structure, spec.outer
+    every: Mapping[str, Callable[[], Reply]] = {
+        "poles": lambda: {"poles": poles_reply(spec.poles.values)},
+        "rotor_poles": lambda: {"rotor_poles": poles_reply(complex(p) for p in spec.rotor_poles)},
+        "loops": lambda: {"loops": {axis: vars(getattr(outer, axis)) for axis in AXES}},
+        "structure": lambda: {"coupling": structure.coupling, "lead": structure.lead},
+        "shift": lambda: {} if structure.shift is None else {"shift": structure.shift},
+        "pairing": lambda: {"pairing": outer.pairing},
+        "decoupler": lambda: {"decoupler": outer.decoupler},
+        "observer": lambda: {} if spec.observer is None else {"observer": _observer(spec.observer)},
+        "weights": lambda: {} if spec.weights is None else {"weights": _weights(spec.weights)},
+    }
+    return {name: value for own in free for name, value in every[own]().items()}
+
+
+def _observer(own: Observer) -> Reply:
+    return {"poles": poles_reply(own.poles.values), "coupling": own.coupling, "lead": own.lead}
+
+
+def _weights(own: Weights) -> Reply:
+    return {
+        kind: {signal.name: value for signal, value in zip(signals, values, strict=True)}
+        for kind, signals in WEIGHTED.items()
+        if (values := getattr(own, kind))
+    }
