@@ -11,7 +11,8 @@ const FLOORS = [
   ['rigs', 'markdown', 'bodies'],
   ['plots', 'splane', 'scene', 'recordings', 'explore', 'exports', 'panels'],
   ['paper', 'compare', 'rig', 'machine', 'clouds', 'plant', 'labs'],
-  ['optimal', 'wall'],
+  ['finder', 'nearest', 'optimal', 'wall', 'maps', 'tracks'],
+  ['further'],
   ['scorm'],
 ];
 const TOP = ['static/main.js', 'static/class.js', 'static/api_docs.js', 'static/lti/launch.js'];

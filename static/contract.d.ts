@@ -374,6 +374,16 @@ export interface Courses {
   psi: (number | null)[];
 }
 
+/** Where a pole, and its conjugate with it, passes the border of stability. */
+export interface Crossed {
+  /** of the number, in its unit, found to 1e-9 of it */
+  value: number;
+  /** with Im ≥ 0, rad/s or in the z-plane */
+  pole: Complex;
+  /** whether it leaves the stable side as the number grows */
+  outwards: boolean;
+}
+
 /** One response, rad. */
 export interface Curve {
   name: string;
@@ -598,6 +608,112 @@ export interface Figure {
   curves: Curve[];
 }
 
+/** The value by which a requirement is judged. */
+export interface FigureOfMove {
+  /** in the figure's unit; left out where there is none or no limit */
+  value?: number;
+  /** as it is shown */
+  text: string;
+  met: boolean;
+}
+
+/** A figure at each value; where there is none it is 0, and `valid` says so. */
+export interface FigureTrack {
+  measure: string;
+  axis?: string;
+  motor?: string;
+  model?: string;
+  steps?: string;
+  /** what is measured */
+  words: string;
+  unit: string;
+  /** one per value of the number, in `unit` */
+  values: number[];
+  /** whether there is one: not where unstable, not settled or unlimited */
+  valid: boolean[];
+  /** whether it has no limit; left out where that is nowhere */
+  unlimited?: boolean[];
+}
+
+/** How far what is free may go, [least, largest]; what is left out follows from the design. */
+export interface FindBounds {
+  /** size of a pole, rad/s */
+  poles?: [number, number] | null;
+  /** least damping ratio of a complex pair */
+  damping?: number;
+  /** size of a rotor's pole, rad/s */
+  rotor_poles?: [number, number] | null;
+  /** proportional gains, V/rad */
+  kp?: [number, number] | null;
+  /** integral times, s */
+  ti?: [number, number] | null;
+  /** shift c of Luenberger's basis */
+  shift?: [number, number];
+  /** size of an observer's pole, rad/s */
+  observer?: [number, number] | null;
+  /** factors on the present weights */
+  weights?: [number, number];
+}
+
+/** What is free, what is required, and what is made as good as can be. */
+export interface FindOptions {
+  /** what may change */
+  free?:
+    | ('poles' | 'rotor_poles' | 'loops' | 'structure' | 'shift' | 'pairing' | 'decoupler' | 'observer' | 'weights')[];
+  /** by figure its limits, several in a list */
+  require?: Record<string, RequiredFigure | RequiredFigure[]>;
+  /** figures that are made as small as they can be, or as large where more is better */
+  minimize?:
+    | ('rise_time' | 'settling_time' | 'overshoot' | 'undershoot' | 'peak' | 'peak_time' | 'steady_state_error' | 'iae' | 'itae' | 'coupling_peak' | 'V_peak' | 'saturated' | 'effort' | 'gain_margin' | 'gain_reduction_margin' | 'phase_margin' | 'delay_margin' | 'sensitivity_peak' | 'sensitivity_peak_frequency' | 'disk_margin' | 'disk_frequency' | 'disk_gain_low' | 'disk_gain_high' | 'disk_phase' | 'lag_margin' | 'norm' | 'spectral_norm' | 'pole_error' | 'pole_error_bound' | 'eigenvector_condition' | 'lambda_11' | 'share_stable' | 'share_within_limits' | MinimizedFigure)[];
+  /** needed for shares of uncertain rigs */
+  uncertainty?: UncertainRigs | null;
+  bounds?: FindBounds;
+  /** how many are tried, at most; one on uncertain rigs counts as many as there are rigs */
+  designs?: number;
+  /** after which the search ends in any case */
+  seconds?: number;
+  /** the same seed gives the same designs */
+  seed?: number;
+}
+
+/** How far a search is. */
+export interface FindProgress {
+  /** false: more comes */
+  done: boolean;
+  /** of the designs */
+  tried: number;
+  /** the budget */
+  designs: number;
+  seconds: number;
+  /** how many of those tried meet everything */
+  met: number;
+  /** the minimized figures of the best so far, a row per design; those with values alone */
+  points: number[][];
+}
+
+/** The designs found. */
+export interface FindReply {
+  done: boolean;
+  /** whether they meet everything; else these are the nearest misses */
+  met: boolean;
+  figures: ToldFigure[];
+  requirements: ToldRequirement[];
+  designs: FoundDesign[];
+  /** left out where it does not exist */
+  present?: PresentDesign;
+  tried: number;
+  seconds: number;
+  /** whether the time had run out before all designs were tried */
+  stopped: boolean;
+  seed: number;
+  why?: FoundWhy;
+}
+
+/** A design, an experiment, and what is sought around them. */
+export interface FindRequest extends StepRequest {
+  find: FindOptions;
+}
+
 /** A remark on a design or response that is legal but deserves a word. */
 export interface Finding {
   code: string;
@@ -623,6 +739,85 @@ export interface Formula {
   sympy: string;
   latex: string;
   mathml: string;
+}
+
+/** What was free, to be put in the request's place. */
+export interface FoundChanges {
+  poles?: Complex[];
+  rotor_poles?: Complex[];
+  loops?: FoundLoops;
+  coupling?: string;
+  lead?: string;
+  shift?: number;
+  pairing?: string;
+  decoupler?: boolean;
+  observer?: FoundObserver;
+  weights?: Record<string, Record<string, number>>;
+}
+
+/** One design. */
+export interface FoundDesign {
+  figures: FoundFigure[];
+  required: FoundRequirement[];
+  stable: boolean;
+  met: boolean;
+  design: FoundChanges;
+}
+
+/** A figure of one design. */
+export interface FoundFigure {
+  /** left out where there is none, or no limit */
+  value?: number;
+  text: string;
+}
+
+/** What one requirement would have to become. */
+export interface FoundGive {
+  requirement: number;
+  /** left out where nothing was found */
+  value?: number;
+  text: string;
+  /** by how much it would have to give */
+  by?: number;
+  /** whether all other requirements are met then */
+  others: boolean;
+  message: string;
+}
+
+/** An axis' PI loop. */
+export interface FoundLoop {
+  /** V/rad */
+  kp: number;
+  /** s */
+  ti: number;
+}
+
+/** Both PI loops. */
+export interface FoundLoops {
+  pitch: FoundLoop;
+  yaw: FoundLoop;
+}
+
+/** The observer: its poles, and what was not free of it. */
+export interface FoundObserver {
+  poles: Complex[];
+  coupling: string;
+  lead: string;
+}
+
+/** A requirement of one design. */
+export interface FoundRequirement {
+  met: boolean;
+  /** of the uncertain rigs that meet it */
+  share?: number;
+}
+
+/** Why nothing meets everything, as far as was seen. */
+export interface FoundWhy {
+  /** the smallest set that no design tried meets together */
+  requirements: number[];
+  message: string;
+  gives: FoundGive[];
 }
 
 /** L(jω) of the loop opened at one motor's input, the rest closed; the phase without jumps, rad. */
@@ -985,6 +1180,22 @@ export interface LimitChanges {
   theta?: number | null;
 }
 
+/** Limits of one figure, in SI units but for %; one of them at least. */
+export interface LimitedFigure {
+  /** the axis that is stepped; both, the worse one, where left out */
+  axis?: 'theta' | 'psi' | 'both' | null;
+  /** the motor; both, the worse one, where left out */
+  motor?: 'V_p' | 'V_y' | 'both' | null;
+  /** of the response; nonlinear where left out */
+  model?: 'linear' | 'nonlinear' | null;
+  /** alone, each axis by itself, where left out; together, the scenario as it is set */
+  steps?: 'alone' | 'together' | null;
+  /** at most, in the figure's unit */
+  max?: number | null;
+  /** at least, in the figure's unit */
+  min?: number | null;
+}
+
 /** Voltage limits, V, and pitch travel, rad, where it is not free. */
 export interface Limits {
   /** largest voltage of the pitch motor, either way, V */
@@ -1030,6 +1241,102 @@ export interface LoopsChanges {
 export interface LoopsRequest extends StepRequest {
   /** rad/s */
   frequencies: number[];
+}
+
+/** Which two numbers of the design are moved, over which places, and what is measured there. */
+export interface MapAsked {
+  /** its name */
+  measure?:
+    | 'rise_time'
+    | 'settling_time'
+    | 'overshoot'
+    | 'undershoot'
+    | 'peak'
+    | 'peak_time'
+    | 'steady_state_error'
+    | 'iae'
+    | 'itae'
+    | 'coupling_peak'
+    | 'V_peak'
+    | 'saturated'
+    | 'effort'
+    | 'gain_margin'
+    | 'gain_reduction_margin'
+    | 'phase_margin'
+    | 'delay_margin'
+    | 'sensitivity_peak'
+    | 'sensitivity_peak_frequency'
+    | 'disk_margin'
+    | 'disk_frequency'
+    | 'disk_gain_low'
+    | 'disk_gain_high'
+    | 'disk_phase'
+    | 'lag_margin'
+    | 'norm'
+    | 'spectral_norm'
+    | 'pole_error'
+    | 'pole_error_bound'
+    | 'eigenvector_condition'
+    | 'lambda_11'
+    | 'share_stable'
+    | 'share_within_limits';
+  /** the axis that is stepped; both, the worse one, where left out */
+  axis?: 'theta' | 'psi' | 'both' | null;
+  /** the motor; both, the worse one, where left out */
+  motor?: 'V_p' | 'V_y' | 'both' | null;
+  /** of the response; nonlinear where left out */
+  model?: 'linear' | 'nonlinear' | null;
+  /** alone, each axis by itself, where left out; together, the scenario as it is set */
+  steps?: 'alone' | 'together' | null;
+  /** a pair of poles, x ± jy, or k_p (x) and T_i (y) of an axis' PI loop */
+  move: 'pitch-pair' | 'yaw-pair' | 'pitch-pi' | 'yaw-pi';
+  /** [[x first, last], [y first, last]], rad/s, or V/rad and s; around the design where left out */
+  over?: [[number, number], [number, number]] | null;
+  /** places along x and along y */
+  size?: [number, number];
+  /** of a pair: both poles are real, x and y */
+  real?: boolean;
+  /** of gains: log where left out; of poles: linear */
+  scale?: 'linear' | 'log' | null;
+  /** needed for shares of uncertain rigs, and used for them alone */
+  uncertainty?: UncertainRigs | null;
+}
+
+/** A figure at every place; row j of the tables is at y[j]. */
+export interface MapReply {
+  move: 'pitch-pair' | 'yaw-pair' | 'pitch-pi' | 'yaw-pi';
+  real: boolean;
+  scale: 'linear' | 'log';
+  measure: string;
+  axis?: 'theta' | 'psi' | 'both';
+  motor?: 'V_p' | 'V_y' | 'both';
+  model?: 'linear' | 'nonlinear';
+  steps?: 'alone' | 'together';
+  /** the figure and its response in words */
+  title: string;
+  /** of the values; empty of ratios and shares (0 to 1) */
+  unit: string;
+  /** which values are */
+  better: 'lower' | 'higher' | 'none';
+  /** rad/s, or k_p in V/rad */
+  x: number[];
+  /** rad/s, or T_i in s */
+  y: number[];
+  /** 0 where not valid */
+  values: number[][];
+  /** whether the loop is stable and has such a figure */
+  valid: boolean[][];
+  /** whether it has none because there is no limit, which is as good as can be */
+  unlimited: boolean[][];
+  /** whether the loop is stable */
+  stable: boolean[][];
+  /** left out where the design is none of this plane */
+  here?: Place;
+}
+
+/** A design, an experiment, and what is mapped around them. */
+export interface MapRequest extends StepRequest {
+  map: MapAsked;
 }
 
 /** Which column is what, and how its angles become ours. */
@@ -1163,6 +1470,52 @@ export interface Mine {
   platform?: AtPlatform;
 }
 
+/** A figure that is made as good as it can be. */
+export interface MinimizedFigure {
+  /** the axis that is stepped; both, the worse one, where left out */
+  axis?: 'theta' | 'psi' | 'both' | null;
+  /** the motor; both, the worse one, where left out */
+  motor?: 'V_p' | 'V_y' | 'both' | null;
+  /** of the response; nonlinear where left out */
+  model?: 'linear' | 'nonlinear' | null;
+  /** alone, each axis by itself, where left out; together, the scenario as it is set */
+  steps?: 'alone' | 'together' | null;
+  measure:
+    | 'rise_time'
+    | 'settling_time'
+    | 'overshoot'
+    | 'undershoot'
+    | 'peak'
+    | 'peak_time'
+    | 'steady_state_error'
+    | 'iae'
+    | 'itae'
+    | 'coupling_peak'
+    | 'V_peak'
+    | 'saturated'
+    | 'effort'
+    | 'gain_margin'
+    | 'gain_reduction_margin'
+    | 'phase_margin'
+    | 'delay_margin'
+    | 'sensitivity_peak'
+    | 'sensitivity_peak_frequency'
+    | 'disk_margin'
+    | 'disk_frequency'
+    | 'disk_gain_low'
+    | 'disk_gain_high'
+    | 'disk_phase'
+    | 'lag_margin'
+    | 'norm'
+    | 'spectral_norm'
+    | 'pole_error'
+    | 'pole_error_bound'
+    | 'eigenvector_condition'
+    | 'lambda_11'
+    | 'share_stable'
+    | 'share_within_limits';
+}
+
 /** Largest |voltage|, V, share of time at the limit, and effort ∫ (V − V_trim)² dt, V²·s. */
 export interface MotorMetrics {
   /** largest voltage of the motor, trim included, V */
@@ -1174,6 +1527,67 @@ export interface MotorMetrics {
    * cost, V²·s
    */
   effort: number;
+}
+
+/** A design near the one that was asked about. */
+export interface MoveReply {
+  /** what moves */
+  handles: ('pitch-pair' | 'yaw-pair' | 'pitch-pi' | 'yaw-pi')[];
+  /**
+   * root of the squares' sum: each pole by what it moves, as a share of its distance from the origin, each gain and
+   * integral time by the logarithm of its ratio
+   */
+  distance: number;
+  /** what moves where */
+  words: string;
+  design: Moved;
+  /** one of each requirement */
+  figures: FigureOfMove[];
+}
+
+/** Poles and loops of a design that is near. */
+export interface Moved {
+  /** p₁, p₂ (pitch's pair), p₃, p₄ (yaw's), rad/s */
+  poles: Complex[];
+  /** where they are placed, rad/s */
+  rotor_poles?: number[];
+  loops: Loops;
+}
+
+/** What is required, and what may move. */
+export interface NearestAsked {
+  /** by figure its limits, several in a list; none: the loop shall be stable */
+  require: Record<string, LimitedFigure | LimitedFigure[]>;
+  /** what may move: poles, loops, or one pair or one axis' PI; what moves nothing is left out */
+  free?: ('poles' | 'loops' | 'pitch-pair' | 'yaw-pair' | 'pitch-pi' | 'yaw-pi')[];
+  /** how far is near, as the moves' distances */
+  within?: number;
+}
+
+/** The moves, nearest first. */
+export interface NearestReply {
+  /** whether the design meets everything as it is, and is stable */
+  met: boolean;
+  requirements: RequirementTold[];
+  /** what was free and moves something in this design */
+  free: ('pitch-pair' | 'yaw-pair' | 'pitch-pi' | 'yaw-pi')[];
+  /** that meet everything: of all that is free, and of less where that is enough; each is proved by evaluate */
+  moves: MoveReply[];
+  /** where no design near meets everything: the one that misses the least */
+  closest?: MoveReply;
+  /** positions of requirements that no design near has met */
+  out_of_reach: number[];
+  /** in words */
+  summary: string;
+  /** how far was looked */
+  within: number;
+  /** designs that were looked at */
+  tried: number;
+}
+
+/** A design, an experiment, and what is required of them. */
+export interface NearestRequest extends StepRequest {
+  nearest: NearestAsked;
 }
 
 /** A class that was made; its secret is told this once. */
@@ -1437,6 +1851,18 @@ export interface PinnedDesign {
   name: string;
 }
 
+/** Where the design itself stands in the plane, and what it has. */
+export interface Place {
+  /** rad/s, or k_p in V/rad */
+  x: number;
+  /** rad/s, or T_i in s */
+  y: number;
+  /** left out where it has none */
+  value?: number;
+  /** whether it has none because there is no limit */
+  unlimited: boolean;
+}
+
 /** Any system ẋ = Ax + Bu and its desired poles, row by row, in any units. */
 export interface PlaceRequest {
   /** n×n, row by row */
@@ -1498,6 +1924,14 @@ export interface PoleGroup {
   inputs: number[];
   /** positions from 0 */
   poles: number[];
+}
+
+/** The design that was sent. */
+export interface PresentDesign {
+  figures: FoundFigure[];
+  required: FoundRequirement[];
+  stable: boolean;
+  met: boolean;
 }
 
 /** A rig with its source and everything that a design may change. */
@@ -1681,6 +2115,33 @@ export interface Required {
   overshoot?: number | null;
   /** lag margin, at least, s */
   lag?: number | null;
+}
+
+/** Limits of one figure, on the nominal rig and on a share of uncertain ones. */
+export interface RequiredFigure {
+  /** the axis that is stepped; both, the worse one, where left out */
+  axis?: 'theta' | 'psi' | 'both' | null;
+  /** the motor; both, the worse one, where left out */
+  motor?: 'V_p' | 'V_y' | 'both' | null;
+  /** of the response; nonlinear where left out */
+  model?: 'linear' | 'nonlinear' | null;
+  /** alone, each axis by itself, where left out; together, the scenario as it is set */
+  steps?: 'alone' | 'together' | null;
+  /** at most, in the figure's unit */
+  max?: number | null;
+  /** at least, in the figure's unit */
+  min?: number | null;
+  /** least share of the uncertain rigs that meet them, beside the nominal one */
+  share?: number | null;
+}
+
+/** One requirement, and how the design stands to it. */
+export interface RequirementTold {
+  /** the figure and its response */
+  words: string;
+  /** as it is shown */
+  limit: string;
+  now: FigureOfMove;
 }
 
 /** As a step request, and what the reply shall hold besides. */
@@ -2427,6 +2888,206 @@ export interface Term {
 export interface Told {
 }
 
+/** A figure that is told of every design. */
+export interface ToldFigure {
+  measure: string;
+  axis?: 'theta' | 'psi' | 'both';
+  motor?: 'V_p' | 'V_y' | 'both';
+  model?: 'linear' | 'nonlinear';
+  steps?: 'alone' | 'together';
+  title: string;
+  /** empty of ratios and shares, 0 to 1 */
+  unit: string;
+  better: 'lower' | 'higher' | 'none';
+  minimized: boolean;
+}
+
+/** A requirement. */
+export interface ToldRequirement {
+  /** its place among the figures */
+  figure: number;
+  max?: number;
+  min?: number;
+  share?: number;
+  words: string;
+  limit: string;
+}
+
+/** Which number is swept, over what, and what is found along it. */
+export interface TrackOptions {
+  /**
+   * of a number in a request, such as loops.pitch.kp, rotors.pitch.tau, parameters.m, operating_point.theta; or gain,
+   * gain.pitch, gain.yaw (factor on the motors' voltages: 0 opens the loop, 1 is the design), poles.0 to poles.3,
+   * pitch-pair.re, .im, .frequency, .damping (yaw-pair alike), poles.factor, rotors.tau (both)
+   */
+  path?:
+    | 'gain'
+    | 'gain.pitch'
+    | 'gain.yaw'
+    | 'poles.0'
+    | 'poles.1'
+    | 'poles.2'
+    | 'poles.3'
+    | 'pitch-pair.re'
+    | 'pitch-pair.im'
+    | 'pitch-pair.frequency'
+    | 'pitch-pair.damping'
+    | 'yaw-pair.re'
+    | 'yaw-pair.im'
+    | 'yaw-pair.frequency'
+    | 'yaw-pair.damping'
+    | 'poles.factor'
+    | 'rotor_poles.0'
+    | 'rotor_poles.1'
+    | 'rotors.tau'
+    | 'operating_point.theta'
+    | 'parameters.K_pp'
+    | 'parameters.K_py'
+    | 'parameters.K_yp'
+    | 'parameters.K_yy'
+    | 'parameters.J_p'
+    | 'parameters.J_y'
+    | 'parameters.m'
+    | 'parameters.l'
+    | 'parameters.B_p'
+    | 'parameters.B_y'
+    | 'parameters.K_s'
+    | 'parameters.g'
+    | 'limits.V_p'
+    | 'limits.V_y'
+    | 'limits.theta'
+    | 'shift'
+    | 'loops.pitch.kp'
+    | 'loops.pitch.ti'
+    | 'loops.yaw.kp'
+    | 'loops.yaw.ti'
+    | 'rotors.pitch.tau'
+    | 'rotors.pitch.dead_zone'
+    | 'rotors.pitch.matched_at'
+    | 'rotors.yaw.tau'
+    | 'rotors.yaw.dead_zone'
+    | 'rotors.yaw.matched_at'
+    | 'friction.pitch.coulomb'
+    | 'friction.pitch.static'
+    | 'friction.yaw.coulomb'
+    | 'friction.yaw.static'
+    | 'observer.voltage_noise'
+    | 'observer.angle_noise'
+    | 'weights.states.theta'
+    | 'weights.states.psi'
+    | 'weights.states.theta_dot'
+    | 'weights.states.psi_dot'
+    | 'weights.inputs.V_p'
+    | 'weights.inputs.V_y'
+    | 'weights.integrals.theta'
+    | 'weights.integrals.psi'
+    | 'scenario.duration'
+    | 'scenario.tracking_time'
+    | 'scenario.rtol'
+    | 'scenario.reference.theta'
+    | 'scenario.reference.psi'
+    | 'scenario.initial.theta'
+    | 'scenario.initial.psi'
+    | 'scenario.initial.theta_dot'
+    | 'scenario.initial.psi_dot'
+    | 'scenario.noise.theta'
+    | 'scenario.noise.psi'
+    | 'scenario.digital.sample_time'
+    | 'scenario.digital.noise'
+    | 'scenario.disturbance.V_p'
+    | 'scenario.disturbance.V_y'
+    | 'scenario.disturbance.time';
+  /** lowest and highest value, in the number's unit; by default around its present one */
+  over?: [number, number] | null;
+  /** values asked for; more are added where poles move fast or meet */
+  points?: number;
+  /** even steps, or equal factors */
+  scale?: 'linear' | 'log';
+  /** the gains stay and only the rig changes; else each value has a design of its own */
+  kept?: boolean;
+  /** figures that are found at each value */
+  measures?: TrackedFigure[];
+}
+
+/** Poles of the whole loop and figures over one number. */
+export interface TrackReply {
+  path: string;
+  meaning: string;
+  unit: string;
+  symbol?: string;
+  /** the design's own value; left out where it has none */
+  now?: number;
+  /** least value that the number may have */
+  low?: number;
+  /** largest one */
+  high?: number;
+  /** z where sample times are swept: s = ln z/Ts */
+  plane: 's' | 'z';
+  /** ascending, those of which there is a loop */
+  values: number[];
+  /** positions in `values` at which a stretch without gaps begins */
+  starts: number[];
+  /** per pole its course over `values`, rad/s or in the z-plane */
+  poles: Complex[][];
+  /** one per value */
+  stable: boolean[];
+  /** of the border of stability, by value */
+  crossings: Crossed[];
+  /** where branches end as a gain grows without limit, rad/s */
+  zeros: Complex[];
+  /** in the order of the request's measures */
+  figures: FigureTrack[];
+}
+
+/** A design with its experiment, and the number that is swept. */
+export interface TrackRequest extends StepRequest {
+  track?: TrackOptions;
+}
+
+/** A figure of merit, and of which response. */
+export interface TrackedFigure {
+  measure:
+    | 'rise_time'
+    | 'settling_time'
+    | 'overshoot'
+    | 'undershoot'
+    | 'peak'
+    | 'peak_time'
+    | 'steady_state_error'
+    | 'iae'
+    | 'itae'
+    | 'coupling_peak'
+    | 'V_peak'
+    | 'saturated'
+    | 'effort'
+    | 'gain_margin'
+    | 'gain_reduction_margin'
+    | 'phase_margin'
+    | 'delay_margin'
+    | 'sensitivity_peak'
+    | 'sensitivity_peak_frequency'
+    | 'disk_margin'
+    | 'disk_frequency'
+    | 'disk_gain_low'
+    | 'disk_gain_high'
+    | 'disk_phase'
+    | 'lag_margin'
+    | 'norm'
+    | 'spectral_norm'
+    | 'pole_error'
+    | 'pole_error_bound'
+    | 'eigenvector_condition'
+    | 'lambda_11';
+  /** the axis that is stepped; both: the worse of them */
+  axis?: 'theta' | 'psi' | 'both' | null;
+  /** the motor; both: the worse of them */
+  motor?: 'V_p' | 'V_y' | 'both' | null;
+  /** of the response */
+  model?: 'linear' | 'nonlinear';
+  /** each axis by itself, or the scenario as it is set */
+  steps?: 'alone' | 'together';
+}
+
 /** A formula in two notations. */
 export interface Typeset {
   latex: string;
@@ -2438,6 +3099,18 @@ export interface Unavailable {
   code: string;
   detail: string;
   hint?: string;
+}
+
+/** How far the rigs may differ from the nominal one, where other calls put designs on them. */
+export interface UncertainRigs {
+  /** of the parameters */
+  distribution?: 'uniform' | 'normal';
+  /** how many rigs */
+  samples?: number;
+  /** of the random rigs */
+  seed?: number;
+  /** relative, per parameter and per rotor's lag; by default 0.1 for all parameters but g */
+  spread?: Record<string, number> | null;
 }
 
 /** Motor voltages, V. */

@@ -8,7 +8,7 @@ import { isView, requestOf, Store } from './model/index.js';
 import { backoff, getMethods, getPresets, Live } from './net/index.js';
 import { byId, isolated, projectorWanted, readyToCopy, recall, Stats, Turns, watched } from './ui/index.js';
 import { Address, LockedControls, PinKeeper } from './link/index.js';
-import { draughtsman, Plots } from './plots/index.js';
+import { Plots } from './plots/index.js';
 import { SPlane } from './splane/index.js';
 import { SceneSharing, SceneView } from './scene/index.js';
 import {
@@ -69,7 +69,10 @@ const parts = [
 const views = { plane: drawn([plane]), figures: parts.map(drawn) };
 const sides = new ViewSwitch(address);
 /** @type {import('./clouds/index.js').Clouds|null} drawn in every frame, once it is loaded */ let clouds = null;
-let drawClouds = (/** @type {State} */ _state) => {};
+/** @type {import('./maps/index.js').Maps|null} */ let maps = null;
+/** @type {import('./kernel/index.js').Designs|null} */ let designs = null;
+/** Of the present design, whatever is looked at. */
+let [drawClouds, drawFinder] = [(/** @type {State} */ _state) => {}, (/** @type {State} */ _state) => {}];
 const turns = new Turns();
 const locked = new LockedControls(document.body);
 
@@ -130,15 +133,16 @@ function render() {
   const begin = performance.now();
   own?.frame();
   scheduled = false;
-  const { state } = store;
+  const { state, shown } = store; // what is, and what is seen of it
   // each says again which of its controls can be used
   if (locked.release(state)) for (const view of [views.plane, ...views.figures]) view.forget();
   sides.render(state);
   if (state.view === 'explore') explore();
   drawClouds(state);
-  views.plane(state);
-  const plotted = drawPlots(state);
-  turns.take(state, views.figures, { busy: plotted === true, again: schedule });
+  drawFinder(state);
+  views.plane(shown);
+  const plotted = drawPlots(shown);
+  turns.take(shown, views.figures, { busy: plotted === true, again: schedule });
   for (const always of lookers) always(state);
   if (!plotted) return;
   const now = performance.now();
@@ -229,27 +233,35 @@ function styles(name) {
 
 /** The page's own numbers; where a browser cannot have them, the server goes on alone. */
 async function computeHere() {
-  const { compiled, instantiated, loadRigs, MODULE, Own, Updates } = await fetched(() => import('./kernel/index.js'));
+  const { compiled, instantiated, loadDesigns, loadRigs, MODULE, Own, Updates } = await fetched(
+    () => import('./kernel/index.js'),
+  );
   const module = await compiled(await fetched(() => fetch(MODULE)));
   own = new Own(store, new Updates(await instantiated(module)), ask).watch(window);
   document.documentElement.dataset.kernel = 'ready';
   clouds?.take(await fetched(() => loadRigs(module)));
   document.documentElement.dataset.rigs = 'ready';
+  designs = await fetched(() => loadDesigns(module));
+  maps?.take(designs);
+  document.documentElement.dataset.designs = 'ready';
 }
 
 /** Panels that the first view does not need, fetched when it is there. */
 async function furtherDown() {
-  const [{ LagPaths, MeasuredPart, RotorPoles }, { Clouds }, { Optimal }] = await fetched(() =>
+  const [{ LagPaths, MeasuredPart, RotorPoles }, { Clouds }, { Optimal }, { Maps }] = await fetched(() =>
     Promise.all([
       import('./machine/index.js'),
       import('./clouds/index.js'),
       import('./optimal/index.js'),
-      ...['compare', 'optimal'].map(styles),
+      import('./maps/index.js'),
+      ...['compare', 'optimal', 'maps'].map(styles),
       readyToCopy(),
     ]),
   );
   clouds = new Clouds(plane, store);
-  drawClouds = drawn([clouds]);
+  maps = new Maps(plane, byId('loops'), store);
+  const each = [clouds, maps].map((part) => drawn([part]));
+  drawClouds = (state) => each.forEach((draw) => draw(state)); // the cloud first: its worker computes meanwhile
   views.figures.unshift(
     drawn([new RotorPoles(byId('poles'), store), byId('poles')]),
     drawn([new MeasuredPart(experiment.body, store), byId('scenario')]),
@@ -257,44 +269,32 @@ async function furtherDown() {
     drawn([new Optimal(plane, byId('poles'), store)]),
   );
   schedule();
-  computeHere().catch(console.warn);
-  const [{ exportMenu }, compare, { RigPanel }, { RecordingsPanel }, paper, { OwnRigs }] = await fetched(() =>
-    Promise.all([
-      import('./exports/index.js'),
-      import('./compare/index.js'),
-      import('./rig/index.js'),
-      import('./recordings/index.js'),
-      import('./paper/index.js'),
-      import('./rigs/index.js'),
-      draughtsman(),
-      ...['recordings', 'rigs', 'paper', 'math'].map(styles),
-    ]),
-  );
-  byId('exports').replaceChildren(exportMenu(store, address));
-  await paper.formulaFont(); // before any formula is drawn, so that none moves
-  views.figures.unshift(
-    drawn([new compare.PinsPanel(byId('pins'), store), byId('pins')]),
-    drawn([new compare.ComparePanel(byId('compare'), store), byId('compare')]),
-    drawn([new RigPanel(byId('rig'), store), byId('rig')]),
-    drawn([new RecordingsPanel(byId('recordings'), store, plots), byId('recordings')]),
-    drawn([new paper.FormulasPanel(byId('formulas'), store), byId('formulas')]),
-    drawn([new paper.PaperPanel(byId('paper'), store), byId('paper')]),
-    drawn([new OwnRigs(byId('own-rigs'), store)]),
-  );
+  computeHere().catch((why) => {
+    console.warn(why);
+    maps?.take(null);
+  });
+  const { further } = await fetched(() => import('./further/index.js'));
+  const reply = (/** @type {import('./types.js').Design} */ design) => own?.replyTo(design);
+  const finder = await further({ store, address, plane, plots, reply, pool: () => designs }, { fetched, styles, show });
+  drawFinder = drawn([finder, byId('find')]);
   schedule();
-  const [{ PlantPanel }] = await fetched(() => Promise.all([import('./plant/index.js'), styles('plant')]));
-  views.figures.unshift(drawn([new PlantPanel(byId('plant'), store), byId('plant')]));
+}
+
+/** Parts that have come. @param {[Part, HTMLElement?][]} late */
+function show(late) {
+  views.figures.unshift(...late.map(drawn));
   schedule();
 }
 
 /** The design and its key results in one attribute, for tests and scripts. @param {State} state */
 function publish(state) {
-  const { design, reply, problem, connection, motion, dragging, locks, notice, pins: pinned } = state;
+  const { design, reply, problem, connection, motion, dragging, locks, notice, preview, pins: pinned } = state;
   document.documentElement.dataset.state = JSON.stringify({
     ...design,
     connection,
     motion,
     dragging,
+    preview: preview !== null,
     seq,
     answered: reply?.seq ?? null,
     settled: reply?.seq === seq && !problem,

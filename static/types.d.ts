@@ -3,6 +3,7 @@
  */
 import type * as contract from './contract.js';
 import type { Angles, BothModels, Complex, Evaluation, ScenarioChanges } from './contract.js';
+import type { Goal } from './labs/shapes.js';
 
 export type {
   AxisMetrics,
@@ -22,7 +23,7 @@ export type Poles = [Complex, Complex, Complex, Complex];
 export type Axis = keyof Angles;
 export type Motor = keyof contract.Voltages;
 export type Motion = Axis | 'both';
-export type View = 'explore' | 'design' | 'compare' | 'rig' | 'plant' | 'derivation';
+export type View = 'explore' | 'design' | 'find' | 'compare' | 'rig' | 'plant' | 'derivation';
 export type Connection = 'connecting' | 'open' | 'lost';
 /** Numbers over time: of the live socket, a view on its frame. */
 export type Series = ArrayLike<number>;
@@ -140,6 +141,15 @@ export interface Requirements {
   lag: number | null;
 }
 
+/** A design that is shown without being the present one: no edit, in no link, and gone with the next edit. */
+export interface Previewed {
+  design: Design;
+  /** null until its numbers are there */
+  reply: Reply | null;
+  /** the design that the reply's words are about */
+  heard: Design | null;
+}
+
 /** A design that is kept for comparison; its reply is missing until the server has given one. */
 export interface Pin {
   id: number;
@@ -235,6 +245,10 @@ export interface State {
   /** relative uncertainty of the rigs in the cloud; 0: no cloud */
   spread: number;
   cloud: Cloud | null;
+  /** which map is shown, as a link has it (maps/choices.js) */
+  map: string | null;
+  /** which number is swept, as a link has it (tracks/numbers.js) */
+  track: string | null;
   presets: Preset[];
   methods: contract.Method[];
   design: Design | null;
@@ -246,6 +260,10 @@ export interface State {
   /** how often the server's numbers differed from the page's own */
   differences: number;
   problem: Problem | null;
+  /** a design that is shown in place of the present one while the pointer is on it */
+  preview: Previewed | null;
+  /** what the finder is asked for, as a link has it (finder/link_text.js); null: what it proposes */
+  find: string | null;
   connection: Connection;
   motion: Motion;
   showLinear: boolean;
@@ -259,8 +277,8 @@ export interface State {
   pins: Pin[];
   /** names in locks.js */
   locks: string[];
-  /** what the step of a lab leaves free of these, and what it keeps back; its locks are not a link's */
-  task: { free: Lock[]; hidden: string[] } | null;
+  /** what the step of a lab leaves free of these, what it keeps back, and its goals; its locks are not a link's */
+  task: { free: Lock[]; hidden: string[]; goals?: Goal[] } | null;
   /** any system, as a link has it (plant/link_text.js) */
   plant: string | null;
   plantPins: PlantPin[];

@@ -29,8 +29,8 @@ export class Clouds {
   /** @param {State} state */
   render(state) {
     this.feed.render(state); // first: others compute meanwhile
-    const { design, spread, cloud } = state;
-    this.#cloud = spread ? cloud : null;
+    const { design, spread, cloud, preview } = state;
+    this.#cloud = spread && !preview ? cloud : null; // it is of the present design
     this.#draw();
     setText(this.words, cloudWords(this.#cloud, design?.scenario));
   }

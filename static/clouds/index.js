@@ -1,2 +1,3 @@
 /** What other rooms may import of clouds/. */
 export { Clouds } from './clouds.js';
+export { uncertain } from './feed.js';

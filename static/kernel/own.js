@@ -123,6 +123,11 @@ export class Own {
     if (this.#held && !this.store.busy) this.#askNow();
   }
 
+  /** What a design would come to that nobody has chosen. @param {Design} design @returns {Reply|null} */
+  replyTo(design) {
+    return this.#serves(design) ? this.#attempt(design) : null;
+  }
+
   /** @param {Design} design */
   #attempt(design) {
     try {

@@ -7,11 +7,23 @@
  *   {id: number, task: import('./many.js').Task, module?: undefined}} Asked
  * @typedef {{ready?: true, id?: number, cloud?: Cloud|null, problem?: string}} Told
  */
+import { lagOf } from '../model/index.js';
 import { AT, PARAMETERS } from './layout.js';
 import { fill, serves, sizeOf } from './numbers.js';
 
 /** In the order of the kernel's factors. */
 const UNCERTAIN = [...PARAMETERS, 'tau_p', 'tau_y'];
+
+/**
+ * Half widths in the kernel's order: of every parameter but g, and of each rotor that lags.
+ * @param {Design} design @param {Preset} preset @param {number} spread  relative
+ */
+export const spreadsOf = (design, preset, spread) =>
+  UNCERTAIN.map((name) => {
+    if (name === 'tau_p' || name === 'tau_y')
+      return lagOf(design, preset, name === 'tau_p' ? 'pitch' : 'yaw') > 0 ? spread : 0;
+    return name !== 'g' && name in preset.parameters ? spread : 0;
+  });
 
 /**
  * @param {WebAssembly.Module} module

@@ -180,7 +180,7 @@ export class LabPanel {
       this.store.load(design);
       this.store.set({
         locks,
-        task: { free, hidden },
+        task: { free, hidden, goals: step.goals },
         notice: null,
         view: step.view ?? 'design',
         motion: 'both',

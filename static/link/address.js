@@ -43,9 +43,12 @@ const held = (s) => [
   s.showMarks,
   s.showLag,
   s.spread,
+  s.map,
+  s.track,
   s.requirements,
   s.locks,
   s.plant,
+  s.find,
   pinKey(s.pins),
   s.plantPins.map((p) => p.id).join(),
 ];

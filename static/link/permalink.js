@@ -5,9 +5,10 @@
  * Written is what differs from the preset's proposal. `p`: the four poles, `q`: the observer's. `pi`: k_p, T_i of
  * pitch, k_p, T_i of yaw. `rig`: the name of a rig of one's own; `set.…`: parameters; `limits.…`; `step.…`: references;
  * other fields of the design under their dotted path, an empty value where one is gone. `motion`, `linear`, `marks`,
- * `lag`, `spread`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts parted by `~`.
- * `plant`: any system; `plant.pin`: another that is kept, by what differs from it. `view`: the view, `at`: the place on
- * the page. A part that cannot be read is named and left out; the rest is restored.
+ * `lag`, `spread`, `map`, `track`, `req.…`: what is shown. `lock`: what is locked. `pin`: a pinned design, its parts
+ * parted by `~`. `find`: what the finder is asked for. `plant`: any system; `plant.pin`: another that is kept, by what
+ * differs from it. `view`: the view, `at`: the place on the page. A part that cannot be read is named and left out; the
+ * rest is restored.
  *
  * The format is part of the page's contract: a change that an old reader would misread takes a new version, and the
  * reader of the old one stays.
@@ -17,8 +18,8 @@
  * @typedef {import('./link_values.js').Leaf} Leaf
  * @typedef {{part: string, why: string}} Trouble
  * @typedef {{index: number, name: string, design: Design}} PinnedDesign
- * @typedef {Pick<State, 'view'|'motion'|'showLinear'|'showMarks'|'showLag'|'spread'|'requirements'|'locks'> &
- *   Partial<Pick<State, 'plant'>>} Shown
+ * @typedef {Pick<State, 'view'|'motion'|'showLinear'|'showMarks'|'showLag'|'spread'|'map'|'track'|'requirements'|
+ *   'locks'> & Partial<Pick<State, 'plant'|'find'>>} Shown
  * @typedef {{index: number, plant: string}} PinnedPlant
  * @typedef {{design?: Design, shown?: Shown, pins?: PinnedDesign[], plantPins?: PinnedPlant[], place?: string,
  *   trouble: Trouble[]}} Link
@@ -102,7 +103,22 @@ const joined = (parts, separator) => parts.map(([key, text]) => `${key}=${escape
  * @returns {string} with its #; empty while there is no design
  */
 export function linkOf(state, { presets }, place = null, most = MOST) {
-  const { design, view, motion, showLinear, showMarks, showLag, spread, requirements, locks, plant, task } = state;
+  const {
+    design,
+    view,
+    motion,
+    showLinear,
+    showMarks,
+    showLag,
+    spread,
+    map,
+    track,
+    requirements,
+    locks,
+    plant,
+    task,
+    find,
+  } = state;
   if (!design) return '';
   const parts = designParts(design, presets);
   if (motion !== 'both') parts.push(['motion', motion]);
@@ -110,8 +126,11 @@ export function linkOf(state, { presets }, place = null, most = MOST) {
   if (!showMarks) parts.push(['marks', 'false']);
   if (showLag !== null) parts.push(['lag', String(showLag)]);
   if (spread) parts.push(['spread', String(spread)]);
+  if (map) parts.push(['map', map]);
+  if (track) parts.push(['track', track]);
   for (const [path, text] of differences(requirements, NONE)) parts.push([`req.${path}`, text]);
   if (locks.length && !task) parts.push(['lock', locks.join()]);
+  if (find) parts.push(['find', find]);
   if (plant) parts.push(['plant', plant]);
   if (view !== STANDARD_VIEW) parts.push(['view', view]);
   if (place) parts.push(['at', place]);
@@ -234,8 +253,11 @@ function readFirst(body, known) {
     showMarks: true,
     showLag: null,
     spread: 0,
+    map: null,
+    track: null,
     requirements: NONE,
     locks: [],
+    find: null,
   };
   /** @type {[string, string][]} */ const design = [];
   /** @type {PinnedDesign[]} */ const pins = [];
@@ -256,11 +278,14 @@ function readFirst(body, known) {
     else if (key === 'lag') shown.showLag = value !== 'false';
     else if (key === 'spread')
       Number(value) >= 0 && Number(value) <= 0.5 ? (shown.spread = Number(value)) : refuse('not between 0 and 0.5');
+    else if (key === 'map') /^[\w,-]{1,60}$/.test(value) ? (shown.map = value) : refuse('no map of this page');
+    else if (key === 'track') /^[\w.,+-]{1,90}$/.test(value) ? (shown.track = value) : refuse('no track of this page');
     else if (key === 'lock') {
       shown.locks = value.split(',').filter((name) => Object.hasOwn(LOCKS, name));
       for (const name of value.split(','))
         if (!Object.hasOwn(LOCKS, name)) refuse(`“${name}” is nothing that can be locked`);
     } else if (key === 'plant') shown.plant = value;
+    else if (key === 'find') shown.find = value;
     else if (key === 'at') place = value;
     else if (key === 'view') isView(value) ? (view = value) : refuse('no view of this page');
     else if (key.startsWith('req.')) {

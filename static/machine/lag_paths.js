@@ -48,8 +48,10 @@ export class LagPaths {
 
   /** @param {State} state */
   render(state) {
-    const { design, heard, problem, dragging, connection } = state;
-    if (!design) return;
+    const { design, heard, problem, dragging, connection, preview } = state;
+    setAttr(this.layer, 'visibility', preview ? 'hidden' : 'visible'); // it is the present design's
+    this.words.hidden = preview !== null;
+    if (!design || preview) return;
     const shown = isShown(state);
     setAttr(this.toggle, 'aria-pressed', String(shown));
     const key = shown ? JSON.stringify(asked(design)) : '';

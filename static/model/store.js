@@ -21,6 +21,7 @@ import { FULL_RANK } from './methods.js';
 import { letterOf } from './pins.js';
 import { MOST_PLANTS, samePlant } from './plant_pins.js';
 import { fromWire } from './poles.js';
+import { shownOf } from './preview.js';
 import { OUTER, ROTORS, STRUCTURE } from './quantities.js';
 import { NONE } from './requirements.js';
 import { STANDARD_VIEW } from './views.js';
@@ -36,6 +37,8 @@ export const initialState = () => ({
   heard: null,
   differences: 0,
   problem: null,
+  preview: null,
+  find: null,
   connection: 'connecting',
   motion: 'both',
   showLinear: true,
@@ -43,6 +46,8 @@ export const initialState = () => ({
   showLag: null,
   dragging: false,
   spread: 0,
+  map: null,
+  track: null,
   cloud: null,
   requirements: NONE,
   canUndo: false,
@@ -150,9 +155,16 @@ export class Store extends EventTarget {
   /** @type {State} */ state = initialState();
   /** @type {History<Design>} */ #designs = new History();
   /** @type {History<string|null>} */ #plants = new History();
+  /** @type {[state: State, as: State]|null} */ #shown = null;
   #pinned = 0;
   /** Counts the steps of undo: the edits of one gesture share a number. */
   step = 0;
+
+  /** The state as it is drawn: perhaps with a design that is only previewed. */
+  get shown() {
+    if (this.#shown?.[0] !== this.state) this.#shown = [this.state, shownOf(this.state)];
+    return this.#shown[1];
+  }
 
   /** What a step back goes back in: a plant is seen in a view of its own. @param {Partial<State>} [part] */
   #history({ view = this.state.view } = {}) {
@@ -162,7 +174,8 @@ export class Store extends EventTarget {
   /** Changes what is not the design. @param {Partial<State>} part */
   set(part) {
     const { canUndo, canRedo } = this.#history(part);
-    this.state = { ...this.state, ...part, ...motionIn(this.state, part), canUndo, canRedo };
+    const elsewhere = part.view && part.view !== this.state.view && { preview: null };
+    this.state = { ...this.state, ...part, ...elsewhere, ...motionIn(this.state, part), canUndo, canRedo };
     this.dispatchEvent(new Event('change'));
   }
 
@@ -238,14 +251,14 @@ export class Store extends EventTarget {
   /** @param {Design} design @param {number} [stamp] */
   #put(design, stamp) {
     const { canUndo, canRedo } = this.#history();
-    this.state = { ...this.state, design, canUndo, canRedo };
+    this.state = { ...this.state, design, preview: null, canUndo, canRedo };
     this.dispatchEvent(new CustomEvent('design', { detail: { stamp } }));
     this.dispatchEvent(new Event('change'));
   }
 
-  /** Keeps the present design beside those that follow. */
-  pin() {
-    const { design, reply, heard, pins } = this.state;
+  /** Keeps a design beside those that follow. @param {Design|null} [design] */
+  pin(design = this.state.design) {
+    const { reply, heard, pins } = this.state;
     if (!design) return;
     const index = [...pins.keys(), pins.length].find((i) => pins.every((p) => p.index !== i)) ?? pins.length;
     this.addPins([{ index, name: `Design ${letterOf(index)}`, design, reply: heard === design ? reply : null }]);

@@ -216,6 +216,7 @@ export const liveSocket = (url = at('api/v1/live')) => new WebSocket(socketAddre
 /** @param {string} id of a session */
 export const hubAddress = (id) => socketAddress(sceneAt(id, 'hub?page=true'));
 export const identifyAddress = () => socketAddress(at('api/v1/recordings/identify'));
+export const findAddress = () => socketAddress(at('api/v1/find'));
 export const cloudAddress = () => socketAddress(at('api/v1/robustness'));
 
 /**

@@ -7,6 +7,7 @@ export {
   evaluateDesign,
   exportDesign,
   fileOf,
+  findAddress,
   getMethods,
   getPaper,
   getPresets,

@@ -47,6 +47,7 @@ export {
   nobody as suggestLoops,
   nobody as walkThrough,
   nowhere as cloudAddress,
+  nowhere as findAddress,
   nowhere as hubAddress,
   nowhere as identifyAddress,
   nowhere as Live,

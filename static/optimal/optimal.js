@@ -5,7 +5,7 @@
  * @typedef {import('../types.js').Complex} Complex
  */
 import { placesPoles, presetOf } from '../model/index.js';
-import { h } from '../ui/index.js';
+import { h, setAttr } from '../ui/index.js';
 import { Locus } from './locus.js';
 import { OwnMarks, sampleOf } from './marks.js';
 import { WeightsPanel } from './panel.js';
@@ -43,7 +43,7 @@ export class Optimal {
 
   /** @param {boolean} fresh whether the view changed */
   #draw(fresh) {
-    const { state } = this.store;
+    const state = this.store.shown;
     this.locus.draw(fresh);
     const [optimal, kalman] = [optimalPoles(state), kalmanPoles(state)];
     this.optimal.draw(optimal, fresh);
@@ -55,13 +55,14 @@ export class Optimal {
 
   /** @param {State} state */
   render(state) {
-    const { design, problem, connection } = state;
+    const { design, problem, connection, preview } = state;
     const preset = presetOf(state);
     if (!design || !preset) return;
     const weighted = isWeighted(state);
     this.root.classList.toggle('weighted', weighted);
     this.panel.render(state, weighted);
-    if (connection !== 'lost')
+    setAttr(this.locus.layer, 'visibility', preview ? 'hidden' : 'visible'); // it is the present design's
+    if (connection !== 'lost' && !preview)
       this.locus.ask(weighted && !problem && this.panel.showsLocus ? locusBody(design, preset) : null);
     this.#draw(false);
   }

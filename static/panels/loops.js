@@ -184,7 +184,7 @@ export class LoopsPanel {
         ti.setRange({ min: Math.min(0.01, preset.loops[axis].ti / 10), max: Math.max(5, preset.loops[axis].ti * 5) });
       }
     }
-    const off = design.outer === 'none' || bringsIntegralAction(this.store.state);
+    const off = design.outer === 'none' || bringsIntegralAction(this.store.shown);
     this.outer.set(design.outer);
     for (const { axis, kp, ti, node } of this.axes) {
       kp.set(design.loops[axis].kp);

@@ -94,7 +94,7 @@ export class Plots {
     const menu = plotMenu(this.store, signal, `${about.title} over time`, () => ({
       x: this.#zoom ?? this.#time,
       y: this.#ranges[signal] ?? [0, 1],
-      rules: rulesOf(this.store.state.reply, signal),
+      rules: rulesOf(this.store.shown.reply, signal),
       regions: regions(),
       marks: this.#marks(signal),
     }));
@@ -117,8 +117,8 @@ export class Plots {
       body,
     );
     this.root.append(figure);
-    const rules = () => rulesOf(this.store.state.reply, signal);
-    const regions = () => regionsOf(this.store.state.reply, signal, this.store.state.requirements);
+    const rules = () => rulesOf(this.store.shown.reply, signal);
+    const regions = () => regionsOf(this.store.shown.reply, signal, this.store.shown.requirements);
     const line = (/** @type {string} */ color, /** @type {number} */ width, /** @type {number[]} */ dash = []) => ({
       color,
       width,
@@ -239,7 +239,7 @@ export class Plots {
 
   /** @param {Signal} signal */
   #marks(signal) {
-    const { reply, showMarks } = this.store.state;
+    const { reply, showMarks } = this.store.shown;
     return showMarks ? marksOf(reply, signal, this.alone) : [];
   }
 

@@ -103,7 +103,7 @@ export class SceneView {
     this.controls = new SceneControls({
       onCamera: (camera) => this.player.setCamera(camera),
       onReset: () => this.player.resetCamera(),
-      onFlights: () => this.#fly(store.state),
+      onFlights: () => this.#fly(store.shown),
       onSeen: () => this.#state(this.#last),
     });
     root.append(
@@ -136,7 +136,7 @@ export class SceneView {
     const tell = () => {
       this.player.setTheme(dark.matches);
       this.#flown = [];
-      this.#fly(this.store.state);
+      this.#fly(this.store.shown);
     };
     dark.addEventListener('change', tell);
     tell();

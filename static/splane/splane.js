@@ -127,7 +127,7 @@ export class SPlane {
     const held = this.gestures.held;
     if (index === this.#active || (held !== null && index !== held)) return;
     this.#active = index;
-    this.readout.draw(this.store.state, index, this.view, this.unit, this.#target());
+    this.readout.draw(this.store.shown, index, this.view, this.unit, this.#target());
     this.#link(true);
   };
 
@@ -135,10 +135,10 @@ export class SPlane {
   look = (/** @type {import('./math.js').View} */ view) => {
     this.#manual = true;
     this.view = view;
-    this.#draw(this.store.state);
+    this.#draw(this.store.shown);
   };
 
-  fit = (state = this.store.state) => {
+  fit = (state = this.store.shown) => {
     const { design, reply } = state;
     if (!design || !this.view.width) return;
     this.#manual = false;
@@ -193,8 +193,8 @@ export class SPlane {
 
   /** Where the PI loops take the pole in question; of what is shown last, as all figures are. */
   #target() {
-    const { reply, answered } = this.store.state;
-    if (this.#active === null || !placesPoles(this.store.state)) return undefined;
+    const { reply, answered } = this.store.shown;
+    if (this.#active === null || !placesPoles(this.store.shown)) return undefined;
     if (reply !== this.#solved) [this.#solved, this.#paths] = [reply, loopPaths(reply, answered)];
     return this.#paths?.[this.#active]?.at(-1);
   }

@@ -102,7 +102,10 @@ function generator(seed) {
     showLinear: chance(0.7),
     showMarks: chance(0.7),
     spread: pick([0, 0.05, 0.2]),
+    map: pick([null, 'overshoot', 'settling_time,both,linear,yaw-pair']),
+    track: pick([null, 'gain', 'loops.pitch.kp,1,1e+2,log']),
     requirements: { settling: pick([null, 1.5]), overshoot: pick([null, 10]), lag: pick([null, 0.2]) },
+    find: pick([null, 'settling_time:theta:max:0.8:better::V_peak:linear::free:poles,loops']),
     showLag: pick([null, true, false]),
     locks: Object.keys(LOCKS).filter(() => chance(0.3)),
     pins: Array.from({ length: chance(0.5) ? 0 : 3 }, (_, i) => ({
@@ -116,13 +119,16 @@ function generator(seed) {
   return { state, pick, random };
 }
 
-const shownOf = ({ view, motion, showLinear, showMarks, showLag, spread, requirements, locks }) => ({
+const shownOf = ({ view, motion, showLinear, showMarks, showLag, spread, map, track, find, requirements, locks }) => ({
   view,
   motion,
   showLinear,
   showMarks,
   showLag,
   spread,
+  map,
+  track,
+  find,
   requirements,
   locks,
 });
@@ -179,7 +185,8 @@ test('links of version 1 open as they did', () => {
     assert.deepEqual(read.trouble, []);
     assert.deepEqual(read.design, designOf(preset, design));
     const view = place ? 'derivation' : 'design'; // there was one page then; the places named are in the paper
-    if (shown) assert.deepEqual(read.shown, { view, requirements: NONE, showMarks: true, showLag: null, ...shown });
+    const later = { showMarks: true, showLag: null, map: null, track: null, find: null }; // younger than those links
+    if (shown) assert.deepEqual(read.shown, { view, requirements: NONE, ...later, ...shown });
     assert.equal(read.place, place);
     if (pins)
       assert.deepEqual(

@@ -1,0 +1,2 @@
+/** What other rooms may import of finder/. */
+export { Finder } from './finder.js';

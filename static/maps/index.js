@@ -1,0 +1,2 @@
+/** What other rooms may import of maps/. */
+export { Maps } from './maps.js';

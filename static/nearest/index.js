@@ -1,0 +1,2 @@
+/** What other rooms may import of nearest/. */
+export { Nearest } from './nearest.js';

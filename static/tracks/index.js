@@ -1,0 +1,2 @@
+/** What other rooms may import of tracks/. */
+export { Tracks } from './tracks.js';
