@@ -85,12 +85,14 @@ wasm: $(VENV)/.tools ## make static/kernel/kernels.wasm and its table anew, from
 	@command -v wasm-ld >/dev/null || $(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt '.[wasm]'
 	$(BIN)/python -m wasm
 
-screenshot: $(VENV)/.tools browser ## take docs/screenshot.png and docs/wall.png anew
+screenshot: $(VENV)/.tools browser ## take docs/screenshot.png and docs/wall.png anew, draw docs/map.svg
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.screenshot docs/screenshot.png
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.wall_screenshot docs/wall.png
+	$(BIN)/python -m app map --poles=-12,-10,-6±3j --move yaw-pair --axis psi --force -o docs/map.svg
 
 bench: $(VENV)/.tools ## time all against python-control and SciPy, as ratios; writes docs/performance.md
 	$(BIN)/python -W ignore -m tests.bench.placement
+	$(BIN)/python -W ignore -m tests.bench.maps
 	$(BIN)/python -W ignore -m tests.bench.update docs/performance.md
 
 docs: $(VENV)/.tools ## the library's reference, into build/docs

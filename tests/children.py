@@ -19,9 +19,12 @@ SERVE = (sys.executable, "-m", "app", "serve")
 
 
 def environment(**more: str) -> dict[str, str]:
-    """This process's, but with bytecode: without it every child compiles all that it imports."""
-    kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
-    return kept | more
+    """This process's, but as users start it: with workers, and with bytecode.
+
+    Without that every child compiles all that it imports.
+    """
+    not_theirs = ("PYTHONDONTWRITEBYTECODE", "HELI2DOF_WORKERS")
+    return {name: value for name, value in os.environ.items() if name not in not_theirs} | more
 
 
 def variables(settings: Mapping[str, object]) -> dict[str, str]:

@@ -15,6 +15,7 @@ from typing import Any
 from pydantic.json_schema import models_json_schema
 
 from app.contract.evaluation import LiveRequest
+from app.contract.find import FindProgress
 from app.contract.identification import IdentificationReply, IdentifyRequest
 from app.main import create_app
 from tests.children import ROOT
@@ -26,7 +27,12 @@ HEAD = """/**
  * not to be changed by hand.
  */
 """
-SOCKETS = {LiveRequest: "validation", IdentifyRequest: "validation", IdentificationReply: "serialization"}
+SOCKETS = {
+    LiveRequest: "validation",
+    IdentifyRequest: "validation",
+    IdentificationReply: "serialization",
+    FindProgress: "serialization",
+}
 WHOLE = {"Guess", "IdentificationReply", "Preview"}
 """Replies that have all their fields: null says what others say by leaving one out."""
 REF = "#/components/schemas/"

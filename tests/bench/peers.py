@@ -59,8 +59,8 @@ class Job:
         return A, B, np.vstack([np.eye(2, 6), F]), np.vstack([np.zeros((2, 2)), P])
 
 
-def as_documented(job: Job) -> object:
-    """python-control, each step as its user guide shows it."""
+def linear_as_documented(job: Job) -> tuple:
+    """python-control, each step as its user guide shows it: all but the nonlinear response."""
     rig = control.ss(
         job.A, job.B, np.eye(4), 0, inputs=["V_p", "V_y"], outputs=_STATES, states=_STATES, name="rig"
     )
@@ -99,7 +99,12 @@ def as_documented(job: Job) -> object:
     )
     margins = [control.stability_margins(motor_loop(opened, i)) for i in range(2)]
     disk = control.disk_margins(opened, FREQUENCIES)
+    return K, whole.poles(), responses, info, rga, margins, disk
 
+
+def as_documented(job: Job) -> object:
+    """python-control, each step as its user guide shows it."""
+    K, *others = linear_as_documented(job)
     plant_nl = control.nlsys(
         lambda t, x, u, params: job.rates(x, u), inputs=["V_p", "V_y"], outputs=_STATES, states=4, name="rig"
     )
@@ -120,7 +125,7 @@ def as_documented(job: Job) -> object:
         np.outer(job.reference, np.ones(SAMPLES)),
         solve_ivp_kwargs={"rtol": job.rtol, "atol": ABSOLUTE_TOLERANCE * job.rtol},
     )
-    return K, whole.poles(), responses, info, rga, margins, disk, nonlinear
+    return K, *others, nonlinear
 
 
 def motor_loop(opened: control.StateSpace, motor: int) -> control.StateSpace:
@@ -130,7 +135,7 @@ def motor_loop(opened: control.StateSpace, motor: int) -> control.StateSpace:
     return control.ss(A, opened.B[:, [motor]], opened.C[[motor]], 0)
 
 
-def at_its_best(job: Job) -> object:
+def linear_at_its_best(job: Job) -> tuple:
     """python-control with all that slows it left out: matrices by hand, one system, one response for all."""
     K = control.place(job.A, job.B, job.poles)
     A, B, C, D = job.whole(K)
@@ -144,6 +149,12 @@ def at_its_best(job: Job) -> object:
     opened = control.ss(A - B_u @ C[2:], B_u, -C[2:], 0)
     margins = [control.stability_margins(motor_loop(opened, i)) for i in range(2)]
     disk = control.disk_margins(opened, FREQUENCIES)
+    return K, np.linalg.eigvals(A), responses, info, rga, margins, disk
+
+
+def at_its_best(job: Job) -> object:
+    """The same with the nonlinear response."""
+    K, *others = linear_at_its_best(job)
     real = control.nlsys(lambda t, y, u, params: job.loop_rates(y, K), None, inputs=2, states=6)
     nonlinear = control.input_output_response(
         real,
@@ -152,7 +163,7 @@ def at_its_best(job: Job) -> object:
         solve_ivp_method="LSODA",
         solve_ivp_kwargs={"rtol": job.rtol, "atol": ABSOLUTE_TOLERANCE * job.rtol},
     )
-    return K, np.linalg.eigvals(A), responses, info, rga, margins, disk, nonlinear
+    return K, *others, nonlinear
 
 
 def by_scipy(job: Job) -> object:
