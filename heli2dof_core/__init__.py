@@ -187,6 +187,11 @@ _LATE = {
 """Modules of what is not imported before it is asked for."""
 
 
+def __dir__() -> list[str]:
+    """What completion offers: what comes late among it."""
+    return sorted({*globals(), *__all__})
+
+
 def __getattr__(name: str) -> Any:
     """What is imported when it is asked for: recordings; `symbolic` and `paper`, with which SymPy comes."""
     from importlib import import_module

@@ -20,7 +20,7 @@ import numpy as np
 from .checks import checked_number, require_within
 from .errors import InvalidInputError, within_field
 from .figures.written import DASH, percent
-from .many import SHARE_FIGURES, SHARES, Measure
+from .many import SHARES, Measure
 from .measured import MEASURED, Axis, Measured, Motor, Steps, Where
 from .scenario import Model
 from .signals import Floats
@@ -81,7 +81,7 @@ class Requirement:
     @property
     def words(self) -> str:
         """What is judged: ``Settling time, pitch step``; and on which share of the rigs."""
-        own = words_of(self.measure)
+        own = self.measure.words
         return own if self.share is None else f"{own}, on {_written(self.share)} of the rigs"
 
     @property
@@ -257,17 +257,11 @@ def told_measure(measure: Measure) -> dict[str, Any]:
     return {"measure": measure.name, **{name: value for name, value in own.items() if value is not None}}
 
 
-def words_of(measure: Measure) -> str:
-    """What is measured: ``Settling time, pitch step``."""
-    known = MEASURED.get(measure.name)
-    return SHARE_FIGURES[measure.name].title if known is None else known.words(measure.where)
-
-
 def written(measure: Measure, value: float | None) -> str:
     """A value as it is shown; words where there is none (None, NaN) or no limit (infinite, None where it may be)."""
     known = MEASURED.get(measure.name)
     if known is None:
-        return DASH if value is None or isnan(value) else f"{_rounded_down(value):g} %"
+        return measure.written(None if value is None or isnan(value) else value)
     if value is not None and isnan(value) and known.unlimited:
         return DASH
     return known.written(None if value is None or not isfinite(value) else value)

@@ -13,7 +13,7 @@ from ..body import body_of
 from ..signals import Complexes, Floats
 from ..spec import Spec
 from ..tables import number
-from ..tracks import Track, figure_of, words
+from ..tracks import Track
 from ..tracks.sweeps import side
 from ..version import package_version
 from .svg import ticks
@@ -40,9 +40,8 @@ def track_csv(track: Track, spec: Spec) -> str:
     head = [f"{track.number.path}{unit}", "stable"]
     head += [f"{part} p{i + 1} [{poles}]" for i in range(order) for part in ("Re", "Im")]
     for measure in track.measures:
-        figure = figure_of(measure)
-        own = f" [{figure.unit}]" if figure is not None and figure.unit else ""
-        head.append(f'"{words(measure)}{own}"')
+        own = f" [{measure.figure.unit}]" if measure.figure.unit else ""
+        head.append(f'"{measure.words}{own}"')
     lines = [
         *(f"# {line}" for line in _origin(track, spec)),
         *(f"# Poles cross the border of stability at {c.value!r}{unit}" for c in track.crossings),
@@ -232,15 +231,13 @@ def _ranges(track: Track) -> tuple[tuple[float, float], tuple[float, float]]:
 def _chart(track: Track, k: int, top: float, x_label: str) -> Iterator[str]:
     """One figure over the number."""
     measure, values = track.measures[k], track.figures[:, k]
-    figure, valid = figure_of(measure), np.isfinite(values)
-    head = words(measure) + (
-        f" [{figure.shown or figure.unit}]" if figure is not None and figure.unit else ""
-    )
+    figure, valid = measure.figure, np.isfinite(values)
+    head = measure.words + (f" [{figure.shown or figure.unit}]" if figure.unit else "")
     yield f'<text class="head" x="{LEFT}" y="{top + 4:.1f}">{escape(head)}</text>'
     if not valid.any():
         yield f'<text x="{LEFT}" y="{top + 40:.1f}">nowhere a value</text>'
         return
-    shown: Floats = values * (1.0 if figure is None else figure.scale)
+    shown: Floats = values * figure.scale
     low, high = float(shown[valid].min()), float(shown[valid].max())
     room = 0.08 * (high - low) or 0.1 * abs(high) or 1.0
     ends = (float(track.values[0]), float(track.values[-1]))

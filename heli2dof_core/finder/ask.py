@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Literal, get_args
 
@@ -12,7 +13,7 @@ from ..measured import MEASURED
 from ..placement.registry import method
 from ..poles import LARGEST
 from ..quantities import Quantity, documented, require_valid
-from ..requirements import Requirement
+from ..requirements import Requirement, measure_of, requirements_of
 from ..robustness import Uncertainty
 from ..spec import Spec
 
@@ -24,7 +25,7 @@ MOST_MINIMIZED = 3
 MOST_DESIGNS = 1_000_000
 MOST_RIGS = 1000
 """Uncertain rigs, on all of which every design that is told is put."""
-LONGEST_SEARCH = 600.0
+SHORTEST_SEARCH, LONGEST_SEARCH = 0.1, 600.0
 Range = tuple[float, float]
 
 
@@ -95,7 +96,8 @@ class Find:
     `free`: what may change. `require`: what a design has to meet; its loop has to be stable in any case.
     `minimize`: figures that are made as good as they can be, at most three: small, or large where more is better.
     `uncertainty`: how far the rigs differ on which shares are required; None where none is. `bounds`: how far what is
-    free may go.
+    free may go. Requirements and figures may be given as a request has them, too:
+    ``Find(require={"overshoot": {"max": 5}}, minimize=("settling_time",))``.
     """
 
     free: tuple[Free, ...] = ("poles",)
@@ -106,11 +108,19 @@ class Find:
     designs: Annotated[int, Quantity("how many designs are tried, at most", "", 100, MOST_DESIGNS)] = 20_000
     seconds: Annotated[
         float,
-        Quantity("after which it ends even where fewer were tried", "s", 0.1, LONGEST_SEARCH),
+        Quantity("after which it ends even where fewer were tried", "s", SHORTEST_SEARCH, LONGEST_SEARCH),
     ] = 60.0
     seed: Annotated[int, Quantity("of the search's random numbers", "", 0, 2**32 - 1)] = 0
 
+    def _read(self) -> None:
+        """Makes of a request's words what they stand for."""
+        require = requirements_of(self.require) if isinstance(self.require, Mapping) else tuple(self.require)
+        figures = (own if isinstance(own, Measure) else measure_of(own) for own in self.minimize)
+        object.__setattr__(self, "require", require)
+        object.__setattr__(self, "minimize", tuple(figures))
+
     def __post_init__(self) -> None:
+        self._read()
         require_valid(self)
         if not self.free:
             raise InvalidInputError(
@@ -120,8 +130,6 @@ class Find:
             with within_field(f"free.{i}"):
                 require_one_of(name, Free, "")
         object.__setattr__(self, "free", tuple(name for name in FREE if name in self.free))
-        for name in ("require", "minimize"):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
         if not self.require and not self.minimize:
             raise InvalidInputError(
                 "nothing is required and nothing is to be minimized",

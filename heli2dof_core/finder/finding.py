@@ -9,6 +9,7 @@ from time import perf_counter
 import numpy as np
 
 from ..errors import Heli2DofError, nobody_leaves
+from ..frozen import Frozen
 from ..signals import Floats
 from ..spec import Spec
 from .ask import Find
@@ -25,7 +26,7 @@ THREADS = 2
 
 
 @dataclass(frozen=True)
-class Progress:
+class Progress(Frozen):
     """How far a search is.
 
     Attributes:

@@ -7,9 +7,11 @@ from dataclasses import dataclass, fields, replace
 from math import inf, nan
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..block import Task
 from ..errors import Heli2DofError, nobody_leaves
+from ..frozen import Frozen
 from ..kernels.update_layout import DONE, FOUND_FIGURES, FOUND_OUTCOME, STABLE
 from ..many import SHARES, Many, Measure
 from ..measured import MEASURED
@@ -29,7 +31,7 @@ _GUIDES = "steady_state_error", "itae"
 
 
 @dataclass(frozen=True)
-class Tried:
+class Tried(Frozen):
     """Designs that were tried.
 
     Attributes:
@@ -47,8 +49,8 @@ class Tried:
     excess: Floats
     missed: Floats
     goals: Floats
-    nominal: np.ndarray
-    on_rigs: np.ndarray
+    nominal: NDArray[np.bool_]
+    on_rigs: NDArray[np.bool_]
 
     @property
     def waiting(self) -> np.ndarray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..many import Measure
-from ..requirements import Requirement, words_of, written
+from ..requirements import Requirement, written
 from ..spec import Spec
 from ..tables import NOTHING, Shown, Table, number, poles
 from .ask import Find, Free
@@ -121,7 +121,7 @@ class Designs(Shown):
     def tables(self) -> tuple[Table, ...]:
         """The designs with their figures; and why there are none."""
         free = self.ask.free
-        heads = (*(HEADS[name] for name in free), *(words_of(own) for own in self.measures), "meets")
+        heads = (*(HEADS[name] for name in free), *(own.words for own in self.measures), "meets")
         rows = []
         for own in self.candidates:
             figures = (written(measure, v) for measure, v in zip(self.measures, own.values, strict=True))
@@ -132,8 +132,10 @@ class Designs(Shown):
             own = []
             for give in self.why.gives:
                 need = self.ask.require[give.requirement]
-                own.append((need.words, need.limit_text, gives_text(need, give)))
-            found.append(Table.of("these contradict", ("requirement", "asked", "would have to give"), own))
+                then = "" if give.value is None else consequence(self, give)
+                own.append((need.words, need.limit_text, gives_text(need, give), then))
+            title = "out of reach" if len(own) == 1 else "these contradict"
+            found.append(Table.of(title, ("requirement", "asked", "would have to give", ""), own))
         return tuple(found)
 
 
@@ -178,6 +180,18 @@ def gives_text(need: Requirement, give: Give) -> str:
     if need.share is not None:
         return f"{100 * give.value:.4g} % of the rigs"
     return need.written(give.value)
+
+
+def consequence(found: Designs, give: Give) -> str:
+    """What is met where a requirement gives so much, in words."""
+    if give.others_met:
+        return "then all others are met"
+    alone = found.why is not None and len(found.why.requirements) == 1
+    return (
+        "others are missed there all the same"
+        if alone
+        else "then those that contradict it are met, not all others"
+    )
 
 
 def why_text(found: Designs) -> str:

@@ -238,19 +238,24 @@ class Search:
         """Tries designs, and remembers them."""
         if self.used + len(points) > self.designs:
             raise Exhausted
-        if self.until is not None and perf_counter() > self.until:
+        # the first are always tried, so that there is something to tell
+        if self.kept is not None and self.until is not None and perf_counter() > self.until:
             self.stopped = True
             raise Exhausted
         self.problem.check()
         points = np.clip(points, 0.0, 1.0)
-        own = self.problem.tried(points)
+        own = self._near(self.problem.tried(points))
         self.used += len(points)
         if self.problem.on_all is not None:
-            own = self._on_rigs(own)
-        if not self.problem.ask.minimize:
-            own = replace(own, goals=np.linalg.norm(points - self._home, axis=1)[:, np.newaxis])
+            own = self._near(self._on_rigs(own))
         self._remember(own)
         return own
+
+    def _near(self, own: Tried) -> Tried:
+        """The same; where nothing is to be minimized, nearer to the present design is better."""
+        if self.problem.ask.minimize:
+            return own
+        return replace(own, goals=np.linalg.norm(own.points - self._home, axis=1)[:, np.newaxis])
 
     def _on_rigs(self, own: Tried) -> Tried:
         """Puts those on uncertain rigs that might enlarge the front."""

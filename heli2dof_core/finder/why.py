@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import combinations
@@ -39,31 +39,42 @@ class Contradiction:
         self.why: Why | None = None
 
     def run(self) -> Iterator[None]:
-        """Fills `why`; stops for a moment after every part of the work."""
-        own: tuple[int, ...] | None = None
+        """Fills `why`; stops for a moment after every part of the work.
+
+        Where the time runs out before a set is found it stays None: what was not looked at long enough is no
+        contradiction.
+        """
+        with suppress(Exhausted):
+            yield from self._run()
+
+    def _run(self) -> Iterator[None]:
+        own = yield from self._smallest()
+        gives = []
+        for k, i in enumerate(own):
+            self._share = max(LEAST, (self._search.designs - self._search.used) // (len(own) - k))
+            try:
+                gives.append(self._give(i, own))
+            except Exhausted:  # what of it was found is told
+                gives.append(Give(i, None, False))
+            yield
+        self.why = Why(own, tuple(gives))
+
+    def _smallest(self) -> Generator[None, None, tuple[int, ...]]:
+        """The smallest set that nothing was found to meet."""
         for size in (1, 2) if self._count <= PAIRS else (1,):
             if size >= self._count:
                 break
             for some in self._likely(size):
                 if not self._together(some):
-                    own = some
-                    break
+                    return some
                 yield
-            if own is not None:
-                break
-        if own is None:
-            own = tuple(range(self._count))
-            for i in range(self._count) if self._count > 1 else ():
-                rest = tuple(k for k in own if k != i)
-                if rest and not self._together(rest):
-                    own = rest
-                yield
-        gives = []
-        for k, i in enumerate(own):
-            self._share = max(LEAST, (self._search.designs - self._search.used) // (len(own) - k))
-            gives.append(self._give(i, own))
+        own = tuple(range(self._count))
+        for i in range(self._count) if self._count > 1 else ():
+            rest = tuple(k for k in own if k != i)
+            if rest and not self._together(rest):
+                own = rest
             yield
-        self.why = Why(own, tuple(gives))
+        return own
 
     def _likely(self, size: int) -> list[tuple[int, ...]]:
         """Sets of so many, those first that the designs tried are farthest from meeting together."""
@@ -79,7 +90,15 @@ class Contradiction:
         with suppress(Exhausted):
             search.meet(search.designs)
         self._search.used += search.used
+        if search.front is None:
+            self._require_time(search)
         return search.front is not None
+
+    def _require_time(self, search: Search) -> None:
+        """Raises Exhausted where a search has found nothing because its time had run out."""
+        if search.stopped:
+            self._search.stopped = True
+            raise Exhausted
 
     def _sub(self, ask: Find, open_end: int | None, near: Sequence[int]) -> Search:
         """A search with some of the requirements, which begins where the first was nearest to those of `near`."""
@@ -93,7 +112,11 @@ class Contradiction:
         known = self._search.kept
         assert known is not None
         order = np.argsort(known.excess[:, near].sum(axis=1), kind="stable")
-        search.begin(known.points[order[: self._share // 6]])
+        try:
+            search.begin(known.points[order[: self._share // 6]])
+        except Exhausted:
+            self._require_time(search)
+            raise
         return search
 
     def _own(self, spec: Spec, need: Requirement) -> float:
@@ -121,6 +144,7 @@ class Contradiction:
                     if search.used == before:
                         break
             self._search.used += search.used
+            self._require_time(search)
             best = self._nearest(search, last)
             if best is not None:
                 spec, value = best

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import floor
 from types import MappingProxyType
 from typing import get_args
 
 from ..errors import InvalidInputError
 from ..figures import Figure
-from ..figures.written import percent
+from ..figures.written import DASH
 from ..kernels.update_layout import SHARE_STABLE, SHARE_WITHIN
 from ..measured import MEASURED, Axis, Motor, Steps, Where
 from ..scenario import Model
@@ -102,11 +103,13 @@ class Measure:
         """A value as it is shown; words where there is none."""
         if self.name not in SHARES:
             return MEASURED[self.name].written(value)
-        return "–" if value is None else percent(value)
+        return DASH if value is None else f"{self.shown(value):g} %"
 
     def shown(self, value: float) -> float:
         """The value as it is shown, a number in the unit that people read."""
-        return MEASURED[self.name].shown(value) if self.name not in SHARES else round(100 * value, 1)
+        if self.name not in SHARES:
+            return MEASURED[self.name].shown(value)
+        return floor(1000 * value + 1e-9) / 10  # rounded down: 99.96 % are not all
 
     @property
     def runs(self) -> frozenset[str]:

@@ -27,7 +27,9 @@ from .planes import SIZE, Move, Plane, Scale, plane_of
 MOST_PLACES = 16_384
 """Places of a map."""
 MOST_RIGS = 1_000_000
-"""Places times uncertain rigs: half a minute's work."""
+"""Places times uncertain rigs of which the poles alone are asked for: some ten seconds' work."""
+MOST_RESPONSES = 650_000
+"""Places times uncertain rigs that respond: twice as long a work, as a rule."""
 _COLUMNS, _ROWS = 7, 9
 """Of the table that people are shown."""
 
@@ -216,7 +218,8 @@ def design_map(
                 hint="Say how far the rigs may differ from the nominal one.",
             )
         factors = uncertain_factors(spec, uncertainty)
-    _require_few(len(plane.x) * len(plane.y), 0 if factors is None else len(factors))
+    most = MOST_RESPONSES if measured.name == "share_within_limits" else MOST_RIGS
+    _require_few(len(plane.x) * len(plane.y), 0 if factors is None else len(factors), most)
     many = Many(spec, (measured,), factors=factors, threads=threads, unstable=False)
     specs = _Specs(spec, plane)
     rows, there = _rows_one_by_one(many, specs, check) if not many.changes_in_place else _rows(many, specs)
@@ -289,7 +292,7 @@ def _require_stepped(spec: Spec, measure: Measure) -> None:
     )
 
 
-def _require_few(places: int, rigs: int) -> None:
+def _require_few(places: int, rigs: int, most: int) -> None:
     if places > MOST_PLACES:
         raise InvalidInputError(
             f"{places} places are too many",
@@ -297,12 +300,12 @@ def _require_few(places: int, rigs: int) -> None:
             value=places,
             hint=f"Ask for at most {MOST_PLACES}: a coarser grid.",
         )
-    if places * rigs > MOST_RIGS:
+    if places * rigs > most:
         raise InvalidInputError(
             f"{places} places times {rigs} rigs are too many",
             field="uncertainty.samples",
             value=rigs,
-            hint=f"Ask for at most {MOST_RIGS // places} rigs, or for a coarser grid.",
+            hint=f"Ask for at most {most // places} rigs, or for a coarser grid.",
         )
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from .answer import FARTHEST, WITHIN, Move, Nearest, nearest
+from .answer import CLOSEST, FARTHEST, WITHIN, Move, Nearest, nearest
 from .handles import GROUPS, HANDLES, Free, Handle, distance
 
 __all__ = [
+    "CLOSEST",
     "FARTHEST",
     "GROUPS",
     "HANDLES",

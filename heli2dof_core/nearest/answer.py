@@ -22,7 +22,7 @@ from .tidy import tidied
 
 WITHIN = 1.5
 """How far is near: poles move by as much of their distance from the origin, gains by a factor of 4.5."""
-FARTHEST = 5.0
+CLOSEST, FARTHEST = 1e-2, 5.0
 """How far one may look."""
 AS_NEAR = 1.02
 """A move of fewer handles is preferred where it is farther by no more."""
@@ -166,7 +166,7 @@ def nearest(
         InvalidInputError: a requirement cannot be judged of this experiment, or nothing is free.
         Heli2DofError: the design does not exist.
     """
-    require_within(within, "within", "", 1e-3, FARTHEST)
+    require_within(within, "within", "", CLOSEST, FARTHEST)
     handles = handles_of(spec, free)
     requirements = requirements_of(requirements) if isinstance(requirements, Mapping) else tuple(requirements)
     judge = Judge(spec, requirements, threads, check)

@@ -15,6 +15,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from ..errors import InvalidInputError
+from ..frozen import Frozen
 from ..kernels.update_layout import PI_GAINS, POLES, ROTOR_POLES
 from ..placement.registry import method
 from ..poles import ZERO, PoleSet
@@ -31,7 +32,7 @@ NEAR_ORIGIN = 0.1
 
 
 @dataclass(frozen=True)
-class Chart:
+class Chart(Frozen):
     """One way in which handles can stand, by coordinates z: a pair of poles is either real or conjugate.
 
     The squared distance from the design is ``offset + |z|²``.

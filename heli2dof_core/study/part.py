@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,7 @@ from ..signals import Floats
 from .study import NOMINAL, Segment, Task
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(NamedTuple):
     """What was found, a row for each pair, in the order of designs and of their rigs.
 
     Attributes:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import Heli2DofError
+from ..frozen import Frozen
 from ..many import Measure
 from ..measured import MEASURED
 from ..on_rigs import OnRigs
@@ -27,7 +28,7 @@ SHOWN = 20
 
 
 @dataclass(frozen=True)
-class Judged:
+class Judged(Frozen):
     """One design over its rigs.
 
     Attributes:

@@ -1,7 +1,7 @@
 """Tracks: any one number swept, the loop's poles and figures along it, and where poles cross to the other side."""
 
 from .numbers import Number, known_paths, number_at, swept_paths
-from .track import FEWEST, MOST, MOST_MEASURES, Crossing, Scale, Track, figure_of, track, words
+from .track import FEWEST, MOST, MOST_MEASURES, Crossing, Scale, Track, track
 
 __all__ = [
     "FEWEST",
@@ -11,10 +11,8 @@ __all__ = [
     "Number",
     "Scale",
     "Track",
-    "figure_of",
     "known_paths",
     "number_at",
     "swept_paths",
     "track",
-    "words",
 ]

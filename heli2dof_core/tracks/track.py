@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InvalidInputError
-from ..figures import Figure
 from ..frozen import Frozen
-from ..many import Measure
-from ..measured import MEASURED
+from ..many import SHARES, Measure
+from ..requirements import measure_of, written
 from ..signals import Complexes, Floats
 from ..spec import Spec
 from ..systems.model import System
@@ -125,7 +124,7 @@ class Track(Frozen, Shown):
             told = ", ".join(conjugates(p) for p in upper)
             rows.append((number(self.values[i].item()), told, "yes" if self.stable[i] else "no", *figures))
         unit = "poles (rad/s)" if self.plane == "s" else "poles (z)"
-        heads = (head, unit, "stable", *(words(m) for m in self.measures))
+        heads = (head, unit, "stable", *(m.words for m in self.measures))
         crossing = Table.of("poles on the border of stability", (head, "pole", ""), crossed)
         return (*((crossing,) if crossed else ()), Table.of("along the track", heads, rows))
 
@@ -136,32 +135,12 @@ def _clean(pole: complex, size: float) -> complex:
     return complex(re, im)
 
 
-def words(measure: Measure) -> str:
-    """What is measured, in words."""
-    known = MEASURED.get(measure.name)
-    return measure.name.replace("_", " ") if known is None else known.words(measure.where)
-
-
-def figure_of(measure: Measure) -> Figure | None:
-    """Its figure in the registry; None of shares of rigs."""
-    known = MEASURED.get(measure.name)
-    return None if known is None else known.figure
-
-
-def written(measure: Measure, value: float) -> str:
-    """A value of a figure as it is shown."""
-    known = MEASURED.get(measure.name)
-    if known is None:
-        return number(value)
-    return known.written(value if np.isfinite(value) else None)
-
-
 def track(
     spec: Spec,
     path: str,
     over: tuple[float, float] | None = None,
     points: int = 200,
-    measures: Sequence[Measure] = (),
+    measures: Sequence[Measure | Mapping[str, Any] | str] = (),
     *,
     scale: Scale = "linear",
     kept: bool = False,
@@ -180,7 +159,7 @@ def track(
         path: of the number, as in a request (``loops.pitch.kp``), or one of those that `numbers` names.
         over: the range, low to high, in the number's unit; by default one around its value.
         points: values asked for, both ends among them.
-        measures: figures to be found at each of them.
+        measures: figures to be found at each of them, or as a request has them.
         scale: how they are spaced: evenly, or by equal factors.
         kept: whether the gains stay as they are designed for the spec and only the rig changes; else the design is
             made anew for each value. Only for numbers of the rig.
@@ -190,6 +169,7 @@ def track(
     Raises:
         Heli2DofError: there is no such number, range or design; or no such figures.
     """
+    measures = [each if isinstance(each, Measure) else measure_of(each) for each in measures]
     own = number_at(spec, path)
     low, high = checked_range(own, over)
     values = _spaced(low, high, points, scale)
@@ -202,6 +182,14 @@ def track(
             value=len(measures),
             hint=f"Ask for at most {MOST_MEASURES}.",
         )
+    for i, measure in enumerate(measures):
+        if measure.name in SHARES:
+            raise InvalidInputError(
+                "shares of uncertain rigs have no track",
+                field=f"track.measures.{i}.measure",
+                value=measure.name,
+                hint="Ask for a figure of one rig; a map tells shares.",
+            )
     sweep = sweep_of(spec, own, values, kept=kept, threads=threads)
     course = followed(sweep, values, check)
     crossings = crossings_of(sweep, course, check)

@@ -24,15 +24,18 @@ import heli2dof_core as heli
 from heli2dof_core import Digital, Disturbance, Loop, OuterLoop, Spec, Uncertainty
 from heli2dof_core.engine import engine
 from heli2dof_core.export import FORMATS
+from heli2dof_core.finder import Find, find_in_parts
 from heli2dof_core.frozen import Frozen, frozen, read_only
 from heli2dof_core.kernels.jit import EXAMPLES
 from heli2dof_core.lag_track import lag_track
+from heli2dof_core.many import Measure
 from heli2dof_core.paper.consequence import consequence
 from heli2dof_core.paper.figures import figures
 from heli2dof_core.placement.method import Task
 from heli2dof_core.recordings.recording import Recording
 from heli2dof_core.recordings.samples import sample_recording
 from heli2dof_core.root_locus import symmetric_root_locus
+from heli2dof_core.study import Alone, Folder, read_study, run, summarize
 from heli2dof_core.symbolic.linearization import linear_model
 from heli2dof_core.symbolic.mechanics import mechanics
 from heli2dof_core.systems.analysis import analyse
@@ -130,6 +133,8 @@ def everything_else() -> Iterator[Any]:
     yield lag_track(heli.loop_of(lagged.changed(place_rotors=True))), heli.loop_of(lagged).padded
     yield heli.design_map(SPEC, "yaw-pair", "norm", size=(3, 2))
     yield heli.track(lagged, "gain", (0.0, 2.0), 5), heli.place(lagged)
+    yield heli.nearest(SPEC, {"settling_time": {"max": 0.8}}, free=("yaw-pair",))
+    yield [*find_in_parts(SPEC, Find(("poles",), minimize=(Measure("norm"),), designs=200))]
     yield symmetric_root_locus(heli.place(SPEC.changed(method="lqr")), bryson_weights(SPEC.limits))
     for name in heli.METHODS:
         C = np.eye(1, 4) if name == "lqr-integral" else None
@@ -142,6 +147,12 @@ def everything_else() -> Iterator[Any]:
     yield figures()
     yield consequence()
     yield linear_model(), mechanics(), heli.formulas()
+
+
+def a_study(folder: Path) -> Any:
+    study = Folder(folder / "study", read_study('study = 1\nmeasures = ["overshoot"]\n[rigs]\ncount = 3\n'))
+    run(study, Alone())
+    return summarize(study)
 
 
 @pytest.fixture
@@ -205,6 +216,7 @@ def writable(thing: Any, path: str, seen: dict[int, Any]) -> Iterator[str]:
 @pytest.mark.slow
 def test_no_array_of_a_result_can_be_written_to(made: list[Frozen], tmp_path: Path):
     results = [*evaluations(), *recordings(tmp_path), *everything_else(), heli.PRESETS, heli.METHODS]
+    results.append(a_study(tmp_path))
     seen: dict[int, Any] = {}
     assert list(writable(results, "results", seen)) == []
     few: dict[type, list[Frozen]] = {}

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from heli2dof_core.errors import InvalidInputError
+from heli2dof_core.figures.written import DASH
 from heli2dof_core.many import SHARES, Measure
 from heli2dof_core.measured import MEASURED, Where
 from heli2dof_core.requirements import (
@@ -16,6 +17,7 @@ from heli2dof_core.requirements import (
     requirements_of,
     told_measure,
     told_requirements,
+    written,
 )
 
 AXES = [name for name, own in MEASURED.items() if own.has_axis]
@@ -82,7 +84,7 @@ def test_requests_are_read_and_told_again():
         "Settling time, yaw step, on 95 % of the rigs",
         "Largest |voltage|, pitch motor, either step",
         "Phase margin, both motors",
-        "Stable rigs",
+        "Uncertain rigs, stable",
     ]
     assert [own.limit_text for own in found] == ["≤ 0.80 s", "≤ 1.20 s", "≤ 20.0 V", "≥ 45.8366°", "≥ 95 %"]
     assert [own.uncertain for own in found] == [False, True, False, False, True]
@@ -130,3 +132,11 @@ def test_limits_on_the_better_side_are_of_each_axis_and_motor():
     assert told({"share_stable": {"max": 0.5}}) == [(None, None)]
     (own,) = requirements_of({"rise_time": {"min": 0.2}})[0].apart(["psi"])
     assert own.measure.where.axis == "psi"
+
+
+@pytest.mark.parametrize(
+    ("share", "text"), [(1.0, "100 %"), (0.9996, "99.9 %"), (0.29, "29 %"), (None, DASH)]
+)
+def test_a_share_is_written_alike_everywhere(share, text):
+    own = Measure("share_stable")
+    assert own.written(share) == written(own, share) == text

@@ -168,3 +168,15 @@ def test_fronts_are_told_from_what_they_dominate():
         for i, row in enumerate(kept):
             assert not any(np.all(own <= row) for j, own in enumerate(kept) if j != i)
     assert volume(np.array([[1.0, 2.0], [2.0, 1.0], [2.0, 2.0]]), np.array([3.0, 3.0])) == 3.0
+
+
+@pytest.mark.parametrize("problem", UNSOLVABLE[:2], ids=lambda own: own.name)
+@pytest.mark.parametrize("looks", [0, 3, 8, 40])
+def test_a_search_whose_time_runs_out_tells_what_it_has(problem, looks, monkeypatch):
+    times = iter(range(10**9))
+    monkeypatch.setattr("heli2dof_core.finder.search.perf_counter", lambda: next(times))
+    monkeypatch.setattr("heli2dof_core.finder.finding.perf_counter", lambda: 0.0)
+    found = find(problem.spec(), replace(quick(problem, 3000).find, seconds=max(looks, 0.1)))
+    assert found.stopped and not found.met and found.candidates
+    if found.why is not None:  # a set is told where it was found, whatever was not found of it
+        assert {own.requirement for own in found.why.gives} == set(found.why.requirements)
