@@ -26,7 +26,7 @@ from heli2dof_core.couplings import STRUCTURES
 from heli2dof_core.engine import engine
 from heli2dof_core.errors import CancelledError
 
-from .current import Report, check_cancelled, is_portable, report, run_job
+from .current import Report, check_cancelled, is_portable, report, run_job, seconds_left
 from .fair_queue import BusyError, Client, FairQueue, Job, OverdueError
 from .kernel_compiler import KernelCompiler
 from .workers import WorkerLostError, Workers
@@ -353,4 +353,5 @@ __all__ = [
     "check_cancelled",
     "current_caller",
     "report",
+    "seconds_left",
 ]

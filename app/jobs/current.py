@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import traceback
 from collections.abc import Callable, Iterator
@@ -37,6 +38,12 @@ def check_cancelled() -> None:
     current = _current.get()
     if current is not None and (current.cancelled() or monotonic() > current.until):
         raise CancelledError("cancelled")
+
+
+def seconds_left() -> float:
+    """Until the job that runs here is given up; infinite where it never is."""
+    current = _current.get()
+    return math.inf if current is None else max(0.0, current.until - monotonic())
 
 
 def report(part: Any) -> None:
