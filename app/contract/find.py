@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from math import isfinite
+from dataclasses import replace
+from math import inf, isfinite
 from typing import Annotated, Any
 
 from pydantic import Field
@@ -13,9 +14,9 @@ from heli2dof_core.errors import Heli2DofError
 from heli2dof_core.estimators import Observer
 from heli2dof_core.figures.figure import Better
 from heli2dof_core.finder import Bounds, Candidate, Designs, Find, Free, Give, Progress, find_in_parts
-from heli2dof_core.finder.ask import LONGEST_SEARCH, MOST_DESIGNS, MOST_MINIMIZED
-from heli2dof_core.finder.result import gives_text, why_text
-from heli2dof_core.many import SHARE_FIGURES, SHARES, Measure
+from heli2dof_core.finder.ask import LONGEST_SEARCH, MOST_DESIGNS, MOST_MINIMIZED, SHORTEST_SEARCH
+from heli2dof_core.finder.result import consequence, gives_text, why_text
+from heli2dof_core.many import SHARES, Measure
 from heli2dof_core.measured import MEASURED, Axis, Motor, Steps
 from heli2dof_core.placement.method import Weights
 from heli2dof_core.request import WEIGHTED
@@ -25,7 +26,6 @@ from heli2dof_core.requirements import (
     measure_of,
     requirements_of,
     told_measure,
-    words_of,
     written,
 )
 from heli2dof_core.scenario import Model as RigModel
@@ -102,8 +102,9 @@ class FindOptions(Strict):
     )
     seconds: float = Field(
         default=60.0,
-        json_schema_extra={"minimum": 0.1, "maximum": LONGEST_SEARCH},
-        description="after which the search ends in any case",
+        json_schema_extra={"minimum": SHORTEST_SEARCH, "maximum": LONGEST_SEARCH},
+        description="after which the search ends in any case; a server gives it at most three quarters of the time "
+        "of a slow job",
     )
     seed: Annotated[Whole, Field(json_schema_extra={"minimum": 0, "maximum": 2**32 - 1})] = Field(
         default=0, description="the same seed gives the same designs"
@@ -147,8 +148,12 @@ class FindRequest(StepRequest):
 
     find: FindOptions
 
-    def in_parts(self, check: Callable[[], None]) -> Iterator[Progress | Designs]:
-        """Searches; `check` is called now and then, and what it raises ends the work.
+    def in_parts(self, check: Callable[[], None], seconds: float = inf) -> Iterator[Progress | Designs]:
+        """Searches.
+
+        Args:
+            check: called now and then; what it raises ends the work.
+            seconds: for which it searches at most, whatever is asked for.
 
         Raises:
             Heli2DofError: as `to_spec` and `finder.find`.
@@ -156,6 +161,7 @@ class FindRequest(StepRequest):
         spec = self.to_spec()
         with _within_find():
             ask = self.find.to_find()
+            ask = replace(ask, seconds=max(min(ask.seconds, seconds), SHORTEST_SEARCH))
             yield from find_in_parts(spec, ask, check, THREADS)
 
 
@@ -208,9 +214,9 @@ class ToldRequirement(Model):
     """A requirement."""
 
     figure: int = Field(description="its place among the figures")
-    max: float | None = None
-    min: float | None = None
-    share: float | None = None
+    max: float | None = Field(None, description="at most, in the figure's unit")
+    min: float | None = Field(None, description="at least, in the figure's unit")
+    share: float | None = Field(None, description="least share of the uncertain rigs, 0 to 1")
     words: str
     limit: str
 
@@ -268,11 +274,13 @@ class FoundChanges(Model):
     loops: FoundLoops | None = None
     coupling: str | None = None
     lead: str | None = None
-    shift: float | None = None
+    shift: float | None = Field(None, description="shift c of Luenberger's basis")
     pairing: str | None = None
     decoupler: bool | None = None
     observer: FoundObserver | None = None
-    weights: dict[str, dict[str, float]] | None = None
+    weights: dict[str, dict[str, float]] | None = Field(
+        None, description="of states, inputs and integrals by name"
+    )
 
 
 class FoundDesign(PresentDesign):
@@ -284,7 +292,7 @@ class FoundDesign(PresentDesign):
 class FoundGive(Model):
     """What one requirement would have to become."""
 
-    requirement: int
+    requirement: int = Field(description="its place among the requirements")
     value: float | None = Field(None, description="left out where nothing was found")
     text: str
     by: float | None = Field(None, description="by how much it would have to give")
@@ -309,10 +317,10 @@ class FindReply(Model):
     requirements: list[ToldRequirement]
     designs: list[FoundDesign]
     present: PresentDesign | None = Field(None, description="left out where it does not exist")
-    tried: int
-    seconds: float
+    tried: int = Field(description="designs, those on uncertain rigs counted by rig")
+    seconds: float = Field(description="that it took")
     stopped: bool = Field(description="whether the time had run out before all designs were tried")
-    seed: int
+    seed: int = Field(description="of the request")
     why: FoundWhy | None = None
 
 
@@ -357,15 +365,14 @@ def find_reply(found: Designs) -> Reply:
         reply["why"] = {
             "requirements": list(found.why.requirements),
             "message": why_text(found),
-            "gives": [_give(ask.require[own.requirement], own) for own in found.why.gives],
+            "gives": [_give(found, own) for own in found.why.gives],
         }
     return reply
 
 
 def _figure(measure: Measure, *, minimized: bool) -> Reply:
-    known = MEASURED.get(measure.name)
-    figure = SHARE_FIGURES[measure.name] if known is None else known.figure
-    about = {"title": words_of(measure), "unit": figure.unit, "better": figure.better}
+    figure = measure.figure
+    about = {"title": measure.words, "unit": figure.unit, "better": figure.better}
     return {**told_measure(measure), **about, "minimized": minimized}
 
 
@@ -385,14 +392,16 @@ def _candidate(own: Candidate, measures: tuple[Measure, ...]) -> Reply:
     return {"figures": figures, "required": required, "stable": own.stable, "met": own.met}
 
 
-def _give(need: Requirement, give: Give) -> Reply:
+def _give(found: Designs, give: Give) -> Reply:
+    need = found.ask.require[give.requirement]
     text = gives_text(need, give)
     reply: Reply = {"requirement": give.requirement, "text": text, "others": give.others_met}
     if give.value is not None:
         limit = need.share if need.share is not None else need.nearest_limit(give.value)
         reply |= {"value": give.value, "by": abs(give.value - limit)}
-        rest = "all others are met" if give.others_met else "those that contradict it are met"
-        return reply | {"message": f"{need.words}: {text} in place of {need.limit_text}; then {rest}."}
+        return reply | {
+            "message": f"{need.words}: {text} in place of {need.limit_text}; {consequence(found, give)}."
+        }
     return reply | {"message": f"{need.words}: nothing was found that meets the others."}
 
 

@@ -18,8 +18,9 @@ from heli2dof_core.requirements import told_measure
 from heli2dof_core.scenario import Model as RigModel
 
 from .experiment import StepRequest
-from .fields import Strict, Whole
+from .fields import Whole
 from .model import Model, Reply
+from .requirements import OfResponse
 from .robustness import UncertainRigs
 
 Figure = Annotated[str, Field(json_schema_extra={"enum": [*MEASURED, *SHARES]})]
@@ -29,29 +30,10 @@ THREADS = 2
 """That a map takes of the server."""
 
 
-class FigureAsked(Strict):
-    """A figure of merit, and of which response; what it does not have is refused."""
-
-    measure: Figure = Field(default="settling_time", description="its name")
-    axis: Axis | None = Field(
-        default=None, description="the axis that is stepped; both, the worse one, where left out"
-    )
-    motor: Motor | None = Field(default=None, description="the motor; both, the worse one, where left out")
-    model: RigModel | None = Field(default=None, description="of the response; nonlinear where left out")
-    steps: Steps | None = Field(
-        default=None,
-        description="alone, each axis by itself, where left out; together, the scenario as it is set",
-    )
-
-    def told(self) -> dict[str, Any]:
-        """What `requirements.measure_of` reads."""
-        known = self.model_dump(include={"measure", "axis", "motor", "model", "steps"})
-        return {name: value for name, value in known.items() if value is not None}
-
-
-class MapAsked(FigureAsked):
+class MapAsked(OfResponse):
     """Which two numbers of the design are moved, over which places, and what is measured there."""
 
+    measure: Figure = Field(default="settling_time", description="name of a figure of merit")
     move: Move = Field(description="a pair of poles, x ± jy, or k_p (x) and T_i (y) of an axis' PI loop")
     over: Annotated[list[Ends], Field(min_length=2, max_length=2)] | None = Field(
         default=None,
@@ -65,6 +47,10 @@ class MapAsked(FigureAsked):
     uncertainty: UncertainRigs | None = Field(
         default=None, description="needed for shares of uncertain rigs, and used for them alone"
     )
+
+    def told(self) -> dict[str, Any]:
+        """What `requirements.measure_of` reads."""
+        return self.model_dump(include={"measure", *OfResponse.model_fields}, exclude_none=True)
 
 
 class MapRequest(StepRequest):

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from heli2dof_core.errors import Heli2DofError, within_field
 from heli2dof_core.measured import MEASURED
-from heli2dof_core.nearest import FARTHEST, WITHIN, Free, Handle, Move, Nearest, nearest
+from heli2dof_core.nearest import CLOSEST, FARTHEST, WITHIN, Free, Handle, Move, Nearest, nearest
 from heli2dof_core.requirements import MOST, requirements_of
 
 from .design import Loops, loops_reply
@@ -35,7 +35,7 @@ class NearestAsked(Strict):
     )
     within: float = Field(
         default=WITHIN,
-        json_schema_extra={"minimum": 0.01, "maximum": FARTHEST},
+        json_schema_extra={"minimum": CLOSEST, "maximum": FARTHEST},
         description="how far is near, as the moves' distances",
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from json import JSONDecodeError
 from typing import Any
 
@@ -22,6 +22,7 @@ from ..jobs.fair_queue import BusyError, OverdueError
 from ..jobs.workers import WorkerLostError
 from ..ops.logs import request_id
 from .encoding import json_bytes
+from .fields import Strict
 
 _LESS = "Ask for less: fewer rigs, a shorter experiment or a looser tolerance."
 Page = Callable[[Request, Mapping[str, Any]], Response | None]
@@ -64,6 +65,8 @@ class Problem(BaseModel):
     request_id: str = Field("", description="of the request, where the server failed: its log tells more")
 
 
+_SOURCES = ("body", "query", "path")
+_PLAIN = ("str", "float", "int", "bool")
 _HANDLED = (
     *(Heli2DofError, RequestValidationError, HTTPException, ClassError),
     *(BusyError, OverdueError, WorkerLostError, MemoryError, Exception),
@@ -101,7 +104,7 @@ def problem_of(error: Exception) -> dict[str, Any]:  # noqa: PLR0911
                 422, f"{error}.", error.code, field=error.field, value=error.value, hint=error.hint
             )
         case RequestValidationError() | ValidationError():
-            return _of_validation(error.errors()[0])
+            return _of_validation(_first(error.errors()))
         case ClassError():
             return problem(error.status, error.detail, error.code, hint=error.hint, **error.more)
         case JSONDecodeError():
@@ -193,9 +196,34 @@ def _describe(app: FastAPI) -> None:
     app.openapi = openapi
 
 
+def _first(errors: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
+    """The error to tell: of a value that may be one thing or another, what is wrong with the one it is."""
+    head = errors[0]
+    if not (_is_branch(head["loc"][-1:]) and head["type"].endswith("_type")):
+        return head
+    place = head["loc"][:-1]
+    same = (own for own in errors if own["loc"][: len(place)] == place)
+    return next((own for own in same if not own["type"].endswith("_type")), head)
+
+
+def _is_branch(parts: Sequence[Any]) -> bool:
+    """Whether the last of these is no part of a request: what pydantic calls one of several kinds of a value."""
+    if not parts or not isinstance(parts[-1], str):
+        return False
+    return parts[-1] in _PLAIN or "[" in parts[-1] or parts[-1] in _models(Strict)
+
+
+def _models(base: type) -> set[str]:
+    return {own.__name__ for own in base.__subclasses__()}.union(*map(_models, base.__subclasses__()))
+
+
 def _of_validation(error: Mapping[str, Any]) -> dict[str, Any]:
     code, hint = _CODES.get(error["type"], ("invalid_input", ""))
-    path = ".".join(str(part) for part in error["loc"] if part not in ("body", "query", "path"))
+    parts = error["loc"]
+    own = [part for i, part in enumerate(parts) if i and not _is_branch(parts[i : i + 1])]
+    if parts and parts[0] not in _SOURCES:  # else FastAPI's word for where it stood
+        own.insert(0, parts[0])
+    path = ".".join(map(str, own))
     field = "" if code == "invalid_json" else path
     message = error["msg"].removeprefix("Value error, ")
     detail = f"{field}: {message}." if field else f"{message}."

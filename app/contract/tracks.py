@@ -10,27 +10,23 @@ from pydantic import Field
 
 from heli2dof_core.errors import within_field
 from heli2dof_core.many import Measure
-from heli2dof_core.measured import MEASURED, Axis, Motor, Steps
+from heli2dof_core.measured import MEASURED
 from heli2dof_core.requirements import measure_of, told_measure
-from heli2dof_core.scenario import Model as RigModel
 from heli2dof_core.signals import Floats
-from heli2dof_core.tracks import FEWEST, MOST, MOST_MEASURES, Scale, Track, known_paths, track, words
+from heli2dof_core.tracks import FEWEST, MOST, MOST_MEASURES, Scale, Track, known_paths, track
 
 from .experiment import StepRequest
 from .fields import Strict, Whole
 from .model import Complex, Model, Reply, poles_reply, present
+from .requirements import OfResponse
 
 Value = Annotated[float, Field(ge=-1e6, le=1e6)]
 
 
-class TrackedFigure(Strict):
+class TrackedFigure(OfResponse):
     """A figure of merit, and of which response."""
 
     measure: str = Field(json_schema_extra={"enum": [*MEASURED]})
-    axis: Axis | None = Field(default=None, description="the axis that is stepped; both: the worse of them")
-    motor: Motor | None = Field(default=None, description="the motor; both: the worse of them")
-    model: RigModel = Field(default="nonlinear", description="of the response")
-    steps: Steps = Field(default="alone", description="each axis by itself, or the scenario as it is set")
 
     def to_measure(self) -> Measure:
         """The core's; of both axes where none is named.
@@ -38,7 +34,7 @@ class TrackedFigure(Strict):
         Raises:
             InvalidInputError: there is no such figure, or none of such a response.
         """
-        return measure_of(self.model_dump(exclude_unset=True, exclude_none=True))
+        return measure_of(self.model_dump(exclude_none=True))
 
 
 class TrackOptions(Strict):
@@ -177,8 +173,8 @@ def _figure(measure: Measure, values: Floats) -> Reply:
         own["unlimited"] = np.isinf(values)
     return {
         **own,
-        "words": words(measure),
-        "unit": MEASURED[measure.name].figure.unit,
+        "words": measure.words,
+        "unit": measure.figure.unit,
         "values": np.where(valid, values, 0.0),
         "valid": valid,
     }

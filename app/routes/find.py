@@ -12,7 +12,7 @@ from heli2dof_core.finder import Designs
 from ..contract.encoding import json_bytes, json_text
 from ..contract.find import FindReply, FindRequest, find_reply, part_reply
 from ..contract.model import described
-from ..jobs.compute import Compute, check_cancelled
+from ..jobs.compute import Compute, check_cancelled, seconds_left
 from .progress_socket import Send, serve_with_progress
 
 
@@ -38,12 +38,16 @@ def build_router(compute: Compute) -> APIRouter:
     return router
 
 
+SEARCHED = 0.75
+"""Share of a job's time in which a search ends by itself; in the rest its designs are proved."""
+
+
 def _found(request: FindRequest) -> bytes:
-    *_, last = request.in_parts(check_cancelled)
+    *_, last = request.in_parts(check_cancelled, SEARCHED * seconds_left())
     assert isinstance(last, Designs)  # a search ends with its designs
     return json_bytes(find_reply(last))
 
 
 def _parts(request: FindRequest) -> Iterator[str]:
-    for part in request.in_parts(check_cancelled):
+    for part in request.in_parts(check_cancelled, SEARCHED * seconds_left()):
         yield json_text(part_reply(part))

@@ -8,7 +8,9 @@ import pytest
 from click.testing import CliRunner
 
 from app.cli.group import heli2dof
-from app.contract.find import FindProgress, FindReply
+from app.contract.find import FindProgress, FindReply, FindRequest
+from app.jobs.current import run_job
+from app.routes.find import _parts as find_parts
 from heli2dof_core import Spec
 from heli2dof_core.finder import Find, find
 from heli2dof_core.requirements import measure_of, requirements_of, told_requirements
@@ -123,6 +125,12 @@ def test_socket_can_be_called_off_and_goes_on(client):
         ({}, "find.require"),
         ({"require": {"speed": {"max": 1}}}, "find.require.speed"),
         ({"require": {"overshoot": {}}}, "find.require.overshoot.max"),
+        ({"require": {"overshoot": 3}}, "find.require.overshoot"),
+        ({"require": {"overshoot": {"max": 3, "axis": "V_p"}}}, "find.require.overshoot.axis"),
+        ({"require": {"overshoot": [{"max": 3, "top": 1}]}}, "find.require.overshoot.0.top"),
+        ({"require": {"overshoot": [{"max": 3}] * 33}}, "find.require.overshoot"),
+        ({"minimize": [{"measure": "overshoot", "axis": "no"}]}, "find.minimize.0.axis"),
+        ({"minimize": [3]}, "find.minimize.0"),
         ({"require": {"overshoot": [{"max": 1}, {"max": 1, "axis": "phi"}]}}, None),
         ({"require": {"disk_margin": {"min": 1, "axis": "theta"}}}, "find.require.disk_margin.axis"),
         ({"require": {"overshoot": {"max": 1, "share": 0.5}}}, "find.uncertainty"),
@@ -186,3 +194,22 @@ def test_the_command_prints_designs_or_why_there_are_none():
     assert "find.require.speed" in run("find", "--require", "speed<=1", status=2).output
     assert "settling_time<=0.8" in run("find", "--require", "speed<1", status=2).output
     assert "no number" in run("find", "--require", "speed<=fast", status=2).output
+
+
+def test_a_list_that_is_too_long_is_called_that(client):
+    asked = {**ASKED, "require": {"overshoot": [{"max": 3}] * 33}}
+    assert "at most 32 items" in post(client, "find", {"find": asked}, 422)["detail"]
+
+
+def test_a_search_ends_before_its_job_is_given_up(monkeypatch):
+    request = FindRequest.model_validate({"find": {**ASKED, "designs": 1_000_000}})
+    asked = []
+
+    def find_in_parts(spec, ask, *_):
+        asked.append(ask.seconds)
+        yield from ()
+
+    monkeypatch.setattr("app.contract.find.find_in_parts", find_in_parts)
+    for seconds in (8.0, 1e4, 0.0):
+        run_job(find_parts, (request,), lambda: False, lambda _part: None, seconds)
+    assert 5.5 < asked[0] < 6.0 and asked[1:] == [60.0, 0.1]  # three quarters; what is asked; the least

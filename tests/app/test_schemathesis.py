@@ -98,6 +98,12 @@ RULES: dict[str, dict[str, str]] = {
             "invalid_input map.uncertainty.*": "shares need rigs; their number times the places is bounded",
         },
     ),
+    "POST /api/v1/nearest": EXPERIMENT
+    | {
+        "invalid_input nearest.require.*": "limits rise; a figure has an axis, a motor or neither; no shares",
+        "invalid_input nearest.free.*": "loops or rotors may not be there; a pair that the method does not place",
+        "invalid_input method": "of some methods the poles are no handles",
+    },
     "POST /api/v1/find": RIGS
     | {
         "invalid_input find.free": "loops, weights, rotors, an observer may not be there, or be without effect",
@@ -187,10 +193,10 @@ def first_fields(document: dict[str, Any]) -> dict[str, Any]:
         new = {name for name, _ in fields - seen} | set(body.get("required", ()))
         body["properties"] = {name: field for name, field in body["properties"].items() if name in new}
         for name, field in body["properties"].items():
+            known = document["components"]["schemas"].get(field.get("$ref", "").removeprefix(BY), {})
             if "$ref" in field and (name, json.dumps(field, sort_keys=True)) in seen:
-                body["properties"][name] = (
-                    EMPTY  # required, and covered in another call: left as its defaults
-                )
+                # required, and covered in another call: left as its defaults, where it has some
+                body["properties"][name] = field if known.get("required") else EMPTY
         seen |= fields
         media["schema"] = body
         media.pop("examples", None)  # they are whole bodies

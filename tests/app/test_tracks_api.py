@@ -64,6 +64,7 @@ def test_a_figure_without_a_limit_says_so(client):
         ({"path": "gain", "points": 5000}, "track.points"),
         ({"path": "loops.pitch.kp", "kept": True}, "track.kept"),
         ({"path": "gain", "measures": [{"measure": "speed"}]}, "track.measures.0.measure"),
+        ({"path": "gain", "measures": [{"measure": "share_stable"}]}, "track.measures.0.measure"),
         (
             {"path": "gain", "measures": [{"measure": "disk_margin", "axis": "theta"}]},
             "track.measures.0.axis",
