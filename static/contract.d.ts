@@ -670,7 +670,7 @@ export interface FindOptions {
   bounds?: FindBounds;
   /** how many are tried, at most; one on uncertain rigs counts as many as there are rigs */
   designs?: number;
-  /** after which the search ends in any case */
+  /** after which the search ends in any case; a server gives it at most three quarters of the time of a slow job */
   seconds?: number;
   /** the same seed gives the same designs */
   seed?: number;
@@ -701,10 +701,13 @@ export interface FindReply {
   designs: FoundDesign[];
   /** left out where it does not exist */
   present?: PresentDesign;
+  /** designs, those on uncertain rigs counted by rig */
   tried: number;
+  /** that it took */
   seconds: number;
   /** whether the time had run out before all designs were tried */
   stopped: boolean;
+  /** of the request */
   seed: number;
   why?: FoundWhy;
 }
@@ -748,10 +751,12 @@ export interface FoundChanges {
   loops?: FoundLoops;
   coupling?: string;
   lead?: string;
+  /** shift c of Luenberger's basis */
   shift?: number;
   pairing?: string;
   decoupler?: boolean;
   observer?: FoundObserver;
+  /** of states, inputs and integrals by name */
   weights?: Record<string, Record<string, number>>;
 }
 
@@ -773,6 +778,7 @@ export interface FoundFigure {
 
 /** What one requirement would have to become. */
 export interface FoundGive {
+  /** its place among the requirements */
   requirement: number;
   /** left out where nothing was found */
   value?: number;
@@ -1245,7 +1251,15 @@ export interface LoopsRequest extends StepRequest {
 
 /** Which two numbers of the design are moved, over which places, and what is measured there. */
 export interface MapAsked {
-  /** its name */
+  /** the axis that is stepped; both, the worse one, where left out */
+  axis?: 'theta' | 'psi' | 'both' | null;
+  /** the motor; both, the worse one, where left out */
+  motor?: 'V_p' | 'V_y' | 'both' | null;
+  /** of the response; nonlinear where left out */
+  model?: 'linear' | 'nonlinear' | null;
+  /** alone, each axis by itself, where left out; together, the scenario as it is set */
+  steps?: 'alone' | 'together' | null;
+  /** name of a figure of merit */
   measure?:
     | 'rise_time'
     | 'settling_time'
@@ -1280,14 +1294,6 @@ export interface MapAsked {
     | 'lambda_11'
     | 'share_stable'
     | 'share_within_limits';
-  /** the axis that is stepped; both, the worse one, where left out */
-  axis?: 'theta' | 'psi' | 'both' | null;
-  /** the motor; both, the worse one, where left out */
-  motor?: 'V_p' | 'V_y' | 'both' | null;
-  /** of the response; nonlinear where left out */
-  model?: 'linear' | 'nonlinear' | null;
-  /** alone, each axis by itself, where left out; together, the scenario as it is set */
-  steps?: 'alone' | 'together' | null;
   /** a pair of poles, x ± jy, or k_p (x) and T_i (y) of an axis' PI loop */
   move: 'pitch-pair' | 'yaw-pair' | 'pitch-pi' | 'yaw-pi';
   /** [[x first, last], [y first, last]], rad/s, or V/rad and s; around the design where left out */
@@ -2906,8 +2912,11 @@ export interface ToldFigure {
 export interface ToldRequirement {
   /** its place among the figures */
   figure: number;
+  /** at most, in the figure's unit */
   max?: number;
+  /** at least, in the figure's unit */
   min?: number;
+  /** least share of the uncertain rigs, 0 to 1 */
   share?: number;
   words: string;
   limit: string;
@@ -3046,6 +3055,14 @@ export interface TrackRequest extends StepRequest {
 
 /** A figure of merit, and of which response. */
 export interface TrackedFigure {
+  /** the axis that is stepped; both, the worse one, where left out */
+  axis?: 'theta' | 'psi' | 'both' | null;
+  /** the motor; both, the worse one, where left out */
+  motor?: 'V_p' | 'V_y' | 'both' | null;
+  /** of the response; nonlinear where left out */
+  model?: 'linear' | 'nonlinear' | null;
+  /** alone, each axis by itself, where left out; together, the scenario as it is set */
+  steps?: 'alone' | 'together' | null;
   measure:
     | 'rise_time'
     | 'settling_time'
@@ -3078,14 +3095,6 @@ export interface TrackedFigure {
     | 'pole_error_bound'
     | 'eigenvector_condition'
     | 'lambda_11';
-  /** the axis that is stepped; both: the worse of them */
-  axis?: 'theta' | 'psi' | 'both' | null;
-  /** the motor; both: the worse of them */
-  motor?: 'V_p' | 'V_y' | 'both' | null;
-  /** of the response */
-  model?: 'linear' | 'nonlinear';
-  /** each axis by itself, or the scenario as it is set */
-  steps?: 'alone' | 'together';
 }
 
 /** A formula in two notations. */

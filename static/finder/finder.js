@@ -234,6 +234,9 @@ export class Finder {
     this.#last = found;
     this.empty.hidden = true;
     this.results.put(found, this.#from);
+    // below the window it would be there and nobody would know
+    const { node } = this.results;
+    if (node.getBoundingClientRect().top > innerHeight / 2) node.scrollIntoView({ block: 'start' });
   }
 
   #standing() {

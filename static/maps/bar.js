@@ -1,5 +1,5 @@
 /** Below the s-plane: whether there is a map, and which. */
-import { button, h, setAttr, svg } from '../ui/index.js';
+import { button, h, setAttr, setText, svg } from '../ui/index.js';
 import { CHOICES } from './choices.js';
 
 /** @typedef {import('./types.d.ts').Choice} Choice */
@@ -81,7 +81,24 @@ export class Bar {
       ],
       (pair) => ({ pair: /** @type {Choice['pair']} */ (pair) }),
     );
-    this.node = h('div', { class: 'map-choices', hidden: true }, this.name, this.axis, this.model, this.pair);
+    this.words = h('span');
+    this.room = h('span', { class: 'map-room' }, ' These need a higher window.');
+    this.note = h('p', { class: 'map-note', role: 'status', hidden: true }, this.words, this.room);
+    const { name, axis, model, pair, note } = this;
+    this.node = h('div', { class: 'map-choices', hidden: true }, name, axis, model, pair, note);
+  }
+
+  /** Why the plane has no map, where it has none. @param {boolean} places  poles by hand @param {boolean} loops */
+  explain(places, loops) {
+    this.note.hidden = places;
+    if (places) return;
+    setText(
+      this.words,
+      loops
+        ? 'The method computes the poles: only kₚ and Tᵢ of the loops have maps.'
+        : 'The method computes the poles: there is nothing to map.',
+    );
+    this.room.hidden = !loops;
   }
 
   /**

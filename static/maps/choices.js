@@ -91,6 +91,12 @@ export const inUnit = (name, v) => {
   return v * (figure ? (figure.scale ?? 1) : 100);
 };
 
+/** Values of the legend that differ by less are written alike. @param {string} name */
+export const finestOf = (name) => {
+  const { figure } = CHOICES[name];
+  return (figure?.least ?? 0) * (figure?.scale ?? 1);
+};
+
 /** @param {string} name */
 export const unitOf = (name) => {
   const { figure } = CHOICES[name];

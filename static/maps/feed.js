@@ -11,6 +11,7 @@
  *   cancel: (timer?: Timer) => void}} Hand
  */
 import { AT, fill, serves, sizeOf, spreadsOf } from '../kernel/index.js';
+import { ProblemError } from '../net/index.js';
 import { COLUMNS, fieldOf, refined, ROWS } from './grid.js';
 
 /** So long after its last move the hand rests, ms. */
@@ -189,8 +190,13 @@ export class MapFeed {
     this.#lane?.forget();
     for (const size of OF_SERVER) {
       if (key !== this.#key || !wanted) return;
-      const field = await this.askServer(wanted, size).catch(() => null); // the page says what is refused
+      let away = false;
+      const field = await this.askServer(wanted, size).catch((error) => {
+        away = !(error instanceof ProblemError) || error.problem.status === 503;
+        return null; // the page says what is refused
+      });
       if (key !== this.#key) return;
+      if (away) this.#key = ''; // it is asked for again: with the next change, or once the server is back
       if (!field) return size === OF_SERVER[0] ? this.show(null, null) : undefined;
       this.show(field, wanted.asked);
     }

@@ -17,9 +17,10 @@ const quantile = (sorted, share) => sorted[Math.min(sorted.length - 1, Math.roun
 /**
  * @param {ArrayLike<number>} values  in the unit that is shown; what is not finite does not count
  * @param {boolean} higher  whether more is better: then the low values are the outliers' side
+ * @param {number} [finest]  values that differ by less are alike: all of them have the colour of what is best
  * @returns {number[]} ascending; at least one where there is any value
  */
-export function levelsOf(values, higher) {
+export function levelsOf(values, higher, finest = 0) {
   const known = Array.from(values)
     .filter(Number.isFinite)
     .sort((a, b) => a - b);
@@ -27,6 +28,8 @@ export function levelsOf(values, higher) {
   const [least, most] = higher
     ? [quantile(known, 1 - HIGH), quantile(known, 1 - LOW)]
     : [quantile(known, LOW), quantile(known, HIGH)];
+  if (finest > 0 && most - least < finest)
+    return [Number((finest * (higher ? Math.floor(least / finest) : Math.ceil(most / finest + 1e-9))).toPrecision(12))];
   if (least > 0 && most / least > WIDE) return decades(least, most);
   const span = most - least;
   if (!(span > 1e-9 * Math.max(Math.abs(least), Math.abs(most)))) return [Number(least.toPrecision(3))];

@@ -66,7 +66,7 @@ export class Maps {
       busy: () => store.busy,
       move: (p, q, stamp) => this.#movePair(p, q, stamp),
       end: () => store.commit(),
-      free: () => !plane.marks.handles[2 * this.#pair].hasAttribute('aria-disabled'),
+      free: () => this.#isFree(this.#pair),
     });
     stage.append(h('div', { class: 'map-pair' }, this.pair.node));
     this.pairFeed = new MapFeed((...map) => this.pair.show(...map), fromServer, hand);
@@ -90,8 +90,9 @@ export class Maps {
 
   /** @param {State} state */
   render(state) {
-    const { design, map, locks, task, spread, requirements, view, presets, methods } = state;
-    this.#state = { ...this.store.state, design, map, locks, task, spread, requirements, view, presets, methods };
+    const { design, map, locks, task, spread, requirements, view, presets, methods, connection } = state;
+    const read = { design, map, locks, task, spread, requirements, view, presets, methods, connection };
+    this.#state = { ...this.store.state, ...read };
     if (design && this.#seen && design.poles !== this.#seen.poles) this.#follow(this.#seen, design);
     this.#seen = design;
     this.#ask(this.#state);
@@ -108,7 +109,14 @@ export class Maps {
   /** @returns {0|1} whose places are shown */
   get #pair() {
     const choice = choiceOf(this.store.state.map);
-    return choice?.pair === 'pitch' ? 0 : choice?.pair === 'yaw' ? 1 : this.#hand;
+    if (choice && choice.pair !== 'hand') return choice.pair === 'pitch' ? 0 : 1;
+    const other = /** @type {0|1} */ (1 - this.#hand);
+    return this.#isFree(this.#hand) || !this.#isFree(other) ? this.#hand : other; // where a lab's step locks one
+  }
+
+  /** @param {0|1} pair */
+  #isFree(pair) {
+    return !this.plane.marks.handles[2 * pair].hasAttribute('aria-disabled');
   }
 
   /** Of uncertain rigs. */
@@ -139,6 +147,7 @@ export class Maps {
       measure: measureOf(choice, AXES[own]),
       limits: limitsOf(state, AXES[own]),
     };
+    this.bar.explain(places, design.outer === 'pi');
     this.planeFeed.render(wanted(places && domain ? { ...pair, real: false, domain } : null));
     const real = places && domain && !isComplex(design.poles, own) && this.plane.view.height >= LEAST;
     this.pair.node.hidden = !real;

@@ -10,7 +10,7 @@ import { placeIn, shareIn } from './feed.js';
 import { levelsOf } from './levels.js';
 import { layersOf, upright } from './layers.js';
 import { lookOf, lookOfPage } from './look.js';
-import { CHOICES, inUnit, valueText } from './choices.js';
+import { CHOICES, finestOf, inUnit, valueText } from './choices.js';
 import { between } from './contours.js';
 import { paintMap } from './picture.js';
 
@@ -53,6 +53,10 @@ export class Pad {
     this.svg.addEventListener('pointermove', (e) => this.#move(e));
     for (const end of /** @type {const} */ (['pointerup', 'pointercancel', 'lostpointercapture']))
       this.svg.addEventListener(end, () => this.#up());
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+      this.#painted = null;
+      this.draw();
+    });
     this.svg.addEventListener('pointerleave', () => this.here.replaceChildren());
     new ResizeObserver(([{ contentRect }]) => {
       const unit = (this.#unit = drawingUnit());
@@ -124,9 +128,10 @@ export class Pad {
     const { name } = asked.measure;
     const shown = (/** @type {number} */ v) => inUnit(name, v);
     if (!this.how.busy() || !this.#levels.length)
-      this.#levels = CHOICES[name].levels ?? levelsOf(Array.from(field.values, shown), CHOICES[name].higher);
+      this.#levels =
+        CHOICES[name].levels ?? levelsOf(Array.from(field.values, shown), CHOICES[name].higher, finestOf(name));
     this.#layers = layersOf(upright(field), shown, this.#levels, [{}, ...asked.limits]);
-    paintMap(ctx, this.#layers, box, lookOf(name, this.#levels, lookOfPage(this.node, 10)));
+    paintMap(ctx, this.#layers, box, lookOf(name, this.#levels, lookOfPage(this.node, 10)), { avoid: namesIn(box) });
   }
 
   /** @param {{x: Span, y: Span}} domain @param {import('./picture.js').Box} box */
@@ -135,7 +140,7 @@ export class Pad {
       svg('rect', { class: 'pad-frame', x: box.x, y: box.y, width: box.width, height: box.height }),
     ];
     const foot = box.y + box.height;
-    for (const v of marksOf(x, box.width / 34)) {
+    for (const v of marksOf(x, box.width / 44)) {
       const at = box.x + box.width * shareIn(x, v);
       nodes.push(
         svg('line', { class: 'pad-tick', x1: at, x2: at, y1: foot, y2: foot + 3 }),
@@ -207,6 +212,10 @@ export class Pad {
     this.how.end();
   }
 }
+
+/** Where the axes' names stand, which no label may cover. @param {import('./picture.js').Box} box */
+const namesIn = ({ x, y, width, height }) =>
+  /** @type {[number, number][]} */ ([[x + 10, y + 9], ...[12, 34].map((away) => [x + width - away, y + height - 9])]);
 
 /**
  * What a map says somewhere, in words.

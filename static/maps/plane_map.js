@@ -2,7 +2,7 @@
 import { h, setText } from '../ui/index.js';
 import { toPixel, toPlane } from '../splane/index.js';
 import { handlesOf } from '../model/index.js';
-import { CHOICES, inUnit } from './choices.js';
+import { CHOICES, finestOf, inUnit } from './choices.js';
 import { shareIn } from './feed.js';
 import { layersOf, mirrored } from './layers.js';
 import { levelsOf } from './levels.js';
@@ -55,7 +55,11 @@ export class PlaneMap {
       if (!this.store.busy || !this.levels.length)
         this.levels =
           CHOICES[name].levels ??
-          levelsOf(field.values.filter((_, i) => field.stable[i] === 2).map(shown), CHOICES[name].higher);
+          levelsOf(
+            field.values.filter((_, i) => field.stable[i] === 2).map(shown),
+            CHOICES[name].higher,
+            finestOf(name),
+          );
       this.map = { field, asked };
       this.layers = layersOf(mirrored(field), shown, this.levels, [{}, ...asked.limits]);
     }

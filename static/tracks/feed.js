@@ -75,8 +75,10 @@ export class TrackFeed {
   async #ask(key, wanted) {
     const told = await this.ask(wanted).then(
       (track) => ({ track, problem: '', wanted }),
-      (error) => ({ track: null, problem: messageOf(error), wanted }),
+      (error) => ({ track: null, problem: messageOf(error), wanted, away: !(error instanceof ProblemError) }),
     );
-    if (key === this.#key) this.tell(told);
+    if (key !== this.#key) return;
+    if ('away' in told && told.away) this.#key = ''; // it is asked for again once the server is back
+    this.tell(told);
   }
 }

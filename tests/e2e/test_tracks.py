@@ -67,7 +67,8 @@ def test_who_wants_little_motion_goes_step_by_step(app: App, chromium: Browser):
 
 
 def test_a_click_on_a_curve_takes_its_value_and_the_range_is_ones_own(app: App, chromium: Browser):
-    with opened(chromium, app.url + DESIGN + "&track=loops.pitch.kp,5,60") as page:
+    # so high that the curves' upper ends are on the stage
+    with opened(chromium, app.url + DESIGN + "&track=loops.pitch.kp,5,60", size=(1280, 1200)) as page:
         curves(page)
         expect(page.get_by_test_id("track-to")).to_have_value("60")
         end = page.get_by_test_id("track").locator(".track-end")

@@ -5,6 +5,7 @@ import { AT } from '../../static/kernel/layout.js';
 import { choiceOf, CHOICES, linkOf, measureOf, valueText } from '../../static/maps/choices.js';
 import { css, ramp, rgb } from '../../static/maps/colors.js';
 import { between, linesOf, regions } from '../../static/maps/contours.js';
+import { ProblemError } from '../../static/net/index.js';
 import { besides, changesOf, MapFeed, placeIn, shareIn } from '../../static/maps/feed.js';
 import { fieldOf, refined } from '../../static/maps/grid.js';
 import { layersOf, mirrored } from '../../static/maps/layers.js';
@@ -56,6 +57,9 @@ test('levels are round, few, and no outlier makes the rest one colour', () => {
   for (const [i, v] of levels.slice(1).entries()) assert.ok(Math.abs(v - levels[i] - (levels[1] - levels[0])) < 1e-9);
   assert.deepEqual(levelsOf([NaN, NaN], false), []);
   assert.equal(levelsOf([3, 3, 3], false).length, 1);
+  // what is written alike has one colour, that of the best
+  assert.deepEqual(levelsOf([0, 0.004, 0.02, 0.3], false, 1), [1]);
+  assert.deepEqual(levelsOf([0.52, 0.54], true, 0.1), [0.5]);
   assert.ok(levelsOf([0, 0, 0, 0, 0, 1, 2, 3, 4], false)[0] > 0, 'what is best has a colour of its own');
   assert.deepEqual(
     levelsOf(
@@ -270,6 +274,24 @@ test('while something moves: coarse, one worker, at a pace; then the whole', () 
   pass(200);
   assert.equal(tasks.length, 4);
   assert.equal(tasks[3].task.workers, undefined, 'it rests');
+});
+
+test('what was asked of a server that is away is asked again, what it refuses is not', async () => {
+  const { feed, designs, served, pass } = held();
+  feed.take(designs);
+  const own = wanted({ ...DESIGN, method: 'robust' });
+  pass(1000);
+  feed.render(own);
+  served[0].refused(new TypeError('Failed to fetch'));
+  await new Promise((resolve) => setImmediate(resolve));
+  pass(1000);
+  feed.render(own);
+  assert.equal(served.length, 2);
+  served[1].refused(new ProblemError({ detail: 'too much' }));
+  await new Promise((resolve) => setImmediate(resolve));
+  pass(1000);
+  feed.render(own);
+  assert.equal(served.length, 2);
 });
 
 test('what the kernel does not serve is asked of the server, when the hand rests', async () => {

@@ -173,6 +173,24 @@ test('of what is asked the newest is told, and only when the hand rests', async 
   assert.deepEqual(told, ['gain.yaw']);
 });
 
+test('what was asked of a server that is away is asked again, what it refuses is not', async () => {
+  const refusals = [new TypeError('Failed to fetch'), new ProblemError({ detail: 'too much' })];
+  let asked = 0;
+  const feed = new TrackFeed(
+    () => {},
+    () => Promise.reject(refusals[asked++]),
+    (act) => {
+      act();
+      return setTimeout(() => {}, 0);
+    },
+  );
+  for (const count of [1, 2, 2]) {
+    feed.want(wanted('gain'));
+    await new Promise((resolve) => setImmediate(resolve));
+    assert.equal(asked, count);
+  }
+});
+
 test('what has no figures is asked for once more without, other refusals are told', async () => {
   /** @type {number[]} */ const asked = [];
   const refusing =
