@@ -138,7 +138,9 @@ def main() -> None:
         times: dict[bool, list[float]] = {False: [], True: []}
         with running_app(workers=workers) as app:
             kernels_ready(app.port)
-            httpx2.post(f"http://127.0.0.1:{app.port}/api/v1/splits", json={}, timeout=120)  # workers have loaded
+            httpx2.post(
+                f"http://127.0.0.1:{app.port}/api/v1/splits", json={}, timeout=120
+            )  # workers have loaded
             for _ in range(rounds):
                 for busy in (False, True):
                     with beside(app.port) if busy else nullcontext():

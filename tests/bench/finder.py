@@ -77,13 +77,17 @@ class Brute:
         begin = perf_counter()
         own = problem.tried(np.random.default_rng([7, self.tried]).random((count, problem.space.size)))
         known = self.goals
-        for i in np.flatnonzero(own.waiting)[np.argsort(own.goals[own.waiting, 0])]:
+        waiting = np.flatnonzero(own.waiting)
+        if own.goals.shape[1]:
+            waiting = waiting[np.argsort(own.goals[waiting, 0])]
+        for i in waiting:
             if not len(known) or not np.any(np.all(known <= own.goals[i], axis=1)):  # else it adds nothing
                 own = problem.put_on_rigs(own, np.array([i]))
                 known = np.vstack((known, own.goals[i : i + 1])) if own.missed[i] == 0.0 else known
         good: Tried = own.taken(own.missed == 0.0)
-        goals = np.vstack((self.goals, good.goals))
-        self.goals = goals[nondominated(goals)] if len(goals) and goals.shape[1] else self.goals
+        if own.goals.shape[1]:
+            goals = np.vstack((self.goals, good.goals))
+            self.goals = goals[nondominated(goals)] if len(goals) else goals
         self.tried, self.met = self.tried + count, self.met + int(np.count_nonzero(own.nominal))
         self.seconds += perf_counter() - begin
         KEPT.mkdir(parents=True, exist_ok=True)
@@ -91,9 +95,9 @@ class Brute:
         self.path.write_text(json.dumps(told))
 
 
-def brute(designs: int) -> None:
+def brute(designs: int, only: str | None) -> None:
     """All problems by turns, until each has had so many designs."""
-    every = [Brute(case) for case in (*SOLVABLE, *UNSOLVABLE)]
+    every = [Brute(case) for case in (*SOLVABLE, *UNSOLVABLE) if only in (None, case.name)]
     while waiting := [
         own for own in every if own.tried < (designs if own.case.name not in CHUNK else designs // 50)
     ]:
@@ -271,7 +275,7 @@ if __name__ == "__main__":
     warnings.simplefilter("ignore")
     warm_up()
     {
-        "brute": lambda: brute(asked.designs),
+        "brute": lambda: brute(asked.designs, asked.problem),
         "finder": lambda: finder(asked.designs, asked.seconds, asked.problem),
         "control": beside_control,
     }[asked.what]()
