@@ -18,7 +18,6 @@ import pytest
 from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 
-from app.classes.errors import ClassError
 from app.jobs.compute import Compute, OverdueError, WorkerLostError
 from app.jobs.current import JobError, is_portable, portable
 from app.jobs.fork_server import CAN_FORK
@@ -76,6 +75,14 @@ def test_results_and_specs_can_be_pickled(spec):
     assert pickle.loads(pickle.dumps(spec)) == spec == type(spec).from_preset(preset())
 
 
+class NeedsMoreError(Exception):
+    """Cannot be made anew of its words alone."""
+
+    def __init__(self, status: int, words: str) -> None:
+        super().__init__(words)
+        self.status = status
+
+
 def test_errors_arrive_as_they_were():
     with pytest.raises(LabError) as refused:
         read_lab("name: [")
@@ -89,7 +96,7 @@ def test_errors_arrive_as_they_were():
 
     other = portable(LocalError("words"))
     assert isinstance(other, JobError) and "LocalError: words" in str(other)
-    needs_more = portable(ClassError(404, "There is none.", "none"))
+    needs_more = portable(NeedsMoreError(404, "There is none."))
     assert isinstance(needs_more, JobError) and "There is none." in str(needs_more)
     unsendable = portable(InvalidInputError("no", field="x", value=MappingProxyType({})))
     assert isinstance(unsendable, InvalidInputError) and (unsendable.field, unsendable.value) == ("x", "{}")
