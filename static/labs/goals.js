@@ -12,32 +12,13 @@
  * @typedef {{met: boolean|null, text: string}} Now  met: null where the page cannot tell
  */
 import { fixed, inField, percent, t } from '../text/index.js';
-import { AXIS, DESIGN, figureIn, LOOP, MARGINS, MOTOR, SENSITIVITY, STEP, textOf } from '../model/index.js';
+import { AXIS, figureIn, MOTOR, textOf } from '../model/index.js';
+import { MEASURED_FIGURES } from '../kernel/index.js';
 import { bodyFrom } from '../bodies/index.js';
 
 const SLACK = 1e-9;
-/** The registry's figures by what they are of. @type {Record<string, Record<string, Figure>>} */
-const TABLES = {
-  axis: AXIS,
-  step: STEP,
-  motor: MOTOR,
-  margins: MARGINS,
-  sensitivity: SENSITIVITY,
-  loop: LOOP,
-  design: DESIGN,
-};
-/** In labs, where the registry's own names are unclear by themselves. @type {Record<string, string>} */
-const NAMES = {
-  'motor.peak': 'V_peak',
-  'sensitivity.peak': 'sensitivity_peak',
-  'sensitivity.peak_frequency': 'sensitivity_peak_frequency',
-  'sensitivity.gain_low': 'disk_gain_low',
-  'sensitivity.gain_high': 'disk_gain_high',
-  'sensitivity.phase': 'disk_phase',
-  'design.relative_gain': 'lambda_11',
-};
 /** Of these no value says that there is no limit. */
-const UNLIMITED = [...Object.values(MARGINS), LOOP.lag, SENSITIVITY.gain_high];
+const UNLIMITED = [...MEASURED_FIGURES.values()].filter((own) => own.unlimited).map((own) => own.figure);
 const AXES = /** @type {Axis[]} */ (['theta', 'psi']);
 const MOTORS = /** @type {Motor[]} */ (['V_p', 'V_y']);
 
@@ -45,8 +26,10 @@ const MOTORS = /** @type {Motor[]} */ (['V_p', 'V_y']);
 const UNKNOWN = { met: null, text: '' };
 
 /** A figure of the registry. @param {Pick<Goal, 'of'|'figure'>} goal @returns {Figure|undefined} */
-export const figureOf = ({ of, figure }) =>
-  Object.values(TABLES[of ?? ''] ?? {}).find(({ name }) => (NAMES[`${of}.${name}`] ?? name) === figure);
+export const figureOf = ({ of, figure }) => {
+  const known = MEASURED_FIGURES.get(figure ?? '');
+  return known?.of === of ? known?.figure : undefined;
+};
 
 /** A share is shown in percent, below one percent with a decimal, and never as none. */
 const isShare = (/** @type {Figure} */ figure) => figure === MOTOR.saturated;

@@ -59,9 +59,15 @@ def point(page: Page, i: int) -> Locator:
     return page.get_by_test_id(f"find-point-{i}")
 
 
+SHOWN = """(wanted) => {
+  const { preview, poles } = JSON.parse(document.documentElement.dataset.state);
+  return preview && poles.every(({ re, im }, k) => re === wanted[k].re && im === wanted[k].im);
+}"""
+
+
 def look(page: Page, i: int) -> None:
     point(page, i).hover(force=True)
-    page.wait_for_function("() => JSON.parse(document.documentElement.dataset.state).preview")
+    page.wait_for_function(SHOWN, arg=FOUND["designs"][i]["design"]["poles"])  # not the one before
 
 
 def leave(page: Page) -> None:
@@ -345,7 +351,8 @@ def test_with_the_server_itself(chromium: Browser, app: App):
         page.get_by_test_id("find-budget").select_option("5000")
         search(page)
         expect(page.get_by_test_id("find-words")).to_contain_text("designs tried")
-        look(page, 0)
+        point(page, 0).hover(force=True)
+        until_state(page, "s.preview")
         page.keyboard.press("Escape")
         point(page, 0).click(force=True)
         until_state(page, "!s.preview")
@@ -353,6 +360,7 @@ def test_with_the_server_itself(chromium: Browser, app: App):
         told = page.locator("[data-testid=find-found-0] td").first.inner_text()
         page.get_by_test_id("view-design").click()
         settled(page)
+        expect(page.get_by_test_id("metric-settling-psi")).not_to_have_text("")
         times = " ".join(
             page.get_by_test_id(f"metric-settling-{axis}").inner_text() for axis in ("theta", "psi")
         )
