@@ -167,6 +167,7 @@ def test_by_keys_alone(finding: Page):
 
 def test_rows_of_the_table_show_their_designs_too(finding: Page):
     search(finding)
+    finding.mouse.move(1, 1)  # what scrolls under a pointer that rests is shown by it
     own = shown(finding)
     finding.get_by_test_id("find-take-2").focus()
     until_state(finding, "s.preview")

@@ -30,15 +30,15 @@ def test_a_step_alone_from_the_list_to_its_points(chromium: Browser, server: App
         goal(page, "rise-time-theta", "missed")
         # a drag ticks the goal while the hand still holds the pole
         x, y = centre(page, "pole-0")
-        other, _ = centre(page, "pole-1")
+        gap = abs(x - centre(page, "pole-1")[0])  # 0.5 rad/s
         page.mouse.move(x, y)
         page.mouse.down()
-        page.mouse.move(x - 24 * abs(x - other), y, steps=10)
+        page.mouse.move(x - 24 * gap, y, steps=10)
         page.mouse.up()
         x, y = centre(page, "pole-1")
         page.mouse.move(x, y)
         page.mouse.down()
-        page.mouse.move(x - 24 * abs(x - other) / 2, y, steps=10)
+        page.mouse.move(x - 12 * gap, y, steps=10)
         goal(page, "rise-time-theta", "met")
         assert state(page)["dragging"]
         page.mouse.up()
