@@ -75,7 +75,9 @@ def test_a_drag_of_an_observers_pole_is_a_drag(app: App, chromium: Browser):
     with opened(chromium, app.url + OBSERVED) as page:
         mark = page.get_by_test_id("pole-mark-6")
         expect(mark).to_be_visible()
-        expect(page.get_by_test_id("rotor-poles")).to_be_visible()  # comes late, and takes room from the plane
+        expect(
+            page.get_by_test_id("rotor-poles")
+        ).to_be_visible()  # comes late, and takes room from the plane
         box = mark.bounding_box()
         assert box is not None
         x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
