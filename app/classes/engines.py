@@ -22,11 +22,11 @@ _SET = "Set HELI2DOF_DATABASE, as sqlite:////folder/that/can/be/written/classes.
 _LOCKED_MS = 10_000
 """Milliseconds that SQLite waits for another process's write."""
 _PRAGMAS = (
+    f"busy_timeout={_LOCKED_MS}",  # first: the next one may have to wait for another process, too
     "journal_mode=WAL",  # readers never wait for the writer
     "synchronous=FULL",  # what was answered outlives a power failure
     "foreign_keys=ON",
     "secure_delete=ON",  # what is deleted is overwritten
-    f"busy_timeout={_LOCKED_MS}",
 )
 
 
@@ -110,8 +110,10 @@ def open_engines(setting: str, *, migrate: bool = True) -> Engines:
             upgrade(engines.writing)
     except DBAPIError as error:
         engines.dispose()
-        why = "the file cannot be opened" if own_file else "the database's server does not answer"
-        raise no_database(f"{why} ({type(error.orig).__name__}).", _SET) from error
+        why = f"the file cannot be opened ({error.orig})."  # SQLite's words, such as "database is locked"
+        if not own_file:
+            why = f"the database's server does not answer ({type(error.orig).__name__})."
+        raise no_database(why, _SET) from error
     except ClassError:
         engines.dispose()
         raise
