@@ -27,6 +27,7 @@ export class Scatter {
   #unit = 1;
   /** @type {Map<number, SVGGElement>} */ #nodes = new Map();
   /** @type {{x: number, y: number, far: boolean, id: number}|null} */ #down = null;
+  /** Whether it is the pointer that shows a design. */ #pointed = false;
 
   /**
    * @param {object} tell
@@ -61,7 +62,8 @@ export class Scatter {
     this.svg.addEventListener('pointerdown', (e) => this.#press(e));
     this.svg.addEventListener('pointerup', (e) => this.#release(e));
     this.svg.addEventListener('pointercancel', () => this.#drop());
-    this.svg.addEventListener('pointerleave', (e) => e.pointerType !== 'touch' && !this.#down && tell.look(-1));
+    // what the keys show stays, where the page scrolls away under a pointer that rests
+    this.svg.addEventListener('pointerleave', () => this.#pointed && !this.#down && this.#look(-1, false));
     this.svg.addEventListener('keydown', (e) => this.#key(e));
     this.svg.addEventListener('blur', () => tell.look(-1));
     new ResizeObserver(([{ contentRect }]) => {
@@ -96,6 +98,12 @@ export class Scatter {
     return nearest(kept, ...this.#at(e));
   }
 
+  /** @param {number} index @param {boolean} pointed whether the pointer shows it */
+  #look(index, pointed) {
+    this.#pointed = pointed;
+    this.tell.look(index);
+  }
+
   /** @param {PointerEvent} e */
   #move(e) {
     const [x, y] = this.#at(e);
@@ -112,7 +120,7 @@ export class Scatter {
       }))
         this.band.setAttribute(name, v.toFixed(1));
       this.band.setAttribute('visibility', 'visible');
-    } else if (!down && e.pointerType !== 'touch') this.tell.look(this.#under(e));
+    } else if (!down && e.pointerType !== 'touch') this.#look(this.#under(e), true);
   }
 
   /** @param {PointerEvent} e */
@@ -160,7 +168,7 @@ export class Scatter {
     if (!seen || e.ctrlKey || e.metaKey || e.altKey) return;
     const { active, kept } = seen;
     const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, Home: -Infinity, End: Infinity }[e.key];
-    if (by !== undefined) this.tell.look(stepped(this.#points, kept, active, by));
+    if (by !== undefined) this.#look(stepped(this.#points, kept, active, by), false);
     else if (active >= 0 && (e.key === 'Enter' || e.key === ' ')) this.tell.press(active, false);
     else if (active >= 0 && e.key.toLowerCase() === 'p') this.tell.pin(active);
     else if (e.key === 'Escape') active >= 0 ? this.tell.look(-1) : this.tell.clear();

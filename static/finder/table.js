@@ -27,11 +27,21 @@ export class FoundTable {
       const row = /** @type {Element} */ (e.target).closest('tr[data-index]');
       return row ? Number(row.getAttribute('data-index')) : -1;
     };
-    // a move alone: rows that are scrolled under a pointer that rests are not looked at
-    this.body.addEventListener('pointermove', (e) => e.pointerType !== 'touch' && tell.look(indexAt(e)));
-    this.body.addEventListener('pointerleave', (e) => e.pointerType !== 'touch' && tell.look(-1));
+    let pointed = false; // a row that has the focus stays shown, where it scrolls away under a pointer that rests
+    this.body.addEventListener('pointermove', (e) => {
+      if (e.pointerType === 'touch') return;
+      pointed = true;
+      tell.look(indexAt(e));
+    });
+    this.body.addEventListener('pointerleave', () => {
+      if (pointed) tell.look(-1);
+      pointed = false;
+    });
     this.body.addEventListener('pointerup', (e) => e.pointerType === 'touch' && tell.look(indexAt(e)));
-    this.body.addEventListener('focusin', (e) => tell.look(indexAt(e)));
+    this.body.addEventListener('focusin', (e) => {
+      pointed = false;
+      tell.look(indexAt(e));
+    });
     this.body.addEventListener('focusout', (e) => {
       if (!(e.relatedTarget instanceof Node && this.body.contains(e.relatedTarget))) tell.look(-1);
     });

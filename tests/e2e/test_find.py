@@ -67,7 +67,12 @@ SHOWN = """(wanted) => {
 
 def look(page: Page, i: int) -> None:
     point(page, i).hover(force=True)
-    page.wait_for_function(SHOWN, arg=FOUND["designs"][i]["design"]["poles"])  # not the one before
+    shows(page, i)
+
+
+def shows(page: Page, i: int) -> None:
+    """Waits until this design is previewed, not the one before."""
+    page.wait_for_function(SHOWN, arg=FOUND["designs"][i]["design"]["poles"])
 
 
 def leave(page: Page) -> None:
@@ -147,19 +152,18 @@ def test_by_keys_alone(finding: Page):
     scatter = finding.get_by_test_id("find-scatter")
     scatter.focus()
     finding.keyboard.press("ArrowRight")
-    until_state(finding, "s.preview")
-    assert is_of(finding, 0)
+    shows(finding, 0)
     assert scatter.get_attribute("aria-activedescendant") == "find-point-0"
     finding.keyboard.press("ArrowRight")
     finding.keyboard.press("ArrowRight")
-    assert is_of(finding, 2)
+    shows(finding, 2)
     finding.keyboard.press("p")
     until_state(finding, "s.pins.length === 1")
     finding.keyboard.press("Escape")
     until_state(finding, "!s.preview")
     assert shown(finding) == own
     finding.keyboard.press("End")
-    until_state(finding, "s.preview")
+    shows(finding, len(FOUND["designs"]) - 1)
     finding.keyboard.press("Enter")
     until_state(finding, "!s.preview")
     assert is_of(finding, len(FOUND["designs"]) - 1)
@@ -167,11 +171,9 @@ def test_by_keys_alone(finding: Page):
 
 def test_rows_of_the_table_show_their_designs_too(finding: Page):
     search(finding)
-    finding.mouse.move(1, 1)  # what scrolls under a pointer that rests is shown by it
     own = shown(finding)
     finding.get_by_test_id("find-take-2").focus()
-    until_state(finding, "s.preview")
-    assert is_of(finding, 2)
+    shows(finding, 2)
     finding.get_by_test_id("find-run").focus()
     until_state(finding, "!s.preview")
     assert shown(finding) == own
@@ -331,7 +333,8 @@ def test_what_a_link_locks_is_not_searched(chromium: Browser, app: App):
         own = state(page)["poles"]
         search(page)
         assert finder.asked[0]["find"]["free"] == ["loops"]
-        look(page, 3)
+        point(page, 3).hover(force=True)
+        until_state(page, "s.preview")
         assert state(page)["poles"] == own
         assert state(page)["loops"]["pitch"] == FOUND["designs"][3]["design"]["loops"]["pitch"]
 
