@@ -6,6 +6,7 @@ import os
 import sys
 from contextlib import suppress
 from dataclasses import dataclass
+from errno import EACCES, EISDIR
 from pathlib import Path
 from typing import Any
 
@@ -149,7 +150,13 @@ def _make_file(path: Path) -> None:
     """
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o600))
+        # One that is there is not opened: POSIX ends all locks of a process on a file where it closes it once, and
+        # so SQLite's; another process would take the database for left, and remove the log that we write.
+        with suppress(FileExistsError):
+            os.close(os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600))
+        if path.is_dir() or not os.access(path, os.R_OK | os.W_OK):
+            refused = EISDIR if path.is_dir() else EACCES
+            raise OSError(refused, os.strerror(refused))
         writable = os.access(path.parent, os.W_OK)  # for the journal beside it
     except OSError as error:
         raise no_database(f"{path} cannot be written ({error.strerror}).", _SET) from error

@@ -76,6 +76,26 @@ def kept(room: ClassRoom, student: str) -> dict[str, object]:
 # Schemas.
 
 
+_PASSING_BY = """
+import sqlite3, sys
+connection = sqlite3.connect(sys.argv[1])
+connection.execute("SELECT count(*) FROM classes").fetchall()
+connection.close()
+"""
+
+
+def test_opening_a_database_twice_leaves_the_process_its_locks(tmp_path):
+    """SQLite removes the log with the last process that has the file: what is written after must not go with it."""
+    setting, file = f"sqlite:///{tmp_path}/own.db", tmp_path / "own.db"
+    first = engines.open_engines(setting)
+    engines.open_engines(setting).dispose()
+    with first.reading.connect():
+        log = Path(f"{file}-wal").stat().st_ino
+        python("-c", _PASSING_BY, str(file))
+        assert Path(f"{file}-wal").stat().st_ino == log
+    first.dispose()
+
+
 def test_the_migrations_make_what_the_tables_say(empty):
     opened = engines.open_engines(empty)
     with opened.reading.connect() as connection:
