@@ -29,6 +29,7 @@ export class SPlane {
   /** CSS pixels to one of the drawing, which grows with the page. */ unit = 1;
   #manual = false;
   /** @type {string|null} */ #preset = null;
+  #known = false;
   /** @type {0|1|null} */ #alone = null;
   /** @type {number|null} */ #active = null;
   /**
@@ -176,13 +177,16 @@ export class SPlane {
 
   /** @param {State} state */
   render(state) {
-    const { design, reply, dragging } = state;
+    const { design, reply, answered, dragging } = state;
     if (!design || !this.view.width) return;
     const fresh = design.preset !== this.#preset || pairAlone(state) !== this.#alone;
+    const known = answered?.preset === design.preset; // and so are its loop's poles
+    const first = known && !this.#known && !this.#manual;
+    this.#known = known;
     this.#preset = design.preset;
     this.#alone = pairAlone(state);
     const watched = [...this.#own(state), ...(reply?.loop_poles ?? []).filter((p) => p.re >= 0)];
-    if (!dragging && (fresh || (!this.#manual && outgrown(this.view, watched)))) this.fit(state);
+    if (!dragging && (fresh || first || (!this.#manual && outgrown(this.view, watched)))) this.fit(state);
     else this.#draw(state);
   }
 
