@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from math import isfinite, isinf
 from types import MappingProxyType
 from typing import Any, Literal
 
@@ -107,13 +108,16 @@ class Measured:
         return ", ".join(parts)
 
     def written(self, value: float | None) -> str:
-        """A value as it is shown; words where there is none."""
-        if value is None:
-            if self.unlimited:
-                return "unlimited"
-            return (
-                NOT_SETTLED if self.name == "settling_time" else "not reached" if self.of == "axis" else DASH
-            )
+        """A value as it is shown; words where there is none (None, NaN) or no limit.
+
+        No limit is what infinity says, and None of a figure that may have none; NaN is no value of any figure.
+        """
+        if self.unlimited and (value is None or isinf(value)):
+            return "unlimited"
+        if value is None or not isfinite(value):
+            if self.unlimited or self.of != "axis":
+                return DASH
+            return NOT_SETTLED if self.name == "settling_time" else "not reached"
         if _is_share(self.figure):
             return percent(value)
         return told(self.figure, value) + (f" {self.figure.shown}" if self.figure.in_head else "")

@@ -19,7 +19,7 @@ import numpy as np
 
 from .checks import checked_number, require_within
 from .errors import InvalidInputError, within_field
-from .figures.written import DASH, percent
+from .figures.written import percent
 from .many import SHARES, Measure
 from .measured import MEASURED, Axis, Measured, Motor, Steps, Where
 from .scenario import Model
@@ -259,12 +259,7 @@ def told_measure(measure: Measure) -> dict[str, Any]:
 
 def written(measure: Measure, value: float | None) -> str:
     """A value as it is shown; words where there is none (None, NaN) or no limit (infinite, None where it may be)."""
-    known = MEASURED.get(measure.name)
-    if known is None:
-        return measure.written(None if value is None or isnan(value) else value)
-    if value is not None and isnan(value) and known.unlimited:
-        return DASH
-    return known.written(None if value is None or not isfinite(value) else value)
+    return measure.written(value)
 
 
 def between(low: str | None, high: str | None) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import floor
+from math import floor, isfinite
 from types import MappingProxyType
 from typing import get_args
 
@@ -100,10 +100,10 @@ class Measure:
         return self.name in MEASURED and MEASURED[self.name].unlimited
 
     def written(self, value: float | None) -> str:
-        """A value as it is shown; words where there is none."""
+        """A value as it is shown; words where there is none (None, NaN) or no limit, as `Measured.written`."""
         if self.name not in SHARES:
             return MEASURED[self.name].written(value)
-        return DASH if value is None else f"{self.shown(value):g} %"
+        return DASH if value is None or not isfinite(value) else f"{self.shown(value):g} %"
 
     def shown(self, value: float) -> float:
         """The value as it is shown, a number in the unit that people read."""

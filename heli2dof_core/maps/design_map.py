@@ -121,7 +121,7 @@ class DesignMap(Frozen, Shown):
         """A value as it is shown, with its unit."""
         if isnan(value) and self.measure.unlimited:
             return "none"
-        return self.measure.written(value if isfinite(value) else None)
+        return self.measure.written(value)
 
     def svg(self) -> str:
         """The map as a picture: filled contours, axes, legend; what is forbidden is hatched."""
