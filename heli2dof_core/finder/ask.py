@@ -8,6 +8,7 @@ from typing import Annotated, Literal, get_args
 
 from ..checks import require_one_of
 from ..errors import InvalidInputError, within_field
+from ..exclusion import meant, require_distinct
 from ..many import SHARES, Measure
 from ..measured import MEASURED
 from ..placement.registry import method
@@ -142,7 +143,17 @@ class Find:
                 field="minimize",
                 hint=f"Give {MOST_MINIMIZED} at most, and limits for the others.",
             )
+        require_distinct(self.require)
+        said: set[Measure] = set()
         for i, own in enumerate(self.minimize):
+            if meant(own) in said:
+                raise InvalidInputError(
+                    f"{own.words} is to be minimized twice",
+                    field=f"minimize.{i}",
+                    value=own.name,
+                    hint="Name each figure once.",
+                )
+            said.add(meant(own))
             known = MEASURED.get(own.name)
             if known is not None and known.figure.better == "none":
                 raise InvalidInputError(

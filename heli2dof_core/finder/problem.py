@@ -82,6 +82,7 @@ class Problem:
 
     Attributes:
         space: the designs.
+        stepped: the axes that are stepped.
         told: what is told of each design: minimized first, then what else is required.
         measures: what is computed of each.
         closed_form: whether the kernel finds K itself.
@@ -99,8 +100,8 @@ class Problem:
         self._closed = [i for i in range(len(ask.require)) if i != open_end]
         self.space = Space(spec, ask)
         scenario = spec.scenario
-        stepped = [axis for axis in ("theta", "psi") if getattr(scenario, axis) is not None]
-        self._parts = [need.apart(stepped) for need in ask.require]
+        self.stepped = [axis for axis in ("theta", "psi") if getattr(scenario, axis) is not None]
+        self._parts = [need.apart(self.stepped) for need in ask.require]
         self.told = tuple(dict.fromkeys((*ask.minimize, *(need.measure for need in ask.require))))
         wanted = (*ask.minimize, *(need.measure for parts in self._parts for need in parts))
         self.measures = tuple(dict.fromkeys(own for own in wanted if own.name not in SHARES))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..exclusion import exclusion_text
 from ..many import Measure
 from ..requirements import Requirement, written
 from ..spec import Spec
@@ -72,14 +73,22 @@ class Give:
 class Why:
     """Why no design meets everything, as far as the search has seen.
 
+    Requirements by their numbers.
+
     Attributes:
-        requirements: the smallest set found that no design tried meets together, by numbers; without any one of them
-            there are designs that meet the others of it.
-        gives: what each of them would have to give.
+        requirements: of those that can be met by themselves the smallest set found that no design tried meets
+            together; without any one of them there are designs that meet the others of it. Empty where the others
+            than `alone` can be met together.
+        gives: what each of `alone` and of these would have to give.
+        alone: those that no design tried meets, whatever else is asked.
+        excluding: pairs of limits of one figure that exclude one another, whatever the design; then no design was
+            tried.
     """
 
     requirements: tuple[int, ...]
     gives: tuple[Give, ...]
+    alone: tuple[int, ...] = ()
+    excluding: tuple[tuple[int, int], ...] = ()
 
 
 @dataclass(frozen=True, repr=False)
@@ -129,14 +138,25 @@ class Designs(Shown):
             rows.append((*(told(own.spec, name) for name in free), *figures, count))
         found = [Table.of("designs" if self.met else "nearest misses", heads, rows)]
         if self.why is not None:
-            own = []
-            for give in self.why.gives:
+            found += self._gives("out of reach", self.why.alone) + self._gives(
+                "these contradict", self.why.requirements
+            )
+            if self.why.excluding:
+                pairs = ([f"{self.ask.require[i].words} {self.ask.require[i].limit_text}" for i in pair]
+                         for pair in self.why.excluding)  # fmt: skip
+                found.append(Table.of("these exclude one another", ("requirement", "and"), pairs))
+        return tuple(found)
+
+    def _gives(self, title: str, which: tuple[int, ...]) -> list[Table]:
+        """What some requirements would have to give, where there are any."""
+        assert self.why is not None
+        rows = []
+        for give in self.why.gives:
+            if give.requirement in which:
                 need = self.ask.require[give.requirement]
                 then = "" if give.value is None else consequence(self, give)
-                own.append((need.words, need.limit_text, gives_text(need, give), then))
-            title = "out of reach" if len(own) == 1 else "these contradict"
-            found.append(Table.of(title, ("requirement", "asked", "would have to give", ""), own))
-        return tuple(found)
+                rows.append((need.words, need.limit_text, gives_text(need, give), then))
+        return [Table.of(title, ("requirement", "asked", "would have to give", ""), rows)] if rows else []
 
 
 HEADS: dict[Free, str] = {
@@ -186,7 +206,7 @@ def consequence(found: Designs, give: Give) -> str:
     """What is met where a requirement gives so much, in words."""
     if give.others_met:
         return "then all others are met"
-    alone = found.why is not None and len(found.why.requirements) == 1
+    alone = found.why is not None and give.requirement in found.why.alone
     return (
         "others are missed there all the same"
         if alone
@@ -195,13 +215,20 @@ def consequence(found: Designs, give: Give) -> str:
 
 
 def why_text(found: Designs) -> str:
-    """Which requirements contradict, in words."""
-    assert found.why is not None
-    own = [
-        f"{need.words} {need.limit_text}" for need in (found.ask.require[i] for i in found.why.requirements)
+    """Which requirements are out of reach by themselves, and which of the others contradict, in words."""
+    why, needs = found.why, found.ask.require
+    assert why is not None
+    if why.excluding:
+        return exclusion_text(needs, why.excluding)
+    alone, own = (
+        [f"{needs[i].words} {needs[i].limit_text}" for i in which] for which in (why.alone, why.requirements)
+    )
+    told = [
+        f"No design of {found.tried} tried meets {one}{'' if len(needs) == 1 else ', whatever else is asked'}."
+        for one in alone
     ]
-    if len(own) == 1:
-        return f"No design of {found.tried} tried meets {own[0]}."
-    together = f"{', '.join(own[:-1])} and {own[-1]}"
-    tried = f"No design of {found.tried} tried meets {together} together"
-    return f"{tried}; without any one of them the others can be met."
+    if own:
+        none = "Of the others, none" if alone else f"No design of {found.tried} tried"
+        together = f"{', '.join(own[:-1])} and {own[-1]}"
+        told.append(f"{none} meets {together} together; without any one of them the others can be met.")
+    return " ".join(told)

@@ -1,4 +1,8 @@
-"""Where no design meets everything: which requirements contradict, and by how much each would have to give."""
+"""Where no design meets everything: what no design meets by itself, what contradicts, what each would have to give.
+
+First each requirement by itself: one that no design meets contradicts any other, which says nothing of the other.
+Only of those that can be met a smallest set is sought that no design meets together.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +30,7 @@ PAIRS = 10
 
 
 class Contradiction:
-    """Looks for the smallest set of requirements that no design meets together.
+    """Looks for requirements that no design meets by themselves, and for the smallest set of others that contradict.
 
     Args:
         search: one that has found no design that meets everything; its budget is used on.
@@ -36,54 +40,73 @@ class Contradiction:
         self._search, self._problem = search, search.problem
         self._ask, self._count = search.problem.ask, len(search.problem.ask.require)
         self._share = max(LEAST, (search.designs - search.used) // (2 * self._count + 4))
-        self.why: Why | None = None
+        self._alone: list[int] = []
+        self._set: tuple[int, ...] = ()
+        self._gives: list[Give] = []
 
-    def run(self) -> Iterator[None]:
-        """Fills `why`; stops for a moment after every part of the work.
+    @property
+    def why(self) -> Why | None:
+        """What was found; None where nothing was.
 
-        Where the time runs out before a set is found it stays None: what was not looked at long enough is no
+        Where the time runs out before a set is found none is named: what was not looked at long enough is no
         contradiction.
         """
+        named = (*sorted(self._alone), *self._set)
+        if not named:
+            return None
+        known = {own.requirement: own for own in self._gives}
+        gives = tuple(known.get(i, Give(i, None, False)) for i in named)
+        return Why(self._set, gives, tuple(sorted(self._alone)))
+
+    def run(self) -> Iterator[None]:
+        """Fills `why`; stops for a moment after every part of the work."""
         with suppress(Exhausted):
             yield from self._run()
 
     def _run(self) -> Iterator[None]:
-        own = yield from self._smallest()
-        gives = []
-        for k, i in enumerate(own):
-            self._share = max(LEAST, (self._search.designs - self._search.used) // (len(own) - k))
-            try:
-                gives.append(self._give(i, own))
-            except Exhausted:  # what of it was found is told
-                gives.append(Give(i, None, False))
+        for (i,) in self._likely(1, range(self._count)):
+            # of a single one the whole search has been about it
+            if not (self._seen((i,)) if self._count == 1 else self._together((i,))):
+                self._alone.append(i)
             yield
-        self.why = Why(own, tuple(gives))
+        self._set = yield from self._smallest([i for i in range(self._count) if i not in self._alone])
+        named = (*sorted(self._alone), *self._set)
+        for k, i in enumerate(named):
+            self._share = max(LEAST, (self._search.designs - self._search.used) // (len(named) - k))
+            with suppress(Exhausted):  # what of it was found is told
+                self._gives.append(self._give(i))
+            yield
 
-    def _smallest(self) -> Generator[None, None, tuple[int, ...]]:
-        """The smallest set that nothing was found to meet."""
-        for size in (1, 2) if self._count <= PAIRS else (1,):
-            if size >= self._count:
-                break
-            for some in self._likely(size):
-                if not self._together(some):
-                    return some
-                yield
-        own = tuple(range(self._count))
-        for i in range(self._count) if self._count > 1 else ():
+    def _smallest(self, possible: Sequence[int]) -> Generator[None, None, tuple[int, ...]]:
+        """The smallest set that nothing was found to meet, of requirements that can be met by themselves."""
+        own = tuple(possible)
+        # of all of them the whole search has been about it
+        if len(own) < 2 or (self._seen(own) if len(own) == self._count else self._together(own)):
+            return ()
+        yield
+        for some in self._likely(2, own) if 2 < len(own) <= PAIRS else ():
+            if not self._together(some):
+                return some
+            yield
+        for i in possible:
             rest = tuple(k for k in own if k != i)
-            if rest and not self._together(rest):
+            if len(rest) > 1 and not self._together(rest):
                 own = rest
             yield
         return own
 
-    def _likely(self, size: int) -> list[tuple[int, ...]]:
+    def _likely(self, size: int, among: Sequence[int]) -> list[tuple[int, ...]]:
         """Sets of so many, those first that the designs tried are farthest from meeting together."""
-        every = list(combinations(range(self._count), size))
+        every = list(combinations(among, size))
         return sorted(every, key=lambda some: -float(self._search.excess[:, some].sum(axis=1).min()))
+
+    def _seen(self, some: Sequence[int]) -> bool:
+        """Whether a design that was tried meets some of the requirements together."""
+        return bool(np.any(np.all(self._search.excess[:, some] == 0.0, axis=1)))
 
     def _together(self, some: Sequence[int]) -> bool:
         """Whether some of the requirements can be met together, as far as was seen."""
-        if np.any(np.all(self._search.excess[:, some] == 0.0, axis=1)):
+        if self._seen(some):
             return True
         ask = replace(self._ask, require=tuple(self._ask.require[i] for i in some), minimize=())
         search = self._sub(ask, None, some)
@@ -129,14 +152,18 @@ class Contradiction:
         values = [value_of(report, one.measure) for one in parts]
         return max(values, key=lambda value: float(need.excess(np.array(value))))
 
-    def _give(self, i: int, own: tuple[int, ...]) -> Give:
-        """What a requirement would have to become, all others kept; or at least those that contradict it."""
+    def _give(self, i: int) -> Give:
+        """What a requirement would have to become, all others kept; or at least those that it may be met with.
+
+        These are the others that can be met by themselves, and else those alone that contradict it.
+        """
         others = tuple(k for k in range(self._count) if k != i)
-        for rest in dict.fromkeys((others, tuple(k for k in own if k != i))):
+        possible = tuple(k for k in others if k not in self._alone)
+        for rest in dict.fromkeys((possible, tuple(k for k in self._set if k != i and i in self._set))):
             some = (*rest, i)
             ask = replace(self._ask, require=tuple(self._ask.require[k] for k in some), minimize=())
             last = len(some) - 1
-            search = self._sub(ask, last, rest)
+            search = self._sub(ask, last, rest or some)
             with suppress(Exhausted):
                 while search.used + POPULATION <= search.designs:
                     before = search.used

@@ -11,6 +11,7 @@ import numpy as np
 from ..checks import require_within
 from ..errors import Heli2DofError
 from ..evaluate import Report, evaluate
+from ..exclusion import excluding, exclusion_text
 from ..measured import worst
 from ..requirements import Requirement, requirements_of
 from ..spec import Spec
@@ -84,6 +85,7 @@ class Nearest(Shown):
         out_of_reach: positions of requirements that no design near has met.
         within: how far was looked.
         tried: designs that were looked at.
+        excluding: pairs of requirements, by position, whose limits exclude one another; then no design was looked at.
     """
 
     spec: Spec
@@ -95,26 +97,43 @@ class Nearest(Shown):
     out_of_reach: tuple[int, ...]
     within: float
     tried: int
+    excluding: tuple[tuple[int, int], ...] = ()
 
     @property
     def met(self) -> bool:
         """Whether the design meets all as it is."""
-        return not self.moves and self.closest is None
+        return not self.moves and self.closest is None and not self.excluding
+
+    @property
+    def missed(self) -> str:
+        """What the closest design misses, in words, all of it; empty where there is none that is told."""
+        if self.closest is None:
+            return ""
+        each = zip(self.requirements, self.closest.shown, self.closest.meets, strict=True)
+        return "; ".join(
+            f"{own.words} {shown} in place of {own.limit_text}" for own, shown, met in each if not met
+        )
 
     def summary(self) -> str:
         """The nearest move, or that there is none."""
         if self.met:
             return "met as it is"
+        if self.excluding:
+            return exclusion_text(self.requirements, self.excluding)
         if self.moves:
             return self.moves[0].summary()
+        if not self.requirements:
+            return "no design near is stable"
         if self.out_of_reach:
             out = "; ".join(
                 f"{self.requirements[i].words} {self.requirements[i].limit_text}" for i in self.out_of_reach
             )
-            return f"no design near meets all; out of reach: {out}"
-        if not self.requirements:
-            return "no design near is stable"
-        return "no design near meets all at once, though each requirement alone can be met"
+            told = f"no design near meets all; out of reach: {out}"
+        else:
+            told = "no design near meets all at once, though each requirement alone can be met"
+        if self.closest is None:
+            return told
+        return f"{told}; the closest, {100 * self.closest.distance:.3g} % away, misses: {self.missed}"
 
     def tables(self) -> tuple[Table, ...]:
         """What is required and what each move gives; what moves where."""
@@ -169,9 +188,11 @@ def nearest(
     require_within(within, "within", "", CLOSEST, FARTHEST)
     handles = handles_of(spec, free)
     requirements = requirements_of(requirements) if isinstance(requirements, Mapping) else tuple(requirements)
-    judge = Judge(spec, requirements, threads, check)
+    judge = Judge(spec, requirements, within, threads, check)
     now = _proved(spec, spec, requirements)
-    if bool(judge(judge.many.row[np.newaxis]).met[0]):
+    if pairs := excluding(requirements, judge.stepped):  # which no move can mend
+        return Nearest(spec, requirements, handles, now, (), None, (), within, judge.tried, pairs)
+    if bool(judge(judge.many.row[np.newaxis], np.zeros(1)).met[0]):
         return Nearest(spec, requirements, handles, now, (), None, (), within, judge.tried)
     found: list[Best] = []
     for group in _groups(handles):
@@ -184,7 +205,7 @@ def nearest(
             effort = effort.less
         best = search(judge, own, within, effort, _known(own, found))
         if best.chart is not None:
-            tidied(judge, best)
+            tidied(judge, best, within)
             found.append(best)
     moves = _sparse([move for best in found if (move := _move(judge, best, requirements)) is not None])
     if moves:

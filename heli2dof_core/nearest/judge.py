@@ -45,15 +45,21 @@ class Judge:
 
     Attributes:
         of: which requirement each limit belongs to.
+        stepped: the axes that are stepped.
         tried: how many designs were looked at.
-        least: by how much each requirement was missed at least, by any of these, (requirements,).
-        closest: the numbers of the one that comes closest to meeting all.
+        least: by how much each requirement was missed at least, by any of these that is near, (requirements,).
+        closest: the numbers of the near one that comes closest to meeting all.
     """
 
     def __init__(
-        self, spec: Spec, requirements: Sequence[Requirement], threads: int, check: Callable[[], None]
+        self,
+        spec: Spec,
+        requirements: Sequence[Requirement],
+        within: float,
+        threads: int,
+        check: Callable[[], None],
     ) -> None:
-        self.spec, self._check = spec, check
+        self.spec, self._within, self._check = spec, within, check
         self._limits: list[tuple[int, float, float, float, bool]] = []
         measures: list[Measure] = []
         self.of: list[int] = []
@@ -69,6 +75,7 @@ class Judge:
                     self.of.append(i)
                 measures.append(single)
         self.many = Many(spec, measures, threads=threads, most_steps=MOST_STEPS, unstable=False)
+        self.stepped = _stepped(spec)
         self._rate = max(abs(p) for p in spec.poles.values) or 1.0
         self.tried = 0
         self.least = np.full(len(requirements), NOTHING)
@@ -91,10 +98,10 @@ class Judge:
 
     def of_chart(self, chart: Chart, z: Floats) -> Verdict:
         """Of coordinates, (k, n)."""
-        return self(self.rows(chart, z))
+        return self(self.rows(chart, z), chart.distances(z))
 
-    def __call__(self, rows: Floats) -> Verdict:
-        """Of rows of numbers."""
+    def __call__(self, rows: Floats, far: Floats) -> Verdict:
+        """Of rows of numbers, and how far each is from the design, (k,): steps and samples go beyond what is near."""
         self.tried += len(rows)
         asked = rows
         rows, exists = self._given(rows)
@@ -118,17 +125,17 @@ class Judge:
             missed[:, column] = np.where(np.isnan(own), 1.0, np.clip(own, -NOTHING, NOTHING))
             missed[~stable, column] = NOTHING
         met = stable & np.all(missed[:, :-1] <= 0.0, axis=1)
-        self._note(asked, missed[:, :-1], stable)
+        self._note(asked, missed[:, :-1], stable & (far <= self._within))
         return Verdict(missed, met)
 
-    def _note(self, rows: Floats, missed: Floats, stable: np.ndarray) -> None:
-        """What comes closest, limit by limit, and to all."""
-        if not np.any(stable):
+    def _note(self, rows: Floats, missed: Floats, counts: np.ndarray) -> None:
+        """What comes closest, limit by limit, and to all, of those that count: stable, and near."""
+        if not np.any(counts):
             return
         for i in range(len(self.least)):
-            worst = missed[np.ix_(stable, np.array(self.of) == i)].max(axis=1)
+            worst = missed[np.ix_(counts, np.array(self.of) == i)].max(axis=1)
             self.least[i] = min(self.least[i], worst.min())
-        most = np.where(stable, missed.max(axis=1, initial=-NOTHING), inf)
+        most = np.where(counts, missed.max(axis=1, initial=-NOTHING), inf)
         i = int(np.argmin(most))
         if most[i] < self._closest:
             self._closest, self.closest = float(most[i]), rows[i].copy()

@@ -25,19 +25,20 @@ MOST_COMBINATIONS = 8
 _PLACES = (*range(POLES, POLES + 8), ROTOR_POLES, ROTOR_POLES + 1, *range(PI_GAINS, PI_GAINS + 4))
 
 
-def tidied(judge: Judge, best: Best) -> None:
+def tidied(judge: Judge, best: Best, within: float) -> None:
     """Puts the best's numbers where people would, and what has hardly moved back; keeps it where nothing does."""
     chart, z = best.chart, best.z
     if chart is None or z is None:
         return
-    most = best.distance * (1.0 + ALLOWANCE) + LEAST
+    most = min(best.distance * (1.0 + ALLOWANCE) + LEAST, max(within, best.distance))
     still = np.where(np.abs(z) < 0.03 * np.max(np.abs(z), initial=0.0), 0.0, z)
     starts = [own * farther for own in (still, z) for farther in FARTHER]
     for digits in DIGITS:
         for start in starts:
             rows = np.array(_rounded(chart, judge.rows(chart, start[np.newaxis])[0], judge.many.row, digits))
             zs = chart.coordinates(np.array([chart.read(row) for row in rows]))
-            far = np.where(judge(rows).met, chart.distances(zs), inf)
+            away = chart.distances(zs)
+            far = np.where(judge(rows, away).met, away, inf)
             i = int(np.argmin(far))
             if far[i] <= most:
                 best.distance, best.z, best.row = float(far[i]), zs[i], rows[i]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -10,13 +11,14 @@ import pytest
 from heli2dof_core import Spec, Uncertainty, evaluate
 from heli2dof_core.errors import CancelledError, InvalidInputError
 from heli2dof_core.finder import Designs, Find, find, find_in_parts
-from heli2dof_core.finder.finding import thinned
+from heli2dof_core.finder.finding import distinct, thinned
+from heli2dof_core.finder.problem import Problem
 from heli2dof_core.finder.result import why_text
 from heli2dof_core.finder.search import nondominated
 from heli2dof_core.many import evaluate_many
 from heli2dof_core.requirements import measure_of, requirements_of
 from heli2dof_core.robustness import cloud
-from tests.finder.problems import SOLVABLE, UNSOLVABLE, quick
+from tests.finder.problems import SETTLING, SOLVABLE, UNSOLVABLE, VOLTAGE, quick
 from tests.finder.volume import volume
 
 EASY = quick(SOLVABLE[0], 1500)
@@ -136,9 +138,10 @@ def test_uncertain_rigs_take_no_digital_controller():
 def test_contradictions_are_named(case):
     found = find(case.spec(), quick(case, 5000).find)
     assert not found.met and found.why is not None
-    named = frozenset(case.find.require[i].measure.name for i in found.why.requirements)
-    assert named in case.contradict
-    assert all(case.find.require[i].words in why_text(found) for i in found.why.requirements)
+    which = (*found.why.alone, *found.why.requirements)
+    named = frozenset(case.find.require[i].measure.name for i in which)
+    assert named in case.contradict and bool(found.why.alone) == (len(named) == 1)
+    assert all(case.find.require[i].words in why_text(found) for i in which)
     for give in found.why.gives:
         assert give.value is not None and give.spec is not None and give.others_met
         need = case.find.require[give.requirement]
@@ -179,4 +182,77 @@ def test_a_search_whose_time_runs_out_tells_what_it_has(problem, looks, monkeypa
     found = find(problem.spec(), replace(quick(problem, 3000).find, seconds=max(looks, 0.1)))
     assert found.stopped and not found.met and found.candidates
     if found.why is not None:  # a set is told where it was found, whatever was not found of it
-        assert {own.requirement for own in found.why.gives} == set(found.why.requirements)
+        assert {own.requirement for own in found.why.gives} == {*found.why.alone, *found.why.requirements}
+
+
+HARD = {"disk_margin": {"min": 2.5}, SETTLING: {"max": 0.6}, VOLTAGE: {"max": 14}}
+
+
+@pytest.fixture(scope="module")
+def missed() -> Designs:
+    """No disk margin is above 2; the other two can be met, each without the other."""
+    return find(Spec.from_preset(), Find(("poles", "loops"), requirements_of(HARD), designs=3000))
+
+
+def test_what_no_design_meets_is_told_before_what_contradicts(missed):
+    assert missed.why is not None
+    assert missed.why.alone == (0,) and missed.why.requirements == (1, 2)
+    told = why_text(missed)
+    assert told.startswith(
+        f"No design of {missed.tried} tried meets Disk margin ≥ 2.50, whatever else is asked. Of"
+    )
+    assert "0.60 s and Largest |voltage|, both motors, either step ≤ 14.0 V together" in told
+    assert [own.requirement for own in missed.why.gives] == [0, 1, 2]
+    assert [table.title for table in missed.tables()[1:]] == ["out of reach", "these contradict"]
+
+
+def test_several_that_are_out_of_reach_are_all_told_and_blame_no_other():
+    hard = {SETTLING: {"max": 0.1}, VOLTAGE: {"max": 5}, "disk_margin": {"min": 0.5}}
+    found = find(Spec.from_preset(), Find(("poles", "loops"), requirements_of(hard), designs=2000))
+    assert found.why is not None and found.why.alone == (0, 1) and found.why.requirements == ()
+    assert why_text(found).count("whatever else is asked") == 2 and "Disk margin" not in why_text(found)
+    assert all(own.value is not None and not own.others_met for own in found.why.gives)
+
+
+def test_nearest_misses_are_designs_of_their_own():
+    """A search that has converged has tried hundreds that nobody tells apart."""
+    ask = Find(("poles",), requirements_of({"disk_margin": {"min": 2.5}}), designs=3000)
+    found = find(Spec.from_preset(), ask)
+    problem = Problem(Spec.from_preset(), ask)
+    assert not found.met and len(found.candidates) > 3
+    margins = [own.values[0] for own in found.candidates]
+    assert margins == sorted(margins, reverse=True)  # nearest first
+    points = [problem.space.point_of(own.spec) for own in found.candidates]
+    for (a, one), (b, other) in combinations(zip(points, margins, strict=True), 2):
+        assert np.max(np.abs(a - b)) >= 0.05 or abs(one - other) > 0.05 * max(one, other)
+
+
+def test_copies_of_one_design_are_told_once():
+    ask = Find(("poles", "loops"), requirements_of(HARD), designs=200)
+    problem = Problem(Spec.from_preset(), ask)
+    home = problem.space.point_of(problem.space.spec)
+    rng = np.random.default_rng(4)
+    copies = np.clip(home + 1e-4 * rng.standard_normal((40, problem.space.size)), 0.0, 1.0)
+    elsewhere = home.copy()
+    elsewhere[0] += 0.2 if home[0] < 0.5 else -0.2
+    tried = problem.tried(np.vstack((copies, elsewhere)))
+    kept = distinct(problem, tried, 15)
+    assert len(kept) == 2 and 40 in kept
+
+
+def test_limits_that_exclude_one_another_need_no_search():
+    needs = requirements_of({"overshoot": [{"max": 1}, {"min": 2, "axis": "theta"}], SETTLING: {"max": 1}})
+    found = find(Spec.from_preset(), Find(("poles", "loops"), needs))
+    assert found.tried == 0 and not found.met and not found.candidates and found.present is not None
+    assert found.why is not None and found.why.excluding == ((0, 1),) and found.why.requirements == (0, 1)
+    assert "exclude one another" in why_text(found) and "Settling" not in why_text(found)
+    assert found.tables()[-1].title == "these exclude one another"
+
+
+def test_requirements_that_fit_are_not_blamed_for_a_figure_that_no_design_has():
+    """Within 0.05 s nothing settles, so that no settling time can be made small; the volts are kept all the same."""
+    spec = Spec.from_preset(duration=0.05)
+    ask = Find(("poles",), requirements_of({VOLTAGE: {"max": 24}}), (measure_of(SETTLING),), designs=400)
+    found = find(spec, ask)
+    assert any(all(own.met for own in design.required) for design in found.candidates)
+    assert found.why is None

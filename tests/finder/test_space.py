@@ -133,6 +133,8 @@ def test_what_has_no_effect_cannot_be_free(changes, free, field):
         ({"free": ()}, "free"),
         ({"free": ("poles", "gains")}, "free.1"),
         ({"require": ()}, "require"),
+        ({"require": requirements_of({"overshoot": [{"max": 5}, {"max": 5}]})}, "require.overshoot.1"),
+        ({"minimize": ("V_peak", "norm", {"measure": "V_peak", "motor": "both"})}, "minimize.2"),
         ({"designs": 5}, "designs"),
         ({"seconds": 0.0}, "seconds"),
         ({"require": requirements_of({"share_stable": {"min": 0.9}})}, "uncertainty"),
