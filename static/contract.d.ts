@@ -662,7 +662,7 @@ export interface FindOptions {
     | ('poles' | 'rotor_poles' | 'loops' | 'structure' | 'shift' | 'pairing' | 'decoupler' | 'observer' | 'weights')[];
   /** by figure its limits, several in a list */
   require?: Record<string, RequiredFigure | RequiredFigure[]>;
-  /** figures that are made as small as they can be, or as large where more is better */
+  /** figures that are made as small as they can be, or as large where more is better; each once */
   minimize?:
     | ('rise_time' | 'settling_time' | 'overshoot' | 'undershoot' | 'peak' | 'peak_time' | 'steady_state_error' | 'iae' | 'itae' | 'coupling_peak' | 'V_peak' | 'saturated' | 'effort' | 'gain_margin' | 'gain_reduction_margin' | 'phase_margin' | 'delay_margin' | 'sensitivity_peak' | 'sensitivity_peak_frequency' | 'disk_margin' | 'disk_frequency' | 'disk_gain_low' | 'disk_gain_high' | 'disk_phase' | 'lag_margin' | 'norm' | 'spectral_norm' | 'pole_error' | 'pole_error_bound' | 'eigenvector_condition' | 'lambda_11' | 'share_stable' | 'share_within_limits' | MinimizedFigure)[];
   /** needed for shares of uncertain rigs */
@@ -820,8 +820,14 @@ export interface FoundRequirement {
 
 /** Why nothing meets everything, as far as was seen. */
 export interface FoundWhy {
-  /** the smallest set that no design tried meets together */
+  /** requirements that no design tried meets, whatever else is asked */
+  alone: number[];
+  /** of the others the smallest set that no design tried meets together; empty where there is none */
   requirements: number[];
+  /**
+   * pairs of requirements whose limits exclude one another, before any design is tried; left out where there are none
+   */
+  excluding?: number[][];
   message: string;
   gives: FoundGive[];
 }
@@ -1579,11 +1585,13 @@ export interface NearestReply {
   free: ('pitch-pair' | 'yaw-pair' | 'pitch-pi' | 'yaw-pi')[];
   /** that meet everything: of all that is free, and of less where that is enough; each is proved by evaluate */
   moves: MoveReply[];
-  /** where no design near meets everything: the one that misses the least */
+  /** where no design near meets everything: the one, within reach, that misses the least */
   closest?: MoveReply;
   /** positions of requirements that no design near has met */
   out_of_reach: number[];
-  /** in words */
+  /** pairs of positions of requirements whose limits exclude one another; left out where there are none */
+  excluding?: number[][];
+  /** in words: where there is no move, all that the closest misses */
   summary: string;
   /** how far was looked */
   within: number;

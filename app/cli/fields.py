@@ -10,6 +10,7 @@ from typing import IO, Any, TypeVar, get_args
 
 import click
 
+from heli2dof_core.errors import InvalidInputError
 from heli2dof_core.quantities import Field
 from heli2dof_core.recordings.recording import ANGLES, ROLES
 from heli2dof_core.request import (
@@ -292,6 +293,23 @@ def body(base: IO[str] | None, values: Mapping[str, Any]) -> dict[str, Any]:
                 place = place.setdefault(parent, {})
             place[last] = {**place.get(last, {}), **dict(value)} if isinstance(value, tuple) else value
     return request
+
+
+def require_asked(request: Mapping[str, Any], path: str, example: str, or_else: str = "") -> None:
+    """Raises InvalidInputError where neither of two parts of a question is given, by its option and with an example.
+
+    Args:
+        request: the JSON, as `body` gives it.
+        path: of the part, group and name: nearest.require; its option is called as its name.
+        example: a whole command line that gives it.
+        or_else: another part that is enough.
+    """
+    group = request.get(path.partition(".")[0], {})
+    names = [own.rpartition(".")[2] for own in (path, or_else) if own]
+    if not isinstance(group, Mapping) or any(group.get(name) is not None for name in names):
+        return  # what is there is for the request's model to judge
+    flags = " or ".join(f"--{name}" for name in names)
+    raise InvalidInputError("nothing is asked for", field=path, hint=f"Give {flags}, in quotes: {example}")
 
 
 def flag_of(path: str) -> str:

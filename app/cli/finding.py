@@ -7,7 +7,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
-from .fields import DESIGN, LOOPS, SCENARIO, Option, body, takes
+from .fields import DESIGN, LOOPS, SCENARIO, Option, body, require_asked, takes
 from .output import console, load_kernels, print_json, refusals, show
 from .values import Assignment, Figures, Limits, Name, Numbers, Words
 
@@ -71,7 +71,10 @@ def find(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     from ..contract.find import FindRequest, find_reply
 
     with refusals(as_json):
-        request = FindRequest.model_validate({"find": {}, **body(base, values)})
+        asked = body(base, values)
+        example = 'heli2dof find --require "settling_time<=0.8,overshoot<=5" --minimize V_peak:V_p'
+        require_asked(asked, "find.require", example, or_else="find.minimize")
+        request = FindRequest.model_validate(asked)
         load_kernels()
         found = _followed(request.in_parts(lambda: None))
         if as_json:

@@ -7,7 +7,7 @@ from typing import IO, Any
 
 import click
 
-from .fields import DESIGN, LOOPS, SCENARIO, Option, body, takes
+from .fields import DESIGN, LOOPS, SCENARIO, Option, body, require_asked, takes
 from .output import load_kernels, print_json, refusals, show
 from .values import Limits, Name, Words
 
@@ -41,7 +41,11 @@ def nearest(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     from ..contract.nearest import NearestRequest, nearest_reply
 
     with refusals(as_json):
-        request = NearestRequest.model_validate(body(base, values))
+        asked = body(base, values)
+        require_asked(
+            asked, "nearest.require", 'heli2dof nearest --require "settling_time<=0.8,overshoot<=5"'
+        )
+        request = NearestRequest.model_validate(asked)
         load_kernels()
         found = request.to_nearest(lambda: None)
         if as_json:

@@ -92,7 +92,7 @@ class FindOptions(Strict):
     minimize: list[Annotated[str, Field(json_schema_extra={"enum": [*FIGURES]})] | MinimizedFigure] = Field(
         default=[],
         max_length=MOST_MINIMIZED,
-        description="figures that are made as small as they can be, or as large where more is better",
+        description="figures that are made as small as they can be, or as large where more is better; each once",
     )
     uncertainty: UncertainRigs | None = Field(default=None, description="needed for shares of uncertain rigs")
     bounds: FindBounds = FindBounds()
@@ -303,7 +303,15 @@ class FoundGive(Model):
 class FoundWhy(Model):
     """Why nothing meets everything, as far as was seen."""
 
-    requirements: list[int] = Field(description="the smallest set that no design tried meets together")
+    alone: list[int] = Field(description="requirements that no design tried meets, whatever else is asked")
+    requirements: list[int] = Field(
+        description="of the others the smallest set that no design tried meets together; empty where there is none"
+    )
+    excluding: list[list[int]] | None = Field(
+        None,
+        description="pairs of requirements whose limits exclude one another, before any design is tried; left out "
+        "where there are none",
+    )
     message: str
     gives: list[FoundGive]
 
@@ -363,10 +371,13 @@ def find_reply(found: Designs) -> Reply:
         reply["present"] = _candidate(found.present, measures)
     if found.why is not None:
         reply["why"] = {
+            "alone": list(found.why.alone),
             "requirements": list(found.why.requirements),
             "message": why_text(found),
             "gives": [_give(found, own) for own in found.why.gives],
         }
+        if found.why.excluding:
+            reply["why"]["excluding"] = [[*pair] for pair in found.why.excluding]
     return reply
 
 

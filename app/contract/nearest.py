@@ -113,10 +113,16 @@ class NearestReply(Model):
         "by evaluate"
     )
     closest: MoveReply | None = Field(
-        None, description="where no design near meets everything: the one that misses the least"
+        None,
+        description="where no design near meets everything: the one, within reach, that misses the least",
     )
     out_of_reach: list[int] = Field(description="positions of requirements that no design near has met")
-    summary: str = Field(description="in words")
+    excluding: list[list[int]] | None = Field(
+        None,
+        description="pairs of positions of requirements whose limits exclude one another; left out where there are "
+        "none",
+    )
+    summary: str = Field(description="in words: where there is no move, all that the closest misses")
     within: float = Field(description="how far was looked")
     tried: int = Field(description="designs that were looked at")
 
@@ -136,6 +142,8 @@ def nearest_reply(found: Nearest) -> Reply:
         "within": found.within,
         "tried": found.tried,
     }
+    if found.excluding:
+        reply["excluding"] = [[*pair] for pair in found.excluding]
     if found.closest is not None:
         reply["closest"] = _move(found.closest)
     return reply

@@ -110,7 +110,9 @@ export class Results {
     const early = stopped ? say` The time was up before all were tried: another run may find more.` : '';
     const what = !found.met
       ? requirements.length
-        ? say`No design meets all that is asked; nearest first:`
+        ? designs.length
+          ? say`No design meets all that is asked; nearest first:`
+          : say`No design can meet all that is asked:`
         : say`No design is stable and settles.`
       : count(designs.length, '{0} design, the best', '{0} best compromises');
     setText(this.words, found.met ? `${what}; ${spent}.${early}` : `${what} ${spent}.${early}`);

@@ -112,17 +112,15 @@ export class Line {
   }
 }
 
-/** Why there is none. @param {Reply} reply */
-function noneText({ requirements, out_of_reach: out, closest }) {
-  const named = (/** @type {number} */ i) => `${requirements[i].words} ${requirements[i].limit}`;
-  const nearest = (/** @type {number} */ i) => closest?.figures[i].text ?? '–';
-  if (out.length) {
-    const i = out[0];
-    return say`No design nearby meets ${named(i)}. The closest one found has ${nearest(i)}.`;
-  }
-  const missed = requirements.map((_, i) => i).filter((i) => closest?.figures[i].met === false);
-  const words = missed.map((i) => `${requirements[i].words}: ${nearest(i)}`).join(', ');
-  return words
-    ? say`Each alone can be met nearby, but not all at once. The closest design found misses ${words}.`
+/** Why there is none, and all that the closest misses. @param {Reply} reply */
+function noneText({ requirements, out_of_reach: out, closest, excluding, summary }) {
+  if (excluding) return summary;
+  const missed = requirements.flatMap(({ words, limit }, i) => {
+    const own = closest?.figures[i];
+    return own && !own.met ? [say`${words} ${own.text} in place of ${limit}`] : [];
+  });
+  const why = out.length
+    ? say`No design nearby meets ${out.map((i) => `${requirements[i].words} ${requirements[i].limit}`).join('; ')}.`
     : t('Each alone can be met nearby, but not all at once.');
+  return missed.length ? `${why} ${say`The closest design found misses ${missed.join('; ')}.`}` : why;
 }

@@ -84,11 +84,20 @@ def test_a_design_put_over_the_request_has_the_figures_told(client, reply):
 def test_contradictions_are_told(client):
     reply = post(client, "find", {"find": IMPOSSIBLE})
     FindReply.model_validate(reply)
-    assert not reply["met"] and reply["why"]["requirements"] == [0] and reply["designs"]
+    assert not reply["met"] and reply["why"]["alone"] == [0] and reply["designs"]
+    assert reply["why"]["requirements"] == [] and "excluding" not in reply["why"]
     (give,) = reply["why"]["gives"]
     assert give["requirement"] == 0 and 0.5 < give["value"] < 2 and give["others"]
     assert give["by"] == pytest.approx(2.5 - give["value"])
     assert give["message"].startswith("Disk margin: ") and give["text"] in give["message"]
+
+
+def test_limits_that_exclude_one_another_are_told_at_once(client):
+    reply = post(client, "find", {"find": {"require": {"overshoot": [{"max": 1}, {"min": 2}]}}})
+    FindReply.model_validate(reply)
+    assert reply["designs"] == [] and reply["tried"] == 0 and not reply["met"]
+    assert reply["why"]["excluding"] == [[0, 1]] and reply["why"]["gives"] == []
+    assert "exclude one another" in reply["why"]["message"]
 
 
 def test_socket_tells_progress_and_the_same_answer(client, reply):
@@ -136,6 +145,8 @@ def test_socket_can_be_called_off_and_goes_on(client):
         ({"require": {"overshoot": {"max": 1, "share": 0.5}}}, "find.uncertainty"),
         ({"minimize": ["speed"]}, "find.minimize.0.measure"),
         ({"minimize": ["norm", {"measure": "lambda_11"}]}, "find.minimize.1"),
+        ({"minimize": ["norm", "V_peak", {"measure": "V_peak"}]}, "find.minimize.2"),
+        ({"require": {"overshoot": [{"max": 3}, {"max": 3, "axis": "both"}]}}, "find.require.overshoot.1"),
         ({"minimize": ["norm"], "designs": 3}, "find.designs"),
         ({"minimize": ["norm"], "seconds": 1e6}, "find.seconds"),
         ({"minimize": ["norm"], "bounds": {"poles": [5, 1]}}, "find.bounds.poles"),
@@ -191,6 +202,8 @@ def test_the_command_prints_designs_or_why_there_are_none():
                            "--json").stdout)  # fmt: skip
     FindReply.model_validate(reply)
     assert reply["requirements"][0]["share"] == 0.9
+    lost = run("find", status=2).output
+    assert "--require or --minimize" in lost and 'heli2dof find --require "' in lost
     assert "find.require.speed" in run("find", "--require", "speed<=1", status=2).output
     assert "settling_time<=0.8" in run("find", "--require", "speed<1", status=2).output
     assert "no number" in run("find", "--require", "speed<=fast", status=2).output

@@ -51,6 +51,22 @@ def test_where_there_is_none_the_closest_is_told(client):
     assert reply["closest"]["figures"][0]["met"] is False
 
 
+def test_limits_that_exclude_one_another_are_named(client):
+    reply = post(client, "nearest", asked({"overshoot": [{"max": 1}, {"min": 2}]}))
+    NearestReply.model_validate(reply)
+    assert reply["excluding"] == [[0, 1]] and reply["moves"] == [] and not reply["met"]
+    assert "exclude one another" in reply["summary"] and "closest" not in reply
+
+
+def test_the_command_without_options_says_which_one_to_give(capsys):
+    for words in (["nearest"], ["nearest", "--free", "poles"], ["nearest", "--json"]):
+        with pytest.raises(SystemExit) as ended:
+            main(words)
+        told = capsys.readouterr().err
+        assert ended.value.code == 2 and "nearest.require" in told
+        assert "Give --require" in told and "settling_time<=0.8" in told
+
+
 def test_rotors_that_are_placed_move_with_their_axis(client):
     body = {"preset": "quanser-aero-2", "place_rotors": True, "outer": "none"}
     reply = post(client, "nearest", {**body, **asked({"lag_margin": {"min": 0.5}}, free=["poles"])})
