@@ -81,9 +81,7 @@ export class Bar {
       ],
       (pair) => ({ pair: /** @type {Choice['pair']} */ (pair) }),
     );
-    this.words = h('span');
-    this.room = h('span', { class: 'map-room' }, ' These need a higher window.');
-    this.note = h('p', { class: 'map-note', role: 'status', hidden: true }, this.words, this.room);
+    this.note = h('p', { class: 'map-note', role: 'status', hidden: true });
     const { name, axis, model, pair, note } = this;
     this.node = h('div', { class: 'map-choices', hidden: true }, name, axis, model, pair, note);
   }
@@ -93,12 +91,11 @@ export class Bar {
     this.note.hidden = places;
     if (places) return;
     setText(
-      this.words,
+      this.note,
       loops
         ? 'The method computes the poles: only kₚ and Tᵢ of the loops have maps.'
         : 'The method computes the poles: there is nothing to map.',
     );
-    this.room.hidden = !loops;
   }
 
   /**

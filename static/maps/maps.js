@@ -6,6 +6,7 @@
  * @typedef {import('./types.d.ts').Asked} Asked
  * @typedef {import('./types.d.ts').Choice} Choice
  * @typedef {import('./types.d.ts').Move} Move
+ * @typedef {ConstructorParameters<typeof MapFeed>[0]} Show
  */
 import { axisOf, hides, isComplex, kindOf, placesPoles, presetOf, setReal, tidy } from '../model/index.js';
 import { h } from '../ui/index.js';
@@ -13,9 +14,12 @@ import { Bar } from './bar.js';
 import { choiceOf, CHOICES, linkOf, measureOf } from './choices.js';
 import { MapFeed } from './feed.js';
 import { Legend } from './legend.js';
+import { lookOf, lookOfPage } from './look.js';
 import { Pad } from './pad.js';
 import { PlaneMap } from './plane_map.js';
+import { Scale } from './scale.js';
 import { fromServer, saveButton } from './server.js';
+import { Teller } from './told.js';
 
 const NAMES = /** @type {const} */ (['pitch', 'yaw']);
 const AXES = /** @type {const} */ (['theta', 'psi']);
@@ -48,15 +52,29 @@ export class Maps {
       cancel: (/** @type {ReturnType<typeof setTimeout>|undefined} */ timer) => clearTimeout(timer),
     };
     this.legend = new Legend();
-    this.map = new PlaneMap(plane, store, () => this.#tell());
+    this.scale = new Scale(hand.busy, () => this.#rescale());
+    this.map = new PlaneMap(plane, store, () => {
+      this.scale.lead(this.map.map && this.map.map.asked.measure.name, this.map.levels);
+      this.#tell();
+    });
     this.bar = new Bar((choice) => store.set({ map: linkOf(choice) }));
     const stage = /** @type {HTMLElement} */ (plane.svg.parentElement);
-    this.legend.node.append(
-      saveButton(store, () => this.map.map && { asked: this.map.map.asked, spread: this.#spread }),
-    );
+    this.saves = saveButton(store, () => this.map.map && { asked: this.map.map.asked, spread: this.#spread });
+    this.legend.node.append(this.saves);
+    this.teller = new Teller(() => this.#all.forEach((feed) => feed.again()));
+    stage.append(this.teller.node);
     stage.after(this.bar.node, this.legend.node);
     plane.key.before(this.bar.toggle);
-    this.planeFeed = new MapFeed((...map) => this.map.show(...map), fromServer, hand, true);
+    this.planeFeed = new MapFeed(
+      (...map) => this.map.show(...map),
+      fromServer,
+      hand,
+      true,
+      (told) => {
+        this.map.fade(told.computing);
+        this.teller.put('plane', told);
+      },
+    );
     this.pair = new Pad({
       kind: 'pitch',
       testid: 'map-pair',
@@ -67,11 +85,23 @@ export class Maps {
       move: (p, q, stamp) => this.#movePair(p, q, stamp),
       end: () => store.commit(),
       free: () => this.#isFree(this.#pair),
+      scale: (name) => this.scale.of(name),
     });
     stage.append(h('div', { class: 'map-pair' }, this.pair.node));
-    this.pairFeed = new MapFeed((...map) => this.pair.show(...map), fromServer, hand);
+    const fieldFeed = (/** @type {Pad} */ pad, /** @type {string} */ name, /** @type {Show} */ show) =>
+      new MapFeed(show, fromServer, hand, false, (told) => {
+        pad.tell(told);
+        this.teller.put(name, told);
+      });
+    this.pairFeed = fieldFeed(this.pair, 'pair', (...map) => this.pair.show(...map));
     this.pads = NAMES.map((name) => this.#loopPad(name));
-    this.feeds = this.pads.map((pad) => new MapFeed((...map) => pad.show(...map), fromServer, hand));
+    this.feeds = this.pads.map((pad, i) =>
+      fieldFeed(pad, NAMES[i], (...map) => {
+        this.scale.put(NAMES[i], ...map);
+        pad.show(...map);
+        this.#tell();
+      }),
+    );
     plane.svg.addEventListener('focusin', (e) =>
       this.#touched(Number(/** @type {SVGElement} */ (e.target).dataset.index)),
     );
@@ -84,7 +114,7 @@ export class Maps {
 
   /** What computes them; null: the server alone. @param {import('../kernel/index.js').Designs|null} designs */
   take(designs) {
-    for (const feed of [this.planeFeed, this.pairFeed, ...this.feeds]) feed.take(designs);
+    for (const feed of this.#all) feed.take(designs);
     this.#ask(this.store.state);
   }
 
@@ -96,6 +126,10 @@ export class Maps {
     if (design && this.#seen && design.poles !== this.#seen.poles) this.#follow(this.#seen, design);
     this.#seen = design;
     this.#ask(this.#state);
+  }
+
+  get #all() {
+    return [this.planeFeed, this.pairFeed, ...this.feeds];
   }
 
   /** What is seen now. @param {State} state @returns {Choice|null} */
@@ -133,7 +167,7 @@ export class Maps {
     this.bar.render(choice, (name) => Boolean(CHOICES[name].hidden && hides(state, CHOICES[name].hidden)));
     this.plane.root.classList.toggle('with-map', choice !== null);
     if (!design || !preset || !choice) {
-      for (const feed of [this.planeFeed, this.pairFeed, ...this.feeds]) feed.render(null);
+      for (const feed of this.#all) feed.render(null);
       this.loops.classList.remove('with-pads');
       this.pair.node.hidden = true;
       return;
@@ -224,13 +258,41 @@ export class Maps {
         }),
       end: () => store.commit(),
       free: () => ![...pi.querySelectorAll('input')].some(({ disabled }) => disabled),
+      scale: (own) => this.scale.of(own),
+      range: true,
     });
     pi.append(pad.node);
     return pad;
   }
 
+  /** Other colours mean other values. */
+  #rescale() {
+    for (const pad of [this.pair, ...this.pads]) pad.repaint();
+    this.#tell();
+  }
+
   #tell() {
-    this.legend.draw(this.map, NAMES[this.#pair], this.#spread);
+    const { scale, map } = this;
+    this.saves.hidden = !map.map;
+    if (map.map || !scale.fields.length) this.legend.draw(map, NAMES[this.#pair], this.#spread);
+    else this.legend.draw(this.#ofFields(), null, this.#spread);
+  }
+
+  /** What the fields of the loops have in common, where the plane has no map. @returns {import('./legend.js').Shown} */
+  #ofFields() {
+    const { name, levels, fields } = this.scale;
+    const [{ asked }] = fields;
+    const alike = fields.every((own) => own.asked.measure.axis === asked.measure.axis);
+    const layers = this.pads.flatMap((pad) => pad.layers ?? []);
+    return {
+      map: { asked: { measure: alike ? asked.measure : { name } } },
+      layers: {
+        unsettled: layers.flatMap(({ unsettled }) => unsettled),
+        missed: layers.flatMap(({ missed }) => missed),
+      },
+      levels,
+      look: () => lookOf(name, levels, lookOfPage(this.loops, 11)),
+    };
   }
 }
 

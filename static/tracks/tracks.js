@@ -12,7 +12,7 @@ import { hides } from '../model/index.js';
 import { h, saveFile, setAttr, setText } from '../ui/index.js';
 import { toPixel } from '../splane/index.js';
 import { Bar, STEPS } from './bar.js';
-import { along, indexOf, nearest, stableRanges } from './courses.js';
+import { along, indexOf, isOnBorder, nearest, summary } from './courses.js';
 import { trackFile, TrackFeed } from './feed.js';
 import { FIGURES, told, toldBy, valueText } from './figures.js';
 import { Layer } from './layer.js';
@@ -307,15 +307,6 @@ export class Tracks {
   }
 }
 
-/** The whole track in words. @param {TrackReply} track @param {(v: number) => string} text */
-function summary(track, text) {
-  if (track.stable.every(Boolean)) return t('stable throughout');
-  if (!track.stable.some(Boolean)) return t('never stable');
-  return stableRanges(track)
-    .map(([low, high]) => say`stable from ${text(low)} to ${text(high)}`)
-    .join(', ');
-}
-
 /** What holds at one of the values. @param {TrackReply} track @param {number} index */
 function here(track, index) {
   /** @type {Map<string, string[]>} */ const figures = new Map();
@@ -324,5 +315,7 @@ function here(track, index) {
     figures.set(head, [...(figures.get(head) ?? []), valueText(figure, index)]);
   }
   const texts = [...figures].map(([head, values]) => say`${t(head)} ${values.join(', ')}`);
-  return [t(track.stable[index] ? 'stable' : 'unstable'), ...texts].join(' · ');
+  const border = track.plane === 's' ? t('poles on the imaginary axis') : t('poles on the unit circle');
+  const state = track.stable[index] ? t('stable') : isOnBorder(track, index) ? border : t('unstable');
+  return [state, ...texts].join(' · ');
 }
