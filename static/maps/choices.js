@@ -95,7 +95,9 @@ export function rangeText(name, { values, stable }) {
     if (stable[i] === 2 && Number.isFinite(v)) [low, high] = [Math.min(low, v), Math.max(high, v)];
   if (low > high) return '';
   const [from, to] = [valueText(name, low), valueText(name, high)];
-  return from === to ? from : `${from} – ${to}`;
+  const unit = /\D*$/;
+  if (from === to) return from;
+  return unit.exec(from)?.[0] === unit.exec(to)?.[0] ? `${from.replace(unit, '')}–${to}` : `${from} – ${to}`;
 }
 
 /** A value in the unit of the legend. @param {string} name @param {number} v */

@@ -9,8 +9,8 @@
  * @typedef {ConstructorParameters<typeof MapFeed>[0]} Show
  */
 import { axisOf, hides, isComplex, kindOf, placesPoles, presetOf, setReal, tidy } from '../model/index.js';
-import { h } from '../ui/index.js';
-import { Bar } from './bar.js';
+import { h, setAttr } from '../ui/index.js';
+import { Bar, fieldsButton, LOW } from './bar.js';
 import { choiceOf, CHOICES, linkOf, measureOf } from './choices.js';
 import { MapFeed } from './feed.js';
 import { Legend } from './legend.js';
@@ -32,6 +32,9 @@ const EDGE = 1e-3;
 
 export class Maps {
   /** The pair that was touched last. @type {0|1} */ #hand = 0;
+  /** Whether the loops' fields are wanted in a low window; null: where the plane has no map. @type {boolean|null} */
+  #fields = null;
+  #low = matchMedia(LOW);
   /** @type {Design|null} */ #seen = null;
   /** @type {State|null} */ #state = null;
   /** The plane's, for which maps were asked. @type {import('../splane/splane.js').SPlane['view']|null} */ #view = null;
@@ -65,6 +68,13 @@ export class Maps {
     stage.append(this.teller.node);
     stage.after(this.bar.node, this.legend.node);
     plane.key.before(this.bar.toggle);
+    const again = () => this.#state && this.#ask(this.#state);
+    this.fieldsButton = fieldsButton(() => {
+      this.#fields = this.fieldsButton.getAttribute('aria-pressed') !== 'true';
+      again();
+    });
+    loops.querySelector('[data-testid="suggest-pi"]')?.before(this.fieldsButton);
+    this.#low.addEventListener('change', again);
     this.planeFeed = new MapFeed(
       (...map) => this.map.show(...map),
       fromServer,
@@ -169,6 +179,7 @@ export class Maps {
     if (!design || !preset || !choice) {
       for (const feed of this.#all) feed.render(null);
       this.loops.classList.remove('with-pads');
+      this.fieldsButton.hidden = true;
       this.pair.node.hidden = true;
       return;
     }
@@ -192,12 +203,15 @@ export class Maps {
       this.pairFeed.render(wanted({ ...pair, real: true, domain: both }));
     } else this.pairFeed.render(null);
     const loops = design.outer === 'pi';
-    this.loops.classList.toggle('with-pads', loops);
+    const fields = loops && (!this.#low.matches || (this.#fields ?? !places));
+    this.fieldsButton.hidden = !loops || !this.#low.matches;
+    setAttr(this.fieldsButton, 'aria-pressed', String(fields));
+    this.loops.classList.toggle('with-pads', fields);
     for (const [i, feed] of this.feeds.entries()) {
       const { kp, ti } = design.loops[NAMES[i]];
       const shown = loopDomain(preset.loops[NAMES[i]]);
       this.pads[i].place(shown, { x: kp, y: ti });
-      const seen = loops && this.pads[i].isSeen;
+      const seen = fields && this.pads[i].isSeen;
       const measure = measureOf(choice, AXES[i]);
       const move = /** @type {Move} */ (`${NAMES[i]}-pi`);
       const limits = limitsOf(state, AXES[i]);
@@ -260,6 +274,7 @@ export class Maps {
       free: () => ![...pi.querySelectorAll('input')].some(({ disabled }) => disabled),
       scale: (own) => this.scale.of(own),
       range: true,
+      seen: () => this.#state && this.#ask(this.#state),
     });
     pi.append(pad.node);
     return pad;

@@ -33,8 +33,9 @@ export class Pad {
   /**
    * @param {{kind: 'pitch'|'yaw', testid: string, title: string, x: string, y: string, busy: () => boolean,
    *   move: (x: number, y: number, stamp: number) => void, end: () => void, free: () => boolean,
-   *   scale: (name: string) => number[], range?: boolean}} how  x, y: what stands at the axes; free: whether the point
-   *   may be moved; scale: the levels of its colours; range: whether it tells its least and largest value
+   *   scale: (name: string) => number[], range?: boolean, seen?: () => void}} how  x, y: what stands at the axes; free: whether the point
+   *   may be moved; scale: the levels of its colours; range: whether it tells its least and largest value; seen: it is
+   *   now seen, or no more
    */
   constructor(how) {
     this.how = how;
@@ -62,11 +63,13 @@ export class Pad {
     });
     this.svg.addEventListener('pointerleave', () => this.#tellRange());
     new ResizeObserver(([{ contentRect }]) => {
+      const was = this.isSeen;
       const unit = (this.#unit = drawingUnit());
       this.#size = [contentRect.width / unit, contentRect.height / unit];
       setAttr(this.svg, 'viewBox', `0 0 ${this.#size.join(' ')}`);
       this.#painted = this.#drawn = null;
       this.draw();
+      if (was !== this.isSeen) this.how.seen?.();
     }).observe(this.node);
   }
 

@@ -139,7 +139,7 @@ export function summary(track, text) {
   const touched = values.flatMap((value, k) => (isOnBorder(track, k) ? [text(value)] : []));
   const words = ranges.length ? ranges.map((range) => rangeText(range, values, text)) : [t('never stable')];
   if (touched.length) words.push(say`at ${brief(touched)} poles on ${border}`);
-  return words.join(', ');
+  return words.join('; ');
 }
 
 /** A few of many. @param {string[]} texts */
@@ -149,8 +149,8 @@ const brief = (texts) => (texts.length > 2 ? `${texts[0]} … ${texts[texts.leng
 function rangeText([low, high], values, text) {
   const [from, to] = [text(low.value), text(high.value)];
   const whole = high.by === 'known' && high.value === values[values.length - 1];
-  if (low.by === 'border' && whole) return say`stable for every value above ${from}, to ${to}`;
-  if (low.by === 'border') return say`stable above ${from}, to ${ended(high, to)}`;
+  if (low.by === 'border' && whole) return say`stable for every value above ${from}, up to ${to}`;
+  if (low.by === 'border') return say`stable above ${from}, up to ${ended(high, to)}`;
   return say`stable from ${ended(low, from)} to ${ended(high, to)}`;
 }
 

@@ -43,6 +43,7 @@ export class Tracks {
   /** Whether a pointer has put it there, which takes it away again. */ #pointed = false;
   /** @type {{x: number, y: number}|null} */ #pressed = null;
   #log = false;
+  /** @type {Design|null} the last one that was taken */ #taken = null;
   /** @type {Design|null} the last one that was followed */ #followed = null;
 
   /**
@@ -100,6 +101,7 @@ export class Tracks {
       return;
     }
     if (preview) return; // it is the present design's
+    this.#nameTake();
     this.bar.kept.node.hidden = !isOfRig(swept.path);
     this.bar.take.hidden = !isOfDesign(swept.path);
     if (this.#of && this.#of.design !== design) this.#follow(design, swept);
@@ -200,8 +202,18 @@ export class Tracks {
 
   #take() {
     const design = this.#design();
-    if (design) this.preview.take(design);
+    if (design) {
+      this.#taken = design;
+      this.preview.take(design);
+    }
     this.#leave();
+    this.#nameTake();
+  }
+
+  /** Its word says whether the present design has been taken here. */
+  #nameTake() {
+    const own = this.#index === null && this.#taken !== null && this.store.state.design === this.#taken;
+    setText(this.bar.take, own ? t('✓ Taken') : t('Take'));
   }
 
   #leave() {
@@ -256,7 +268,8 @@ export class Tracks {
     this.bar.slider.value = String(Math.round(STEPS * share));
     const scale = scaleOf(track.unit);
     const unit = shownUnit(track.unit);
-    const text = (/** @type {number} */ v) => `${significant(v * scale, 3)}${unit && unit !== '°' ? ` ${unit}` : unit}`;
+    const text = (/** @type {number} */ v) =>
+      `${v === 0 ? '0' : significant(v * scale, 3)}${unit && unit !== '°' ? ` ${unit}` : unit}`;
     const value = this.#index === null ? track.now : track.values[this.#index];
     setText(this.bar.value, value === undefined ? '' : `${this.bar.name} = ${text(value)}`);
     setAttr(this.bar.slider, 'aria-valuetext', value === undefined ? '' : text(value));
@@ -264,6 +277,7 @@ export class Tracks {
     setText(this.bar.words, words);
     this.bar.words.title = words; // all of it, where there is no room
     this.bar.take.disabled = this.#index === null;
+    this.#nameTake();
   }
 
   /** @param {SVGSVGElement} svg */

@@ -157,7 +157,7 @@ test('where the loop is stable is told to where poles cross', () => {
   );
   assert.equal(
     summary(track, shown),
-    'stable from 0.60 (a pole crosses) to 2.30 (a pole crosses), stable from 4.90 (a pole crosses) to 5.00',
+    'stable from 0.60 (a pole crosses) to 2.30 (a pole crosses); stable from 4.90 (a pole crosses) to 5.00',
   );
   assert.deepEqual(
     stableRanges({ ...track, stable: Array(6).fill(true), starts: [0, 3], crossings: [] }).length,
@@ -176,7 +176,10 @@ test('poles on the border of stability at one end are no crossing', () => {
     crossings: [],
   };
   assert.ok(isOnBorder(open, 0) && !isOnBorder(open, 1));
-  assert.equal(summary(open, shown), 'stable for every value above 0.00, to 3.00, at 0.00 poles on the imaginary axis');
+  assert.equal(
+    summary(open, shown),
+    'stable for every value above 0.00, up to 3.00; at 0.00 poles on the imaginary axis',
+  );
   const beyond = { ...open, poles: real([0.1, -1e-5, -1, -2]) };
   assert.ok(!isOnBorder(beyond, 0), 'a pole beyond the border');
   assert.equal(summary(beyond, shown), 'stable from 0.00 to 3.00'); // nothing is known of between
@@ -187,7 +190,7 @@ test('poles on the border of stability at one end are no crossing', () => {
     poles: real([-1, -1, -1, 0]),
     stable: [true, true, true, false],
   };
-  assert.equal(summary(upper, shown), 'stable from 0.00 to below 3.00, at 3.00 poles on the imaginary axis');
+  assert.equal(summary(upper, shown), 'stable from 0.00 to below 3.00; at 3.00 poles on the imaginary axis');
 });
 
 test('a figure is told in words where it has no value', () => {
