@@ -43,6 +43,8 @@ Plane = Literal["s", "z"]
 Check = Callable[[], None]
 ON_THE_AXIS = 1e-9
 """A pole counts as on the stability border where it is as near to it, relative to the loop's fastest pole."""
+AT_ZERO = 1e-7
+"""Several poles as near to 0, relative to the fastest, are one multiple pole: rounding parts it by its root."""
 
 
 class Sweep(Protocol):
@@ -149,6 +151,8 @@ class _OfMatrices:
         there = [i for i, A in enumerate(found) if A is not None and len(A) == size]
         if there:
             poles[there] = np.linalg.eigvals(np.array([found[i] for i in there]))
+            if self.plane == "s":
+                poles[there] = gathered(poles[there])
         return poles, np.all(side(poles, self.plane) < -border(poles, self.plane)[:, None], axis=1)
 
 
@@ -300,6 +304,15 @@ def without_voltages(loop: Loop) -> Floats:
         inner = [i for i, place in enumerate(loop.places) if place >= 8]
         A[inner] += own.H @ loop.voltage_from_state
     return A
+
+
+def gathered(poles: Complexes) -> Complexes:
+    """The rows (n, order) with each multiple pole at 0 in one place: the mean, which rounding leaves alone."""
+    size = np.abs(poles)
+    near = size <= AT_ZERO * np.max(size, axis=1, keepdims=True, initial=0.0)
+    count = near.sum(axis=1, keepdims=True)
+    mean = np.where(near, poles.real, 0.0).sum(axis=1, keepdims=True) / np.maximum(count, 1)
+    return np.where(near & (count > 1), mean + 0j, poles)
 
 
 def side(poles: Complexes, plane: Plane) -> Floats:

@@ -20,7 +20,7 @@ from ..systems.zeros import invariant_zeros
 from ..tables import Shown, Table, conjugates, number
 from .courses import crossings_of, followed
 from .numbers import Number, checked_range, number_at
-from .sweeps import Gain, Plane, Sweep, sweep_of
+from .sweeps import Gain, Plane, Sweep, border, side, sweep_of
 
 Scale = Literal["linear", "log"]
 FEWEST, MOST = 2, 2000
@@ -89,6 +89,12 @@ class Track(Frozen, Shown):
         found = np.flatnonzero(self.values == self.number.now)
         return int(found[0]) if len(found) else None
 
+    @property
+    def on_border(self) -> NDArray[np.bool_]:
+        """(n,), where the loop is not stable, but no pole lies beyond the border either: some lie on it."""
+        beyond = side(self.poles, self.plane) > border(self.poles, self.plane)[:, None]
+        return ~self.stable & ~np.any(beyond, axis=1)
+
     def summary(self) -> str:
         """What is swept, over what, and where the loop is stable."""
         about = self.number.quantity
@@ -99,6 +105,9 @@ class Track(Frozen, Shown):
         where = "stable in part"
         if self.stable.all() or not self.stable.any():
             where = "stable throughout" if self.stable.all() else "never stable"
+        elif np.all(self.stable | self.on_border):
+            told = ", ".join(f"{number(v)}{unit}" for v in self.values[self.on_border].tolist())
+            where = f"stable except at {told}, where poles lie on the border of stability"
         at = ", ".join(f"{number(c.value, 6)}{unit}" for c in self.crossings)
         return f"{self.number.path} from {ends}; {where}" + (f"; crosses at {at}" if at else "")
 

@@ -4,10 +4,29 @@ import { CHOICES } from './choices.js';
 
 /** @typedef {import('./types.d.ts').Choice} Choice */
 /** @type {Choice} */ const FIRST = { name: 'settling_time', axis: 'own', model: 'nonlinear', pair: 'hand' };
+/** A window in which the PI loops have no room for fields beside all else. */
+export const LOW = '(max-height: 899px) and (min-width: 1180px)';
 /** Two lines of equal height around a summit. */
 const ICON =
   'M 2 11 C 1 5 5 2 9 3 C 14 4 15 9 12 12 C 9 15 3 15 2 11 Z ' +
   'M 5.5 9.5 C 5 7 7 5.5 9 6.5 C 11 8 9.5 11.5 7.5 11.5 C 6 11.5 5.7 10.5 5.5 9.5 Z';
+
+const icon = () =>
+  svg('svg', { class: 'map-icon', viewBox: '0 0 16 16', 'aria-hidden': 'true' }, svg('path', { d: ICON }));
+
+/** In place of the loops' sliders their fields, where these have no room of their own. @param {() => void} act */
+export const fieldsButton = (act) =>
+  button(
+    {
+      class: 'map-fields',
+      'data-testid': 'map-fields',
+      'aria-label': 'Maps of kₚ and Tᵢ',
+      title: 'Maps of kₚ and Tᵢ in place of their sliders',
+      hidden: true,
+      onclick: act,
+    },
+    icon(),
+  );
 
 export class Bar {
   /** The last choice, which comes back. @type {Choice} */ #choice = FIRST;
@@ -39,7 +58,7 @@ export class Bar {
         title: 'Map: in colour, what each place would give for the pair in hand, and each k_p and T_i',
         onclick: () => choose(this.node.hidden ? this.#choice : null),
       },
-      svg('svg', { class: 'map-icon', viewBox: '0 0 16 16', 'aria-hidden': 'true' }, svg('path', { d: ICON })),
+      icon(),
     );
     this.name = select(
       'What the map shows',
@@ -81,9 +100,7 @@ export class Bar {
       ],
       (pair) => ({ pair: /** @type {Choice['pair']} */ (pair) }),
     );
-    this.words = h('span');
-    this.room = h('span', { class: 'map-room' }, ' These need a higher window.');
-    this.note = h('p', { class: 'map-note', role: 'status', hidden: true }, this.words, this.room);
+    this.note = h('p', { class: 'map-note', role: 'status', hidden: true });
     const { name, axis, model, pair, note } = this;
     this.node = h('div', { class: 'map-choices', hidden: true }, name, axis, model, pair, note);
   }
@@ -93,12 +110,11 @@ export class Bar {
     this.note.hidden = places;
     if (places) return;
     setText(
-      this.words,
+      this.note,
       loops
         ? 'The method computes the poles: only kₚ and Tᵢ of the loops have maps.'
         : 'The method computes the poles: there is nothing to map.',
     );
-    this.room.hidden = !loops;
   }
 
   /**

@@ -85,6 +85,21 @@ export function valueText(name, v) {
   return textOf(figure, v);
 }
 
+/**
+ * From the least to the largest value of a field's stable places, as its unit is written.
+ * @param {string} name @param {Pick<import('./types.d.ts').Field, 'values'|'stable'>} field
+ */
+export function rangeText(name, { values, stable }) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const [i, v] of values.entries())
+    if (stable[i] === 2 && Number.isFinite(v)) [low, high] = [Math.min(low, v), Math.max(high, v)];
+  if (low > high) return '';
+  const [from, to] = [valueText(name, low), valueText(name, high)];
+  const unit = /\D*$/;
+  if (from === to) return from;
+  return unit.exec(from)?.[0] === unit.exec(to)?.[0] ? `${from.replace(unit, '')}–${to}` : `${from} – ${to}`;
+}
+
 /** A value in the unit of the legend. @param {string} name @param {number} v */
 export const inUnit = (name, v) => {
   const { figure } = CHOICES[name];

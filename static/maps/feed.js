@@ -9,9 +9,11 @@
  * @typedef {ReturnType<typeof setTimeout>} Timer
  * @typedef {{busy: () => boolean, now: () => number, later: (act: () => void, ms: number) => Timer,
  *   cancel: (timer?: Timer) => void}} Hand
+ * @typedef {import('./told.js').Told} Told
  */
 import { AT, fill, serves, sizeOf, spreadsOf } from '../kernel/index.js';
 import { ProblemError } from '../net/index.js';
+import { messageOf } from '../text/index.js';
 import { COLUMNS, fieldOf, refined, ROWS } from './grid.js';
 
 /** So long after its last move the hand rests, ms. */
@@ -33,6 +35,8 @@ const [PLANE, FIELD, RIGS_OF_EACH] = [
   ...refined(columns, rows, columns > 65 ? [8, 4, 2, 1] : columns > 33 ? [4, 2, 1] : [2, 1]),
 }));
 const RIGS = 40;
+/** @type {Told} */ const QUIET = { computing: false, refused: '' };
+/** @type {Told} */ const COMPUTING = { computing: true, refused: '' };
 /** Coarser: the server computes for others, too, and its other methods take a hundred times as long. */
 const OF_SERVER = /** @type {[number, number][]} */ ([
   [17, 13],
@@ -90,8 +94,10 @@ export class MapFeed {
    * @param {(wanted: Wanted, size: [number, number]) => Promise<Field>} askServer
    * @param {Hand} hand
    * @param {boolean} [fine]  whether its picture is large
+   * @param {(told: Told) => void} [tell]  what the server does; while it computes, what is shown is of what was before
    */
-  constructor(show, askServer, hand, fine = false) {
+  constructor(show, askServer, hand, fine = false, tell = () => {}) {
+    this.tell = tell;
     this.fine = fine;
     this.show = show;
     this.askServer = askServer;
@@ -120,9 +126,11 @@ export class MapFeed {
     if (!wanted) {
       this.#lane?.forget();
       this.show(null, null);
+      this.tell(QUIET);
       return;
     }
     if (first) this.show(null, null); // what is there says something else
+    this.tell(this.#isServed ? QUIET : COMPUTING);
     const now = this.hand.now();
     const moving = this.hand.busy() || now - this.#changed < REST_MS;
     this.#changed = now;
@@ -134,15 +142,26 @@ export class MapFeed {
     return undefined;
   }
 
+  /** Asks for the same once more. */
+  again() {
+    if (!this.#wanted) return;
+    this.#key = '';
+    this.render(this.#wanted);
+  }
+
+  /** Whether the page's own workers compute what is wanted. */
+  get #isServed() {
+    return Boolean(this.#wanted && this.#lane?.designs.works && serves(this.#wanted.design, this.#wanted.preset));
+  }
+
   /** @param {boolean} moving */
   #ask(moving) {
     this.hand.cancel(this.#next);
     this.#next = undefined;
     if (!this.#wanted) return;
-    const { design, preset } = this.#wanted;
     this.#asked = this.hand.now();
     this.#coarse = moving;
-    if (this.#lane?.designs.works && serves(design, preset)) this.#compute(moving);
+    if (this.#isServed) this.#compute(moving);
     else if (!moving) this.#fromServer();
   }
 
@@ -188,17 +207,21 @@ export class MapFeed {
   async #fromServer() {
     const [key, wanted] = [this.#key, this.#wanted];
     this.#lane?.forget();
+    this.tell(COMPUTING);
     for (const size of OF_SERVER) {
       if (key !== this.#key || !wanted) return;
-      let away = false;
+      let [away, refused] = [false, ''];
       const field = await this.askServer(wanted, size).catch((error) => {
         away = !(error instanceof ProblemError) || error.problem.status === 503;
-        return null; // the page says what is refused
+        refused = messageOf(error);
+        return null;
       });
       if (key !== this.#key) return;
       if (away) this.#key = ''; // it is asked for again: with the next change, or once the server is back
-      if (!field) return size === OF_SERVER[0] ? this.show(null, null) : undefined;
-      this.show(field, wanted.asked);
+      if (!field && size !== OF_SERVER[0]) return; // what is there is coarse, and right
+      this.show(field, field && wanted.asked);
+      this.tell({ computing: false, refused });
+      if (!field) return;
     }
   }
 }

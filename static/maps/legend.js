@@ -2,6 +2,14 @@
 import { h, setAttr, shape, svg } from '../ui/index.js';
 import { levelText, titleOf, unitOf } from './choices.js';
 
+/**
+ * @typedef {object} Shown  a map, or what several have in common
+ * @property {{asked: {measure: import('../kernel/found.js').Measure}}|null} map
+ * @property {{unsettled: unknown[], missed: unknown[]}|null} layers
+ * @property {number[]} levels
+ * @property {() => import('./picture.js').Look|null} look
+ */
+
 /** Room for a number, px. */
 const GAP = 38;
 const HEIGHT = 9; // px
@@ -25,7 +33,7 @@ export class Legend {
   }
 
   /**
-   * @param {import('./plane_map.js').PlaneMap} map @param {'pitch'|'yaw'} own  whose places these are
+   * @param {Shown} map @param {'pitch'|'yaw'|null} own  whose places these are; null: of both loops
    * @param {number} spread
    */
   draw(map, own, spread) {
@@ -48,7 +56,7 @@ export class Legend {
     this.#drawn = drawn;
     setAttr(this.bar, 'aria-label', titleOf(measure, spread));
     setAttr(this.bar, 'title', titleOf(measure, spread));
-    this.own.replaceChildren(shape(own));
+    this.own.replaceChildren(...(own ? [own] : /** @type {const} */ (['pitch', 'yaw'])).map((name) => shape(name)));
     this.bar.replaceChildren(barOf(map.levels, look, unitOf(measure.name), this.#width));
     const keys = /** @type {const} */ ([
       [unsettled, 'muted', measure.name === 'settling_time' ? 'not settled' : 'none'],

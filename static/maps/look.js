@@ -9,12 +9,13 @@ const [LINE, INK] = [0.17, 0.5];
  * @param {string} name  of what is shown
  * @param {number[]} levels
  * @param {{dark: boolean, page: string, danger: string, warn: string, muted: string, font: string, type: number}} page
+ * @param {number[]} [scale]  those of them that part colours; beyond it the outermost colours go on
  * @returns {import('./picture.js').Look}
  */
-export function lookOf(name, levels, page) {
-  const key = `${name} ${levels} ${page.dark} ${page.type}`;
+export function lookOf(name, levels, page, scale = levels) {
+  const key = `${name} ${levels} ${page.dark} ${page.type} ${scale}`;
   if (made.size > MOST) made.clear();
-  const look = made.get(key) ?? makeLook(name, levels, page);
+  const look = made.get(key) ?? makeLook(name, levels, page, scale);
   made.set(key, look);
   return look;
 }
@@ -23,12 +24,14 @@ export function lookOf(name, levels, page) {
 const MOST = 20;
 
 /**
- * @param {string} name @param {number[]} levels @param {Parameters<typeof lookOf>[2]} page
+ * @param {string} name @param {number[]} levels @param {Parameters<typeof lookOf>[2]} page @param {number[]} scale
  * @returns {import('./picture.js').Look}
  */
-function makeLook(name, levels, page) {
-  const bands = ramp(levels.length + 1, page.dark);
-  if (CHOICES[name].higher) bands.reverse();
+function makeLook(name, levels, page, scale) {
+  const colors = ramp(scale.length + 1, page.dark);
+  if (CHOICES[name].higher) colors.reverse();
+  // a band lies between two levels: its colour is told by how many of the scale's lie below it
+  const bands = [-Infinity, ...levels].map((low) => colors[scale.filter((v) => v <= low).length]);
   /** @param {import('./colors.js').Oklab} color @param {number} by @returns {import('./colors.js').Oklab} */
   const away = ([L, a, b], by) => [L > 0.55 ? Math.max(0.12, L - by) : Math.min(0.98, L + by), a, b];
   return {

@@ -6,16 +6,20 @@
  * @typedef {import('./types.d.ts').Asked} Asked
  * @typedef {import('./types.d.ts').Choice} Choice
  * @typedef {import('./types.d.ts').Move} Move
+ * @typedef {ConstructorParameters<typeof MapFeed>[0]} Show
  */
 import { axisOf, hides, isComplex, kindOf, placesPoles, presetOf, setReal, tidy } from '../model/index.js';
-import { h } from '../ui/index.js';
-import { Bar } from './bar.js';
+import { h, setAttr } from '../ui/index.js';
+import { Bar, fieldsButton, LOW } from './bar.js';
 import { choiceOf, CHOICES, linkOf, measureOf } from './choices.js';
 import { MapFeed } from './feed.js';
 import { Legend } from './legend.js';
+import { lookOf, lookOfPage } from './look.js';
 import { Pad } from './pad.js';
 import { PlaneMap } from './plane_map.js';
+import { Scale } from './scale.js';
 import { fromServer, saveButton } from './server.js';
+import { Teller } from './told.js';
 
 const NAMES = /** @type {const} */ (['pitch', 'yaw']);
 const AXES = /** @type {const} */ (['theta', 'psi']);
@@ -28,6 +32,9 @@ const EDGE = 1e-3;
 
 export class Maps {
   /** The pair that was touched last. @type {0|1} */ #hand = 0;
+  /** Whether the loops' fields are wanted in a low window; null: where the plane has no map. @type {boolean|null} */
+  #fields = null;
+  #low = matchMedia(LOW);
   /** @type {Design|null} */ #seen = null;
   /** @type {State|null} */ #state = null;
   /** The plane's, for which maps were asked. @type {import('../splane/splane.js').SPlane['view']|null} */ #view = null;
@@ -48,15 +55,36 @@ export class Maps {
       cancel: (/** @type {ReturnType<typeof setTimeout>|undefined} */ timer) => clearTimeout(timer),
     };
     this.legend = new Legend();
-    this.map = new PlaneMap(plane, store, () => this.#tell());
+    this.scale = new Scale(hand.busy, () => this.#rescale());
+    this.map = new PlaneMap(plane, store, () => {
+      this.scale.lead(this.map.map && this.map.map.asked.measure.name, this.map.levels);
+      this.#tell();
+    });
     this.bar = new Bar((choice) => store.set({ map: linkOf(choice) }));
     const stage = /** @type {HTMLElement} */ (plane.svg.parentElement);
-    this.legend.node.append(
-      saveButton(store, () => this.map.map && { asked: this.map.map.asked, spread: this.#spread }),
-    );
+    this.saves = saveButton(store, () => this.map.map && { asked: this.map.map.asked, spread: this.#spread });
+    this.legend.node.append(this.saves);
+    this.teller = new Teller(() => this.#all.forEach((feed) => feed.again()));
+    stage.append(this.teller.node);
     stage.after(this.bar.node, this.legend.node);
     plane.key.before(this.bar.toggle);
-    this.planeFeed = new MapFeed((...map) => this.map.show(...map), fromServer, hand, true);
+    const again = () => this.#state && this.#ask(this.#state);
+    this.fieldsButton = fieldsButton(() => {
+      this.#fields = this.fieldsButton.getAttribute('aria-pressed') !== 'true';
+      again();
+    });
+    loops.querySelector('[data-testid="suggest-pi"]')?.before(this.fieldsButton);
+    this.#low.addEventListener('change', again);
+    this.planeFeed = new MapFeed(
+      (...map) => this.map.show(...map),
+      fromServer,
+      hand,
+      true,
+      (told) => {
+        this.map.fade(told.computing);
+        this.teller.put('plane', told);
+      },
+    );
     this.pair = new Pad({
       kind: 'pitch',
       testid: 'map-pair',
@@ -67,11 +95,23 @@ export class Maps {
       move: (p, q, stamp) => this.#movePair(p, q, stamp),
       end: () => store.commit(),
       free: () => this.#isFree(this.#pair),
+      scale: (name) => this.scale.of(name),
     });
     stage.append(h('div', { class: 'map-pair' }, this.pair.node));
-    this.pairFeed = new MapFeed((...map) => this.pair.show(...map), fromServer, hand);
+    const fieldFeed = (/** @type {Pad} */ pad, /** @type {string} */ name, /** @type {Show} */ show) =>
+      new MapFeed(show, fromServer, hand, false, (told) => {
+        pad.tell(told);
+        this.teller.put(name, told);
+      });
+    this.pairFeed = fieldFeed(this.pair, 'pair', (...map) => this.pair.show(...map));
     this.pads = NAMES.map((name) => this.#loopPad(name));
-    this.feeds = this.pads.map((pad) => new MapFeed((...map) => pad.show(...map), fromServer, hand));
+    this.feeds = this.pads.map((pad, i) =>
+      fieldFeed(pad, NAMES[i], (...map) => {
+        this.scale.put(NAMES[i], ...map);
+        pad.show(...map);
+        this.#tell();
+      }),
+    );
     plane.svg.addEventListener('focusin', (e) =>
       this.#touched(Number(/** @type {SVGElement} */ (e.target).dataset.index)),
     );
@@ -84,7 +124,7 @@ export class Maps {
 
   /** What computes them; null: the server alone. @param {import('../kernel/index.js').Designs|null} designs */
   take(designs) {
-    for (const feed of [this.planeFeed, this.pairFeed, ...this.feeds]) feed.take(designs);
+    for (const feed of this.#all) feed.take(designs);
     this.#ask(this.store.state);
   }
 
@@ -96,6 +136,10 @@ export class Maps {
     if (design && this.#seen && design.poles !== this.#seen.poles) this.#follow(this.#seen, design);
     this.#seen = design;
     this.#ask(this.#state);
+  }
+
+  get #all() {
+    return [this.planeFeed, this.pairFeed, ...this.feeds];
   }
 
   /** What is seen now. @param {State} state @returns {Choice|null} */
@@ -133,8 +177,9 @@ export class Maps {
     this.bar.render(choice, (name) => Boolean(CHOICES[name].hidden && hides(state, CHOICES[name].hidden)));
     this.plane.root.classList.toggle('with-map', choice !== null);
     if (!design || !preset || !choice) {
-      for (const feed of [this.planeFeed, this.pairFeed, ...this.feeds]) feed.render(null);
+      for (const feed of this.#all) feed.render(null);
       this.loops.classList.remove('with-pads');
+      this.fieldsButton.hidden = true;
       this.pair.node.hidden = true;
       return;
     }
@@ -158,12 +203,15 @@ export class Maps {
       this.pairFeed.render(wanted({ ...pair, real: true, domain: both }));
     } else this.pairFeed.render(null);
     const loops = design.outer === 'pi';
-    this.loops.classList.toggle('with-pads', loops);
+    const fields = loops && (!this.#low.matches || (this.#fields ?? !places));
+    this.fieldsButton.hidden = !loops || !this.#low.matches;
+    setAttr(this.fieldsButton, 'aria-pressed', String(fields));
+    this.loops.classList.toggle('with-pads', fields);
     for (const [i, feed] of this.feeds.entries()) {
       const { kp, ti } = design.loops[NAMES[i]];
       const shown = loopDomain(preset.loops[NAMES[i]]);
       this.pads[i].place(shown, { x: kp, y: ti });
-      const seen = loops && this.pads[i].isSeen;
+      const seen = fields && this.pads[i].isSeen;
       const measure = measureOf(choice, AXES[i]);
       const move = /** @type {Move} */ (`${NAMES[i]}-pi`);
       const limits = limitsOf(state, AXES[i]);
@@ -224,13 +272,42 @@ export class Maps {
         }),
       end: () => store.commit(),
       free: () => ![...pi.querySelectorAll('input')].some(({ disabled }) => disabled),
+      scale: (own) => this.scale.of(own),
+      range: true,
+      seen: () => this.#state && this.#ask(this.#state),
     });
     pi.append(pad.node);
     return pad;
   }
 
+  /** Other colours mean other values. */
+  #rescale() {
+    for (const pad of [this.pair, ...this.pads]) pad.repaint();
+    this.#tell();
+  }
+
   #tell() {
-    this.legend.draw(this.map, NAMES[this.#pair], this.#spread);
+    const { scale, map } = this;
+    this.saves.hidden = !map.map;
+    if (map.map || !scale.fields.length) this.legend.draw(map, NAMES[this.#pair], this.#spread);
+    else this.legend.draw(this.#ofFields(), null, this.#spread);
+  }
+
+  /** What the fields of the loops have in common, where the plane has no map. @returns {import('./legend.js').Shown} */
+  #ofFields() {
+    const { name, levels, fields } = this.scale;
+    const [{ asked }] = fields;
+    const alike = fields.every((own) => own.asked.measure.axis === asked.measure.axis);
+    const layers = this.pads.flatMap((pad) => pad.layers ?? []);
+    return {
+      map: { asked: { measure: alike ? asked.measure : { name } } },
+      layers: {
+        unsettled: layers.flatMap(({ unsettled }) => unsettled),
+        missed: layers.flatMap(({ missed }) => missed),
+      },
+      levels,
+      look: () => lookOf(name, levels, lookOfPage(this.loops, 11)),
+    };
   }
 }
 

@@ -3,16 +3,16 @@
  * pointers; keys move the sliders or poles that it stands beside.
  * @typedef {import('./types.d.ts').Span} Span
  */
-import { fixed, significant } from '../text/index.js';
+import { fixed, significant, t } from '../text/index.js';
 import { niceStep, ticks } from '../model/index.js';
 import { drawingUnit, h, setAttr, setText, svg } from '../ui/index.js';
 import { placeIn, shareIn } from './feed.js';
-import { levelsOf } from './levels.js';
 import { layersOf, upright } from './layers.js';
 import { lookOf, lookOfPage } from './look.js';
-import { CHOICES, finestOf, inUnit, valueText } from './choices.js';
+import { inUnit, rangeText, valueText } from './choices.js';
 import { between } from './contours.js';
 import { paintMap } from './picture.js';
+import { beyond, known, levelsIn } from './scale.js';
 
 /** Room for the axes' numbers, in the drawing's units. */
 const [LEFT, BOTTOM, TOP, RIGHT] = [34, 20, 6, 8];
@@ -24,15 +24,18 @@ export class Pad {
   /** @type {import('./types.d.ts').Field|null} */ #painted = null;
   #size = [0, 0];
   /** CSS pixels to one of the drawing's. */ #unit = 1;
-  /** @type {number[]} */ #levels = [];
-  /** @type {import('./layers.js').Layers|null} */ #layers = null;
+  /** Of its own, beyond the scale. @type {number[]} */ #levels = [];
+  /** @type {import('./layers.js').Layers|null} */ layers = null;
   #held = false;
+  #stale = false;
   /** Whether its axes are. @type {true|null} */ #drawn = null;
 
   /**
    * @param {{kind: 'pitch'|'yaw', testid: string, title: string, x: string, y: string, busy: () => boolean,
-   *   move: (x: number, y: number, stamp: number) => void, end: () => void, free: () => boolean}} how  x, y: what
-   *   stands at the axes; free: whether the point may be moved
+   *   move: (x: number, y: number, stamp: number) => void, end: () => void, free: () => boolean,
+   *   scale: (name: string) => number[], range?: boolean, seen?: () => void}} how  x, y: what stands at the axes; free: whether the point
+   *   may be moved; scale: the levels of its colours; range: whether it tells its least and largest value; seen: it is
+   *   now seen, or no more
    */
   constructor(how) {
     this.how = how;
@@ -42,7 +45,8 @@ export class Pad {
     const ring =
       how.kind === 'pitch' ? svg('circle', { r: 8 }) : svg('rect', { x: -7, y: -7, width: 14, height: 14, rx: 2 });
     this.point = svg('g', { class: `pad-point ${how.kind}` }, ring, svg('circle', { class: 'dot', r: 2.2 }));
-    this.svg = svg('svg', { class: 'splane-svg pad-svg' }, this.axes, this.point, this.here);
+    this.state = svg('text', { class: 'pad-state', 'text-anchor': 'middle' });
+    this.svg = svg('svg', { class: 'splane-svg pad-svg' }, this.axes, this.point, this.here, this.state);
     this.node = h(
       'div',
       { class: `pad ${how.kind}`, 'data-testid': how.testid, title: how.title, 'aria-hidden': 'true' },
@@ -57,13 +61,15 @@ export class Pad {
       this.#painted = null;
       this.draw();
     });
-    this.svg.addEventListener('pointerleave', () => this.here.replaceChildren());
+    this.svg.addEventListener('pointerleave', () => this.#tellRange());
     new ResizeObserver(([{ contentRect }]) => {
+      const was = this.isSeen;
       const unit = (this.#unit = drawingUnit());
       this.#size = [contentRect.width / unit, contentRect.height / unit];
       setAttr(this.svg, 'viewBox', `0 0 ${this.#size.join(' ')}`);
       this.#painted = this.#drawn = null;
       this.draw();
+      if (was !== this.isSeen) this.how.seen?.();
     }).observe(this.node);
   }
 
@@ -79,6 +85,20 @@ export class Pad {
     if (!same) this.#painted = this.#drawn = null;
     this.#domain = domain;
     this.#point = point;
+    this.draw();
+  }
+
+  /** What the server does for it. @param {import('./told.js').Told} told */
+  tell({ computing, refused }) {
+    this.node.classList.toggle('stale', computing);
+    this.#stale = computing;
+    setText(this.state, computing ? t('computing…') : refused ? t('no map') : '');
+    this.#tellRange();
+  }
+
+  /** The scale is another. */
+  repaint() {
+    this.#painted = null;
     this.draw();
   }
 
@@ -108,6 +128,7 @@ export class Pad {
     this.#drawn = true;
     this.#paint(box);
     this.#painted = field;
+    this.#tellRange();
   }
 
   /** @param {import('./picture.js').Box} box */
@@ -120,18 +141,19 @@ export class Pad {
     ctx.setTransform(1, 0, 0, 1, 0, 0);
     ctx.clearRect(0, 0, width, height);
     if (!this.#map) {
-      this.#layers = null;
+      this.layers = null;
       return;
     }
     ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
     const { field, asked } = this.#map;
     const { name } = asked.measure;
     const shown = (/** @type {number} */ v) => inUnit(name, v);
-    if (!this.how.busy() || !this.#levels.length)
-      this.#levels =
-        CHOICES[name].levels ?? levelsOf(Array.from(field.values, shown), CHOICES[name].higher, finestOf(name));
-    this.#layers = layersOf(upright(field), shown, this.#levels, [{}, ...asked.limits]);
-    paintMap(ctx, this.#layers, box, lookOf(name, this.#levels, lookOfPage(this.node, 10)), { avoid: namesIn(box) });
+    if (!this.how.busy() || !this.#levels.length) this.#levels = levelsIn(known(field, name), name);
+    const scale = this.how.scale(name);
+    const levels = beyond(scale, this.#levels);
+    this.layers = layersOf(upright(field), shown, levels, [{}, ...asked.limits]);
+    const look = lookOf(name, levels, lookOfPage(this.node, 10), scale.length ? scale : levels);
+    paintMap(ctx, this.layers, box, look, { avoid: namesIn(box) });
   }
 
   /** @param {{x: Span, y: Span}} domain @param {import('./picture.js').Box} box */
@@ -195,15 +217,24 @@ export class Pad {
 
   /** @param {PointerEvent} e */
   #tell(e) {
-    const [at, layers] = [this.#at(e), this.#layers];
-    if (!at || !layers || !this.#map) return;
+    const [at, layers] = [this.#at(e), this.layers];
+    if (!at || !layers || !this.#map || this.#stale) return;
     const { field, asked } = this.#map;
     const [s, t] = at.shares;
     const text = valueAt(field, layers, s, t, asked.measure.name);
-    const { x, y, width } = this.#box;
+    setText(this.here, text);
+  }
+
+  /** Where no pointer asks for more: from what to what its values go. */
+  #tellRange() {
+    const map = this.#map;
+    const { x, y, width, height } = this.#box;
     setAttr(this.here, 'x', x + width - 5);
     setAttr(this.here, 'y', y + 13);
-    setText(this.here, text);
+    setAttr(this.state, 'x', x + width / 2);
+    setAttr(this.state, 'y', y + height / 2);
+    const shown = map && this.how.range && !this.#stale;
+    setText(this.here, shown ? rangeText(map.asked.measure.name, map.field) : '');
   }
 
   #up() {
@@ -215,7 +246,11 @@ export class Pad {
 
 /** Where the axes' names stand, which no label may cover. @param {import('./picture.js').Box} box */
 const namesIn = ({ x, y, width, height }) =>
-  /** @type {[number, number][]} */ ([[x + 10, y + 9], ...[12, 34].map((away) => [x + width - away, y + height - 9])]);
+  /** @type {[number, number][]} */ ([
+    [x + 10, y + 9],
+    ...[12, 34].map((away) => [x + width - away, y + height - 9]),
+    ...[12, 40, 68].map((away) => [x + width - away, y + 9]),
+  ]);
 
 /**
  * What a map says somewhere, in words.

@@ -2,13 +2,13 @@
 import { h, setText } from '../ui/index.js';
 import { toPixel, toPlane } from '../splane/index.js';
 import { handlesOf } from '../model/index.js';
-import { CHOICES, finestOf, inUnit } from './choices.js';
+import { inUnit } from './choices.js';
 import { shareIn } from './feed.js';
 import { layersOf, mirrored } from './layers.js';
-import { levelsOf } from './levels.js';
 import { lookOf, lookOfPage } from './look.js';
 import { valueAt } from './pad.js';
 import { paintMap } from './picture.js';
+import { known, levelsIn } from './scale.js';
 
 /** Nearer to a pole than this the pole has the word, px. */
 const POLE = 20;
@@ -19,6 +19,7 @@ export class PlaneMap {
   /** @type {number[]} */ levels = [];
   /** What is painted: a map in a view. @type {unknown[]} */ #painted = [];
   /** @type {{x: number, y: number}|null} */ #pointer = null;
+  #stale = false;
 
   /**
    * @param {import('../splane/splane.js').SPlane} plane
@@ -52,19 +53,19 @@ export class PlaneMap {
       const { name } = asked.measure;
       const shown = (/** @type {number} */ v) => inUnit(name, v);
       // while something moves the colours keep their meaning, so that one sees the valley move
-      if (!this.store.busy || !this.levels.length)
-        this.levels =
-          CHOICES[name].levels ??
-          levelsOf(
-            field.values.filter((_, i) => field.stable[i] === 2).map(shown),
-            CHOICES[name].higher,
-            finestOf(name),
-          );
+      if (!this.store.busy || !this.levels.length) this.levels = levelsIn(known(field, name), name);
       this.map = { field, asked };
       this.layers = layersOf(mirrored(field), shown, this.levels, [{}, ...asked.limits]);
     }
     this.told();
     this.draw();
+  }
+
+  /** While another is computed elsewhere what is there is of what was before. @param {boolean} stale */
+  fade(stale) {
+    this.canvas.classList.toggle('stale', stale);
+    this.#stale = stale;
+    this.#tell();
   }
 
   repaint() {
@@ -134,7 +135,9 @@ export class PlaneMap {
       return Boolean(at && Math.hypot(x - at.x, y - at.y) < POLE);
     };
     const text =
-      at && map && layers && design && !dragging && !handlesOf(design).some(near) ? this.#textAt(at, map, layers) : '';
+      at && map && layers && design && !dragging && !this.#stale && !handlesOf(design).some(near)
+        ? this.#textAt(at, map, layers)
+        : '';
     this.here.hidden = !text;
     if (!at || !text) return;
     setText(this.here, text);

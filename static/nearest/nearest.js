@@ -12,7 +12,7 @@ import { call, Latest } from '../net/index.js';
 import { h, svg } from '../ui/index.js';
 import { arrowOf } from './arrows.js';
 import { freeOf, isKeptBack, requestOf, requiredOf } from './asked.js';
-import { Line } from './line.js';
+import { inWords, Line } from './line.js';
 import { moved, numbersOf, waysOf } from './moves.js';
 
 const REST_MS = 250;
@@ -30,6 +30,7 @@ export class Nearest {
   /** The designs that moves lead to, one object each. @type {WeakMap<Move, Design>} */ #led = new WeakMap();
   /** @type {Move|null} what is pointed at */ #on = null;
   /** @type {Goal[]|null} for which it was asked by a click */ #wanted = null;
+  /** The design that was taken, and what it had moved. @type {{design: Design, words: string}|null} */ #taken = null;
   /** Rules of labs, once there is one. @type {typeof import('../labs/index.js')|null} */ #labs = null;
   #drawn = '';
 
@@ -81,6 +82,7 @@ export class Nearest {
     const asked = view === 'design' && answered === design && !dragging ? this.#askedOf(state, goals) : null;
     if (asked?.key === this.#asked?.key && (asked || !this.#asked)) {
       if (asked && heard === design && !problem && connection !== 'lost') this.#start(asked);
+      else if (!asked) this.#rest(state);
       return;
     }
     this.#asked = asked;
@@ -88,7 +90,7 @@ export class Nearest {
     this.#timer = undefined;
     this.#put(null);
     const known = asked && this.#known.get(asked.key);
-    if (!asked) this.line.clear();
+    if (!asked) this.#rest(state);
     else if (known) this.#put({ design: asked.design, reply: known });
     else if (goals.length && this.#wanted !== goals)
       this.line.offer(); // a lab's student asks for it
@@ -96,6 +98,13 @@ export class Nearest {
       this.line.clear();
       if (heard === design && !problem && connection !== 'lost') this.#start(asked);
     }
+  }
+
+  /** Nothing is asked: there is what was taken, as long as it is the present design. @param {State} state */
+  #rest(state) {
+    if (state.view === 'design' && state.design === this.#taken?.design && !isKeptBack(state))
+      this.line.taken(this.#taken.words);
+    else this.line.clear();
   }
 
   /** @param {State} state @param {Goal[]} goals @returns {Asked|null} null where nothing is missed or may be said */
@@ -172,6 +181,7 @@ export class Nearest {
   #take(move) {
     if (!this.#shown) return;
     const end = this.#end(move);
+    this.#taken = { design: end, words: inWords(this.#shown.design, move) };
     this.#on = null;
     this.preview.take(end);
   }

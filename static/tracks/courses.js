@@ -4,6 +4,7 @@
  * @typedef {import('../contract.js').TrackReply} TrackReply
  * @typedef {{points: Complex[], stable: boolean}} Stretch
  */
+import { say, t } from '../text/index.js';
 
 /** Where a pole lies in the s-plane: of a sampled loop ln z/Ts. @param {Complex} z @param {number} time  s */
 export const equivalent = ({ re, im }, time) => ({
@@ -78,19 +79,81 @@ export function along([low, high], log) {
   };
 }
 
+/** A pole counts as on the border of stability where it is as near to it, of the fastest pole; as on the server. */
+const ON_BORDER = 1e-9;
+
 /**
- * From where to where the loop is stable: to where a pole crosses, or to the last value that is known to be so.
- * @param {Pick<TrackReply, 'values'|'stable'|'crossings'>} track
- * @returns {[number, number][]}
+ * Whether the loop is not stable, but no pole lies beyond the border of stability either: some lie on it.
+ * @param {Pick<TrackReply, 'plane'|'poles'|'stable'>} track @param {number} k
  */
-export function stableRanges({ values, stable, crossings }) {
-  /** @type {[number, number][]} */ const found = [];
-  const edge = (/** @type {number} */ a, /** @type {number} */ b, /** @type {number} */ otherwise) =>
-    crossings.find(({ value }) => value >= a && value <= b)?.value ?? otherwise;
-  for (const [k, value] of values.entries()) {
+export function isOnBorder({ plane, poles, stable }, k) {
+  if (stable[k] || !poles.length) return false;
+  const sizes = poles.map((course) => Math.hypot(course[k].re, course[k].im));
+  const slack = plane === 's' ? ON_BORDER * Math.max(...sizes) : ON_BORDER;
+  return poles.every((course, i) => (plane === 's' ? course[k].re : Math.log(sizes[i])) <= slack);
+}
+
+/**
+ * @typedef {object} End  of a stretch of stable values
+ * @property {number} value
+ * @property {'crossing'|'border'|'known'} by  a pole crosses there; poles only touch the border there, and the value
+ *   itself is not stable; or no more is known
+ */
+
+/**
+ * From where to where the loop is stable.
+ * @param {Pick<TrackReply, 'plane'|'poles'|'values'|'starts'|'stable'|'crossings'>} track
+ * @returns {[End, End][]}
+ */
+export function stableRanges(track) {
+  const { values, starts, stable, crossings } = track;
+  /** @type {[End, End][]} */ const found = [];
+  /** @param {number} k stable @param {number} other  its neighbour, which is not @returns {End} */
+  const edge = (k, other) => {
+    const [a, b] = [Math.min(k, other), Math.max(k, other)];
+    const apart = other < 0 || other >= values.length || starts.includes(b);
+    const between = apart ? [] : crossings.filter(({ value }) => value >= values[a] && value <= values[b]);
+    // of several poles that cross in one step the one that is nearest to what is stable
+    const crossing = between.filter(({ outwards }) => outwards === k < other).at(k < other ? 0 : -1);
+    if (crossing) return { value: crossing.value, by: 'crossing' };
+    if (!apart && isOnBorder(track, other)) return { value: values[other], by: 'border' };
+    return { value: values[k], by: 'known' };
+  };
+  for (const k of values.keys()) {
     if (!stable[k]) continue;
-    if (!stable[k - 1]) found.push([edge(values[k - 1], value, value), value]);
-    found[found.length - 1][1] = k + 1 < values.length && !stable[k + 1] ? edge(value, values[k + 1], value) : value;
+    if (!stable[k - 1] || starts.includes(k)) found.push([edge(k, k - 1), { value: values[k], by: 'known' }]);
+    if (!stable[k + 1] || starts.includes(k + 1)) found[found.length - 1][1] = edge(k, k + 1);
   }
   return found;
 }
+
+/**
+ * Where the loop is stable, in words.
+ * @param {Parameters<typeof stableRanges>[0]} track @param {(v: number) => string} text  of a value
+ */
+export function summary(track, text) {
+  const { values, plane } = track;
+  if (track.stable.every(Boolean)) return t('stable throughout');
+  const ranges = stableRanges(track);
+  const border = plane === 's' ? t('the imaginary axis') : t('the unit circle');
+  const touched = values.flatMap((value, k) => (isOnBorder(track, k) ? [text(value)] : []));
+  const words = ranges.length ? ranges.map((range) => rangeText(range, values, text)) : [t('never stable')];
+  if (touched.length) words.push(say`at ${brief(touched)} poles on ${border}`);
+  return words.join('; ');
+}
+
+/** A few of many. @param {string[]} texts */
+const brief = (texts) => (texts.length > 2 ? `${texts[0]} … ${texts[texts.length - 1]}` : texts.join(', '));
+
+/** @param {[End, End]} range @param {readonly number[]} values @param {(v: number) => string} text */
+function rangeText([low, high], values, text) {
+  const [from, to] = [text(low.value), text(high.value)];
+  const whole = high.by === 'known' && high.value === values[values.length - 1];
+  if (low.by === 'border' && whole) return say`stable for every value above ${from}, up to ${to}`;
+  if (low.by === 'border') return say`stable above ${from}, up to ${ended(high, to)}`;
+  return say`stable from ${ended(low, from)} to ${ended(high, to)}`;
+}
+
+/** @param {End} end @param {string} text */
+const ended = ({ by }, text) =>
+  by === 'crossing' ? say`${text} (a pole crosses)` : by === 'border' ? say`below ${text}` : text;

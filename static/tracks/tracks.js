@@ -12,7 +12,7 @@ import { hides } from '../model/index.js';
 import { h, saveFile, setAttr, setText } from '../ui/index.js';
 import { toPixel } from '../splane/index.js';
 import { Bar, STEPS } from './bar.js';
-import { along, indexOf, nearest, stableRanges } from './courses.js';
+import { along, indexOf, isOnBorder, nearest, summary } from './courses.js';
 import { trackFile, TrackFeed } from './feed.js';
 import { FIGURES, told, toldBy, valueText } from './figures.js';
 import { Layer } from './layer.js';
@@ -43,6 +43,7 @@ export class Tracks {
   /** Whether a pointer has put it there, which takes it away again. */ #pointed = false;
   /** @type {{x: number, y: number}|null} */ #pressed = null;
   #log = false;
+  /** @type {Design|null} the last one that was taken */ #taken = null;
   /** @type {Design|null} the last one that was followed */ #followed = null;
 
   /**
@@ -100,6 +101,7 @@ export class Tracks {
       return;
     }
     if (preview) return; // it is the present design's
+    this.#nameTake();
     this.bar.kept.node.hidden = !isOfRig(swept.path);
     this.bar.take.hidden = !isOfDesign(swept.path);
     if (this.#of && this.#of.design !== design) this.#follow(design, swept);
@@ -200,8 +202,18 @@ export class Tracks {
 
   #take() {
     const design = this.#design();
-    if (design) this.preview.take(design);
+    if (design) {
+      this.#taken = design;
+      this.preview.take(design);
+    }
     this.#leave();
+    this.#nameTake();
+  }
+
+  /** Its word says whether the present design has been taken here. */
+  #nameTake() {
+    const own = this.#index === null && this.#taken !== null && this.store.state.design === this.#taken;
+    setText(this.bar.take, own ? t('✓ Taken') : t('Take'));
   }
 
   #leave() {
@@ -256,7 +268,8 @@ export class Tracks {
     this.bar.slider.value = String(Math.round(STEPS * share));
     const scale = scaleOf(track.unit);
     const unit = shownUnit(track.unit);
-    const text = (/** @type {number} */ v) => `${significant(v * scale, 3)}${unit && unit !== '°' ? ` ${unit}` : unit}`;
+    const text = (/** @type {number} */ v) =>
+      `${v === 0 ? '0' : significant(v * scale, 3)}${unit && unit !== '°' ? ` ${unit}` : unit}`;
     const value = this.#index === null ? track.now : track.values[this.#index];
     setText(this.bar.value, value === undefined ? '' : `${this.bar.name} = ${text(value)}`);
     setAttr(this.bar.slider, 'aria-valuetext', value === undefined ? '' : text(value));
@@ -264,6 +277,7 @@ export class Tracks {
     setText(this.bar.words, words);
     this.bar.words.title = words; // all of it, where there is no room
     this.bar.take.disabled = this.#index === null;
+    this.#nameTake();
   }
 
   /** @param {SVGSVGElement} svg */
@@ -307,15 +321,6 @@ export class Tracks {
   }
 }
 
-/** The whole track in words. @param {TrackReply} track @param {(v: number) => string} text */
-function summary(track, text) {
-  if (track.stable.every(Boolean)) return t('stable throughout');
-  if (!track.stable.some(Boolean)) return t('never stable');
-  return stableRanges(track)
-    .map(([low, high]) => say`stable from ${text(low)} to ${text(high)}`)
-    .join(', ');
-}
-
 /** What holds at one of the values. @param {TrackReply} track @param {number} index */
 function here(track, index) {
   /** @type {Map<string, string[]>} */ const figures = new Map();
@@ -324,5 +329,7 @@ function here(track, index) {
     figures.set(head, [...(figures.get(head) ?? []), valueText(figure, index)]);
   }
   const texts = [...figures].map(([head, values]) => say`${t(head)} ${values.join(', ')}`);
-  return [t(track.stable[index] ? 'stable' : 'unstable'), ...texts].join(' · ');
+  const border = track.plane === 's' ? t('poles on the imaginary axis') : t('poles on the unit circle');
+  const state = track.stable[index] ? t('stable') : isOnBorder(track, index) ? border : t('unstable');
+  return [state, ...texts].join(' · ');
 }

@@ -21,6 +21,7 @@ from heli2dof_core.scenario import Digital
 from heli2dof_core.simulation.digital import simulate_digital
 from heli2dof_core.tracks import known_paths, number_at, swept_paths, track
 from heli2dof_core.tracks.courses import crossings_of, followed
+from heli2dof_core.tracks.sweeps import gathered
 from tests.core.random_specs import random_specs
 
 COMPLEX = Spec.from_preset(poles=[-12, -10, -3 + 4j, -3 - 4j])
@@ -326,6 +327,26 @@ def test_no_law_is_like_an_observer_that_knows_half_of_the_voltage():
         track(OBSERVED, "gain", measures=(DISK,))
     with pytest.raises(InvalidInputError, match="decoupler"):
         track(COMPLEX.changed(decoupler=True), "gain.pitch", measures=(DISK,))
+
+
+@pytest.mark.parametrize("path", ["gain", "gain.pitch", "gain.yaw"])
+@pytest.mark.parametrize("changes", [{}, {"decoupler": True}, {"method": "lqr"}], ids=str)
+def test_an_open_loop_with_poles_on_the_border_crosses_nowhere(changes, path):
+    found = track(Spec.from_preset().changed(**changes), path, (0.0, 1.0), 40)
+    assert not found.stable[0] and found.stable[1:].all() and found.crossings == ()
+    assert found.on_border.tolist() == [True] + [False] * (len(found.values) - 1)
+    assert "stable except at 0, where poles lie on the border" in found.summary()
+
+
+def test_a_double_pole_at_0_is_one_and_all_others_stay():
+    rows = np.array([[-9, 7e-8, -7e-8], [-9, -1e-3, -2e-3], [-9, 5e-8j, -5e-8j], [-9, 1e-8, -3]], complex)
+    whole = gathered(rows)
+    assert np.all(np.abs(whole[[0, 2], 1:]) < 1e-20) and np.array_equal(whole[[1, 3]], rows[[1, 3]])
+
+
+def test_what_is_beyond_the_border_is_not_on_it():
+    found = track(LAGGING, "rotors.tau", (0.01, 0.4), 40)
+    assert not found.stable.all() and not found.on_border.any() and "stable in part" in found.summary()
 
 
 def test_it_shows_itself_and_can_be_taken_away():

@@ -8,10 +8,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Page, Route, expect
 
-from tests.browser import opened, reopened, settled, state
+from tests.browser import EMPTY, SEEN, opened, reopened, settled, state, visited
 from tests.e2e.conftest import App
+from tests.e2e.test_axe import violations
 from tests.e2e.test_page import centre
 
 WHOLE, OF_SERVER = 129 * 97, 17 * 13
@@ -166,6 +167,67 @@ def test_a_link_locks_what_the_fields_move(chromium: Browser, app: App):
 def test_the_server_maps_what_the_page_cannot(chromium: Browser, app: App):
     with mapped(chromium, app, f"{COMPLEX}&map=overshoot&method=tits-yang") as page:
         painted(page, OF_SERVER)
+
+
+def test_a_low_window_has_the_loops_fields_too_when_they_are_wanted(chromium: Browser, app: App):
+    with mapped(chromium, app, COMPLEX) as page:
+        field, button = page.get_by_test_id("map-pitch-pi"), page.get_by_test_id("map-fields")
+        expect(button).to_be_hidden()
+        high = "() => document.documentElement.scrollHeight"
+        before = page.evaluate(high)
+        page.get_by_test_id("map").click()
+        painted(page)
+        expect(field).to_be_hidden()
+        assert page.evaluate(high) == before
+        expect(button).to_have_attribute("aria-pressed", "false")
+        button.click()
+        page.wait_for_function(f"() => ({PICTURE})('{PAD}')")
+        expect(field.locator(".pad-here")).to_have_text(re.compile(r"^\d+\.\d\d–\d+\.\d\d s$"))
+        button.click()
+        expect(field).to_be_hidden()
+        page.get_by_test_id("map").click()
+        expect(button).to_be_hidden()
+
+
+def test_the_server_is_seen_to_compute_and_to_refuse_and_is_asked_again(chromium: Browser, app: App):
+    with visited(chromium, EMPTY, SEEN) as visit:
+        page, held = visit.page, []
+        visit.forgive("503")
+
+        def answer(route: Route) -> None:
+            if held:
+                route.continue_()
+            else:
+                held.append(route)
+
+        page.route("**/api/v1/map", answer)
+        page.goto(f"{app.url}#v1{COMPLEX}&map=overshoot&method=tits-yang")
+        settled(page)
+        words, again = page.get_by_test_id("map-state"), page.get_by_test_id("map-again")
+        expect(words).to_have_text("Map: computing on the server…")
+        expect(again).to_be_hidden()
+        expect(page.locator(MAP)).to_be_hidden()
+        page.wait_for_function("() => document.documentElement.dataset.designs === 'ready'")
+        held[0].fulfill(
+            status=503,
+            content_type="application/problem+json",
+            body='{"status": 503, "title": "busy", "detail": "The server has too much to do."}',
+        )
+        expect(words).to_have_text(re.compile("^No map: .*too much to do"))
+        assert not violations(page)
+        again.click()
+        painted(page, OF_SERVER)
+        expect(words).to_have_text("")
+        expect(again).to_be_hidden()
+
+
+def test_without_a_map_of_the_plane_the_fields_have_a_legend(chromium: Browser, app: App):
+    with mapped(chromium, app, f"{COMPLEX}&map=settling_time&method=lqr") as page:
+        page.wait_for_function(f"() => ({PICTURE})('{PAD}')")
+        legend = page.get_by_test_id("map-legend")
+        expect(legend).to_contain_text(re.compile(r"\d s"))
+        expect(legend.get_by_role("img")).to_have_attribute("aria-label", "Settling time")
+        expect(page.get_by_test_id("save-map")).to_be_hidden()
 
 
 def test_a_map_is_saved(chromium: Browser, app: App, tmp_path: Path):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from playwright.sync_api import Browser, expect
 
@@ -26,13 +28,38 @@ def test_a_click_takes_the_move_and_undo_leads_back(app: App, chromium: Browser)
         page.keyboard.press("Enter")
         until_state(page, "s.settled && !s.preview")
         expect(verdict).to_have_text("✓ met")
-        expect(line).to_be_hidden()
+        expect(first).to_have_count(0)
+        expect(line).to_have_text(re.compile("^✓ Taken: .*yaw.* Undo leads back\\.$"))
         after = state(page)
         assert (after["poles"], after["loops"]) != (before["poles"], before["loops"])
         page.get_by_test_id("undo").click()
         until_state(page, "s.settled")
         assert (state(page)["poles"], state(page)["loops"]) == (before["poles"], before["loops"])
         expect(first).to_be_visible()
+        expect(line).not_to_contain_text("Taken")
+        page.get_by_test_id("redo").click()
+        expect(line).to_contain_text("✓ Taken")
+
+
+@pytest.mark.parametrize("size", [(1280, 800), (1280, 1000), (390, 844)])
+def test_what_moves_do_is_there_to_be_read_without_a_pointer(
+    app: App, chromium: Browser, size: tuple[int, int]
+):
+    with opened(chromium, app.url + MISSED, size=size) as page:
+        how, words = page.get_by_test_id("nearest-how"), page.get_by_test_id("nearest-all")
+        expect(how).to_be_visible()
+        low = size == (1280, 800)
+        expect(how).to_have_attribute("aria-expanded", str(not low).lower())
+        if low:
+            how.focus()
+            page.keyboard.press("Enter")
+        expect(words.locator("li")).to_have_count(page.locator(".nearest-move").count())
+        expect(words.locator("li").first).to_contain_text(
+            re.compile(r"\d % away: .+ to .+ It gives .*0\.\d+ s")
+        )
+        assert not violations(page)
+        how.click()
+        expect(words).to_be_hidden()
 
 
 def test_a_move_under_the_pointer_is_shown_and_changes_nothing(app: App, chromium: Browser):

@@ -34,11 +34,14 @@ def test_the_lag_is_swept_previewed_taken_and_undone(app: App, chromium: Browser
         slider.press("Escape")
         until_state(page, "!s.preview && s.rotors?.pitch?.tau === undefined")
         slider.fill("100")
+        expect(page.get_by_test_id("track-take")).to_have_text("Take")
         page.get_by_test_id("track-take").click()
+        expect(page.get_by_test_id("track-take")).to_have_text("✓ Taken")
         until_state(page, "s.settled && !s.preview && s.rotors.pitch.tau > 0.02 && s.rotors.pitch.tau < 0.04")
         assert state(page)["rotors"]["pitch"] == state(page)["rotors"]["yaw"]
         page.get_by_test_id("undo").click()
         until_state(page, "s.settled && s.rotors?.pitch?.tau === undefined")
+        expect(page.get_by_test_id("track-take")).to_have_text("Take")
         assert violations(page) == []
 
 
@@ -53,6 +56,15 @@ def test_poles_move_from_the_open_loop_to_the_closed_one(app: App, chromium: Bro
         expect(page.get_by_test_id("track-point")).to_have_count(6)
         expect(page.get_by_test_id("track-words")).to_contain_text("disk margin")
         assert not state(page)["preview"]
+
+
+def test_an_open_loop_on_the_border_of_stability_crosses_nowhere(app: App, chromium: Browser):
+    with opened(chromium, app.url + "#v1&preset=quanser-2dof-manual&view=design&track=gain") as page:
+        curves(page)
+        expect(page.get_by_test_id("track-words")).to_have_text(
+            "stable for every value above 0, up to 3.00; at 0 poles on the imaginary axis"
+        )
+        expect(page.get_by_test_id("track-crossing")).to_have_count(0)
 
 
 def test_who_wants_little_motion_goes_step_by_step(app: App, chromium: Browser):

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { AT } from '../../static/kernel/layout.js';
-import { choiceOf, CHOICES, linkOf, measureOf, valueText } from '../../static/maps/choices.js';
+import { choiceOf, CHOICES, linkOf, measureOf, rangeText, valueText } from '../../static/maps/choices.js';
 import { css, ramp, rgb } from '../../static/maps/colors.js';
 import { between, linesOf, regions } from '../../static/maps/contours.js';
 import { ProblemError } from '../../static/net/index.js';
@@ -10,6 +10,9 @@ import { besides, changesOf, MapFeed, placeIn, shareIn } from '../../static/maps
 import { fieldOf, refined } from '../../static/maps/grid.js';
 import { layersOf, mirrored } from '../../static/maps/layers.js';
 import { levelsOf } from '../../static/maps/levels.js';
+import { lookOf, PAPER } from '../../static/maps/look.js';
+import { beyond, Scale } from '../../static/maps/scale.js';
+import { together, wordsOf } from '../../static/maps/told.js';
 import { designOf } from '../../static/model/index.js';
 import { PRESETS } from './presets.mjs';
 
@@ -215,7 +218,9 @@ function held() {
     forget: () => tasks.push('forget'),
   };
   const server = (wanted, size) => new Promise((found, refused) => served.push({ wanted, size, found, refused }));
-  const feed = new MapFeed((field) => shown.push(field), server, hand);
+  const told = [];
+  const tell = ({ computing, refused }) => told.push(refused || (computing ? 'computing' : ''));
+  const feed = new MapFeed((field) => shown.push(field), server, hand, false, tell);
   const pass = (ms) => {
     now += ms;
     for (const timer of waiting.filter(({ at }) => at <= now).toSorted((a, b) => a.at - b.at)) {
@@ -223,20 +228,20 @@ function held() {
       timer.act();
     }
   };
-  const told = ({ task }, done) => ({
+  const computed = ({ task }, done) => ({
     values: new Float64Array(task.values.length / task.at.length).fill(1),
     stable: new Uint8Array(task.values.length / task.at.length).fill(2),
     abscissa: new Float64Array(task.values.length / task.at.length).fill(-1),
     done,
   });
   const designs = { lane: () => lane };
-  return { feed, shown, tasks, served, pass, told, designs, lane, hold: (v) => (busy = v) };
+  return { feed, shown, tasks, served, pass, computed, told, designs, lane, hold: (v) => (busy = v) };
 }
 const wanted = (design = DESIGN, asked = ASKED) => ({ design, preset: PRESET, asked, spread: 0.1 });
 const moved = (re) => ({ ...DESIGN, poles: DESIGN.poles.map((p, i) => (i < 2 ? p : { re: re - i, im: 0 })) });
 
 test('at rest the whole map is computed by all workers', () => {
-  const { feed, tasks, designs, shown, told } = held();
+  const { feed, tasks, designs, shown, computed } = held();
   feed.render(wanted());
   assert.equal(tasks.length, 0, 'nothing before there are workers');
   feed.take(designs);
@@ -244,7 +249,7 @@ test('at rest the whole map is computed by all workers', () => {
   const [{ task, then }] = tasks;
   assert.equal(task.workers, undefined);
   assert.deepEqual(task.stops, [17 * 13, 33 * 25, 65 * 49]);
-  then(told({ task }, 221));
+  then(computed({ task }, 221));
   assert.deepEqual([shown.at(-1).columns, shown.at(-1).rows], [17, 13]);
   feed.render(wanted({ ...DESIGN, poles: DESIGN.poles.map((p, i) => (i > 1 ? p : { re: -1 - i, im: 0 })) }));
   assert.equal(tasks.length, 1, 'the own pair’s place is no other map');
@@ -253,7 +258,7 @@ test('at rest the whole map is computed by all workers', () => {
 });
 
 test('while something moves: coarse, one worker, at a pace; then the whole', () => {
-  const { feed, tasks, designs, pass, hold, told, shown } = held();
+  const { feed, tasks, designs, pass, hold, computed, shown } = held();
   feed.take(designs);
   feed.render(wanted());
   pass(1000);
@@ -269,7 +274,7 @@ test('while something moves: coarse, one worker, at a pace; then the whole', () 
   assert.equal(tasks.length, 2, 'not faster than the pace');
   pass(60);
   assert.equal(tasks.length, 3);
-  tasks[2].then(told(tasks[2], 825));
+  tasks[2].then(computed(tasks[2], 825));
   assert.equal(shown.at(-1).columns, 33);
   pass(200);
   assert.equal(tasks.length, 4);
@@ -340,4 +345,109 @@ test('what a map is besides its own move', () => {
   assert.notEqual(of('pitch-pi', DESIGN), of('pitch-pi', loops));
   assert.equal(of('yaw-pair', DESIGN), of('yaw-pair', moved(-7)));
   assert.notEqual(of('pitch-pair', DESIGN), of('pitch-pair', moved(-7)));
+});
+
+const settled = () => new Promise((resolve) => setImmediate(resolve));
+
+test('what the server does is told, and its refusal with its words', async () => {
+  const { feed, designs, served, pass, shown, told } = held();
+  feed.take(designs);
+  pass(1000);
+  feed.render(wanted());
+  assert.equal(told.at(-1), '', 'the page computes by itself');
+  const other = (re) => wanted({ ...moved(re), method: 'robust' });
+  feed.render(other(-3));
+  assert.equal(told.at(-1), 'computing', 'from the first moment on what is shown is of what was before');
+  pass(200);
+  served[0].found('a map');
+  await settled();
+  assert.equal(told.at(-1), '', 'a finer one is no other');
+  pass(1000);
+  feed.render(other(-4));
+  pass(200);
+  served.at(-1).refused(new ProblemError({ status: 503, title: 'busy', detail: 'There is too much to do.' }));
+  await settled();
+  assert.match(told.at(-1), /There is too much to do/);
+  assert.equal(shown.at(-1), null, 'nothing stale stays');
+  pass(1000);
+  const before = served.length;
+  feed.again();
+  pass(1000);
+  assert.equal(served.length, before + 1);
+  assert.equal(told.at(-1), 'computing');
+  feed.render(null);
+  assert.equal(told.at(-1), '');
+  feed.again();
+  assert.equal(served.length, before + 1, 'nobody wants any');
+});
+
+test('of several maps a refusal comes before work', () => {
+  const [quiet, busy, refused] = [
+    { computing: false, refused: '' },
+    { computing: true, refused: '' },
+    { computing: false, refused: 'away' },
+  ];
+  assert.equal(wordsOf(together([])), '');
+  assert.equal(wordsOf(together([quiet, quiet])), '');
+  assert.equal(wordsOf(together([quiet, busy])), 'Map: computing on the server…');
+  assert.equal(wordsOf(together([busy, refused])), 'No map: away');
+});
+
+const fieldOfValues = (values, stable = values.map(() => 2)) => ({
+  ...{ columns: values.length, rows: 1, domain, abscissa: Float64Array.of(), others: [], whole: true },
+  ...{ values: Float64Array.from(values), stable: Uint8Array.from(stable) },
+});
+
+test('all that is mapped of a figure has one scale: the plane’s, or that of all fields', () => {
+  let [busy, changes] = [false, 0];
+  const scale = new Scale(
+    () => busy,
+    () => changes++,
+  );
+  const name = 'settling_time';
+  const asked = { ...ASKED, measure: { name, axis: 'theta' } };
+  const values = (from) => fieldOfValues(Array.from({ length: 50 }, (_, i) => from + i / 50));
+  scale.put('pitch', values(0), asked);
+  const alone = scale.of(name);
+  scale.put('yaw', values(3), asked);
+  const both = scale.of(name);
+  assert.ok(alone.at(-1) <= 1 && both[0] < 1 && both.at(-1) > 3, `${alone} ${both}`);
+  assert.deepEqual([scale.of('overshoot'), scale.isLed], [[], false]);
+  busy = true;
+  scale.put('yaw', values(6), asked);
+  assert.equal(scale.of(name), both, 'colours keep their meaning while something moves');
+  scale.lead(name, [1, 2, 3]);
+  assert.deepEqual([scale.of(name), scale.isLed], [[1, 2, 3], true]);
+  const told = changes;
+  scale.lead(name, [1, 2, 3]);
+  assert.equal(changes, told, 'no change is none');
+  busy = false;
+  scale.lead(null, []);
+  assert.ok(scale.of(name).at(-1) > 5);
+  scale.put('pitch', null, null);
+  scale.put('yaw', null, null);
+  assert.deepEqual([scale.fields, scale.of(name)], [[], []]);
+});
+
+test('equal values have equal colours; beyond the scale lines go on', () => {
+  const scale = [1, 2, 3];
+  const levels = beyond(scale, [0.5, 1.5, 2.5, 3.5, 4.5]);
+  assert.deepEqual(levels, [0.5, 1, 2, 3, 3.5, 4.5]);
+  assert.deepEqual(beyond([], [1, 4]), [1, 4]);
+  for (const name of ['settling_time', 'disk_margin']) {
+    const plane = lookOf(name, scale, PAPER);
+    const field = lookOf(name, levels, PAPER, scale);
+    const colorAt = (look, own, v) => look.bands[own.filter((level) => level <= v).length];
+    for (const v of [0.2, 0.7, 1.2, 2.2, 3.2, 3.7, 9])
+      assert.equal(colorAt(field, levels, v), colorAt(plane, scale, v), `${name} ${v}`);
+    assert.equal(new Set(plane.bands).size, 4);
+    assert.equal(field.lines.length, levels.length);
+  }
+});
+
+test('a field tells from what to what its values go, of stable places', () => {
+  assert.equal(rangeText('settling_time', fieldOfValues([0.4, 2.5, 9, NaN, Infinity], [2, 2, 1, 2, 2])), '0.40–2.50 s');
+  assert.equal(rangeText('settling_time', fieldOfValues([1, 1])), '1.00 s');
+  assert.equal(rangeText('share_within_limits', fieldOfValues([0, 0.5])), '0–50 %');
+  assert.equal(rangeText('overshoot', fieldOfValues([1], [1])), '');
 });

@@ -6,6 +6,7 @@ import { LOCKS } from '../../static/model/locks.js';
 import { designOf, initialState } from '../../static/model/store.js';
 import { locksOf } from '../../static/labs/parts.js';
 import { freeOf, isKeptBack, requestOf, requiredOf } from '../../static/nearest/asked.js';
+import { doneBy } from '../../static/nearest/line.js';
 import { moved, numbersOf, waysOf, whatMoves, wordsOf } from '../../static/nearest/moves.js';
 import { PRESETS } from './presets.mjs';
 
@@ -176,4 +177,10 @@ test('words name what moves, and where it goes', () => {
   assert.equal(whatMoves(move('yaw-pair', 'pitch-pi', 'yaw-pi')), 'yaw poles + PI');
   assert.equal(whatMoves(move('pitch-pi')), 'pitch PI');
   assert.deepEqual(numbersOf(design, moved(design, move('yaw-pi'))), [{ axis: 'yaw', text: '→ 30, 0.25' }]);
+});
+
+test('what a move does is told in a sentence', () => {
+  const to = { poles: design.poles, loops: { ...design.loops, yaw: { kp: 31.5, ti: 0.1 } } };
+  const move = { handles: ['yaw-pi'], distance: 0.017, design: to, figures: [{ text: '0.80 s' }, { text: '0.7 %' }] };
+  assert.equal(doneBy(design, move), '1.7 % away: yaw PI to kₚ 31.5. It gives 0.80 s, 0.7 %.');
 });

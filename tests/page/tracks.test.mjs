@@ -2,7 +2,16 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { along, coursesOf, indexOf, nearest, stableRanges, stretches } from '../../static/tracks/courses.js';
+import {
+  along,
+  coursesOf,
+  indexOf,
+  isOnBorder,
+  nearest,
+  stableRanges,
+  stretches,
+  summary,
+} from '../../static/tracks/courses.js';
 import { valueText } from '../../static/tracks/figures.js';
 import { designAt, isOfDesign, isOfRig, offered, rounded, sweptOf, textOfSwept } from '../../static/tracks/numbers.js';
 import { fromServer, TrackFeed } from '../../static/tracks/feed.js';
@@ -123,17 +132,65 @@ test('values are found by place, by value and along the range', () => {
   assert.equal(along([1, 3], false).value(0.5), 2);
 });
 
+const real = (/** @type {number[]} */ parts) => [line(parts.map((re) => [re, 0]))];
+const shown = (/** @type {number} */ v) => v.toFixed(2);
+
 test('where the loop is stable is told to where poles cross', () => {
   const pole = { re: 0, im: 1 };
   const track = {
+    plane: /** @type {const} */ ('s'),
     values: [0, 1, 2, 3, 4, 5],
+    starts: [0],
+    poles: real([1, -1, -1, 1, 1, -1]),
     stable: [false, true, true, false, false, true],
     crossings: [
+      { value: 0.4, pole, outwards: false },
+      { value: 0.6, pole, outwards: false },
       { value: 2.3, pole, outwards: true },
+      { value: 2.6, pole, outwards: true },
       { value: 4.9, pole, outwards: false },
     ],
   };
-  assert.deepEqual(stableRanges(track), [[1, 2.3], [4.9, 5]]); // prettier-ignore
+  assert.deepEqual(
+    stableRanges(track).map((ends) => ends.map(({ value, by }) => [value, by])),
+    [[[0.6, 'crossing'], [2.3, 'crossing']], [[4.9, 'crossing'], [5, 'known']]], // prettier-ignore
+  );
+  assert.equal(
+    summary(track, shown),
+    'stable from 0.60 (a pole crosses) to 2.30 (a pole crosses); stable from 4.90 (a pole crosses) to 5.00',
+  );
+  assert.deepEqual(
+    stableRanges({ ...track, stable: Array(6).fill(true), starts: [0, 3], crossings: [] }).length,
+    2,
+    'a gap parts what is stable on both of its sides',
+  );
+});
+
+test('poles on the border of stability at one end are no crossing', () => {
+  const open = {
+    plane: /** @type {const} */ ('s'),
+    values: [0, 3.7e-6, 1, 3],
+    starts: [0],
+    poles: [...real([0, -1e-5, -1, -2]), ...real([1e-16, -2e-5, -1, -2]), ...real([-9, -9, -8, -7])],
+    stable: [false, true, true, true],
+    crossings: [],
+  };
+  assert.ok(isOnBorder(open, 0) && !isOnBorder(open, 1));
+  assert.equal(
+    summary(open, shown),
+    'stable for every value above 0.00, up to 3.00; at 0.00 poles on the imaginary axis',
+  );
+  const beyond = { ...open, poles: real([0.1, -1e-5, -1, -2]) };
+  assert.ok(!isOnBorder(beyond, 0), 'a pole beyond the border');
+  assert.equal(summary(beyond, shown), 'stable from 0.00 to 3.00'); // nothing is known of between
+  const sampled = { ...open, plane: /** @type {const} */ ('z'), poles: real([1, 0.9, 0.8, 0.7]) };
+  assert.ok(summary(sampled, shown).endsWith('at 0.00 poles on the unit circle'));
+  const upper = {
+    ...open,
+    poles: real([-1, -1, -1, 0]),
+    stable: [true, true, true, false],
+  };
+  assert.equal(summary(upper, shown), 'stable from 0.00 to below 3.00; at 3.00 poles on the imaginary axis');
 });
 
 test('a figure is told in words where it has no value', () => {
