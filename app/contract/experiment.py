@@ -84,6 +84,8 @@ class StepRequest(DesignRequest):
     scenario: ScenarioChanges = ScenarioChanges()
 
 
+THREADS = 2
+"""That a map, a track or a search takes of the server."""
 MOST_PINS = 6
 """Designs beside the one that is exported: more have no room on a report's two pages."""
 

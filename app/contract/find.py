@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
 from dataclasses import replace
 from math import inf, isfinite
 from typing import Annotated, Any
@@ -32,15 +31,13 @@ from heli2dof_core.scenario import Model as RigModel
 from heli2dof_core.signals import AXES
 from heli2dof_core.spec import Spec
 
-from .experiment import StepRequest
+from .experiment import THREADS, StepRequest
 from .fields import Strict, Whole
 from .model import Complex, Model, Reply, poles_reply
 from .requirements import LimitedFigure, OfResponse
-from .robustness import UncertainRigs
+from .robustness import UncertainRigs, within_part
 
 FIGURES = (*MEASURED, *SHARES)
-THREADS = 2
-"""That a search takes of the server."""
 
 
 class RequiredFigure(LimitedFigure):
@@ -159,28 +156,10 @@ class FindRequest(StepRequest):
             Heli2DofError: as `to_spec` and `finder.find`.
         """
         spec = self.to_spec()
-        with _within_find():
+        with within_part("find", FindOptions):
             ask = self.find.to_find()
             ask = replace(ask, seconds=max(min(ask.seconds, seconds), SHORTEST_SEARCH))
             yield from find_in_parts(spec, ask, check, THREADS)
-
-
-_OF_FIND = {*FindOptions.model_fields}
-_OF_RIGS = {*UncertainRigs.model_fields}
-
-
-@contextmanager
-def _within_find() -> Iterator[None]:
-    """Calls what is refused of the search by its path in the request; what is the design's keeps its own."""
-    try:
-        yield
-    except Heli2DofError as error:
-        first = error.field.partition(".")[0]
-        if first in _OF_FIND:
-            error.name_field(f"find.{error.field}")
-        elif first in _OF_RIGS:
-            error.name_field(f"find.uncertainty.{error.field}")
-        raise
 
 
 class FindProgress(Model):

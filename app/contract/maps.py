@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field
 
-from heli2dof_core.errors import Heli2DofError
 from heli2dof_core.figures.figure import Better
 from heli2dof_core.many import SHARES
 from heli2dof_core.maps import LARGEST_SIDE, DesignMap, Move, Scale, design_map
@@ -17,17 +15,15 @@ from heli2dof_core.measured import MEASURED, Axis, Motor, Steps
 from heli2dof_core.requirements import told_measure
 from heli2dof_core.scenario import Model as RigModel
 
-from .experiment import StepRequest
+from .experiment import THREADS, StepRequest
 from .fields import Whole
 from .model import Model, Reply
 from .requirements import OfResponse
-from .robustness import UncertainRigs
+from .robustness import UncertainRigs, within_part
 
 Figure = Annotated[str, Field(json_schema_extra={"enum": [*MEASURED, *SHARES]})]
 Ends = Annotated[list[float], Field(min_length=2, max_length=2)]
 Side = Annotated[Whole, Field(json_schema_extra={"minimum": 2, "maximum": LARGEST_SIDE})]
-THREADS = 2
-"""That a map takes of the server."""
 
 
 class MapAsked(OfResponse):
@@ -65,7 +61,7 @@ class MapRequest(StepRequest):
             Heli2DofError: as `to_spec` and `maps.design_map`.
         """
         spec, asked = self.to_spec(), self.map
-        with _within_map():
+        with within_part("map", MapAsked):
             uncertainty = None if asked.uncertainty is None else asked.uncertainty.to_uncertainty()
             return design_map(
                 spec,
@@ -79,24 +75,6 @@ class MapRequest(StepRequest):
                 threads=THREADS,
                 check=check,
             )
-
-
-_OF_MAP = {*MapAsked.model_fields}
-_OF_RIGS = {*UncertainRigs.model_fields}
-
-
-@contextmanager
-def _within_map() -> Iterator[None]:
-    """Calls what is refused of the map by its path in the request; what is the design's keeps its own."""
-    try:
-        yield
-    except Heli2DofError as error:
-        first = error.field.partition(".")[0]
-        if first in _OF_MAP:
-            error.name_field(f"map.{error.field}")
-        elif first in _OF_RIGS:
-            error.name_field(f"map.uncertainty.{error.field}")
-        raise
 
 
 class Place(Model):

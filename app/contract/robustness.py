@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import BaseModel, Field
 
+from heli2dof_core.errors import Heli2DofError
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.robustness import LAGS, MOST_SPREAD, Cloud, Uncertainty
 
@@ -36,6 +39,25 @@ class UncertainRigs(asked(UNCERTAINTY)):
         """The core's uncertainty."""
         own = UNCERTAINTY.given(self.model_dump(exclude_unset=True))
         return Uncertainty(**own) if self.spread is None else Uncertainty(self.spread, **own)
+
+
+@contextmanager
+def within_part(name: str, part: type[BaseModel]) -> Iterator[None]:
+    """Calls what is refused of a part of a request by its path there; what is the design's keeps its own.
+
+    Args:
+        name: of the part, whose `uncertainty` is an `UncertainRigs`.
+        part: whose fields are meant.
+    """
+    try:
+        yield
+    except Heli2DofError as error:
+        first = error.field.partition(".")[0]
+        if first in part.model_fields:
+            error.name_field(f"{name}.{error.field}")
+        elif first in UncertainRigs.model_fields:
+            error.name_field(f"{name}.uncertainty.{error.field}")
+        raise
 
 
 class RobustnessRequest(StepRequest, asked(UNCERTAINTY)):

@@ -15,7 +15,7 @@ from heli2dof_core.requirements import measure_of, told_measure
 from heli2dof_core.signals import Floats
 from heli2dof_core.tracks import FEWEST, MOST, MOST_MEASURES, Scale, Track, known_paths, track
 
-from .experiment import StepRequest
+from .experiment import THREADS, StepRequest
 from .fields import Strict, Whole
 from .model import Complex, Model, Reply, poles_reply, present
 from .requirements import OfResponse
@@ -87,7 +87,15 @@ class TrackRequest(StepRequest):
                 measures.append(figure.to_measure())
         over = None if own.over is None else (own.over[0], own.over[1])
         return track(
-            self.to_spec(), own.path, over, own.points, measures, scale=own.scale, kept=own.kept, check=check
+            self.to_spec(),
+            own.path,
+            over,
+            own.points,
+            measures,
+            scale=own.scale,
+            kept=own.kept,
+            threads=THREADS,
+            check=check,
         )
 
 

@@ -64,6 +64,8 @@ class _Pool:
         self.queue, self.seconds, self._name, self._nice = queue, seconds, name, nice
         self.running = 0
         self.workers: Workers | None = None
+        self.may_begin = threading.Event()  # not while it is unknown who shall do the work
+        self.may_begin.set()
         self.threads: list[threading.Thread] = []
 
     def grow(self, threads: int) -> None:
@@ -88,6 +90,7 @@ class _Pool:
             with contextlib.suppress(OSError):
                 os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICENESS)
         while (job := self.queue.take()) is not None:
+            self.may_begin.wait()
             if job.future.set_running_or_notify_cancel():
                 self.running += 1
                 self._do(job)
@@ -194,6 +197,8 @@ class Compute:
         """
         threadpool_limits(limits=1, user_api="blas")
         sys.setswitchinterval(SWITCH_INTERVAL)
+        if self._workers is not None:
+            self._slow.may_begin.clear()
         self._warming = threading.Thread(target=self._warm_up, name="warming", daemon=True)
         self._warming.start()
 
@@ -300,6 +305,7 @@ class Compute:
         """Drops what waits and stops threads and workers."""
         self._closed = True
         self._kernels.close()
+        self._slow.may_begin.set()
         for task in self._once.values():
             task.cancel()
         for pool in (self._quick, self._slow):
@@ -318,7 +324,10 @@ class Compute:
             self._workers.shutdown(wait=True, cancel_futures=True)
 
     def _warm_up(self) -> None:
-        self._kernels.run(self._start_workers)
+        # A job of the first second waits until it is known whether the kernels are there: workers then do it sooner
+        # than threads with interpreted ones, which would hold up this process, too. While they are compiled, which
+        # takes minutes, threads do it.
+        self._kernels.run(self._start_workers, self._slow.may_begin.set)
         self._start_workers()  # with interpreted kernels, where it has failed
         if self._workers is None:
             began = perf_counter()
@@ -337,11 +346,11 @@ class Compute:
             try:
                 self._workers.start()
             except OSError as error:
-                if self._closed:  # meanwhile
-                    return
-                _log.warning("slow work stays in threads: no worker can be started: %s", error)
+                if not self._closed:  # meanwhile
+                    _log.warning("slow work stays in threads: no worker can be started: %s", error)
             else:
                 self._slow.workers = self._workers
+        self._slow.may_begin.set()
 
 
 __all__ = [

@@ -39,6 +39,8 @@ _UNKNOWN = -1000
 _LOADED = b"\x01"
 _NICENESS = 5
 """Of the fork server, while it loads beside a server that starts."""
+_USED_BY_MOST = ("scipy.optimize",)
+"""What jobs import when they first need it, and most do: 11 MB once for all workers, not in each of them."""
 _ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL")}
 """Threads would be lost in a fork, and on matrices of six rows they only wait for one another."""
 
@@ -191,7 +193,7 @@ def _load(modules: Sequence[str]) -> None:
     from heli2dof_core.engine import warm_up
     from heli2dof_core.kernel_cache import NotKeptError
 
-    for module in modules:
+    for module in (*modules, *_USED_BY_MOST):
         import_module(module)
     try:
         warm_up(compiling=False)

@@ -29,6 +29,10 @@ COMPILE = "from heli2dof_core.engine import warm_up; warm_up()"
 _FALLBACK = Path("/dev/shm")  # writable in read-only containers
 
 
+def _nothing() -> None:
+    """Where nobody waits for it."""
+
+
 class KernelCompiler:
     """Brings the compiled kernels into this process, in the background."""
 
@@ -36,11 +40,12 @@ class KernelCompiler:
         self._child: subprocess.Popen[bytes] | None = None
         self._closed = threading.Event()
 
-    def run(self, whole: Callable[[], None] = lambda: None) -> None:
+    def run(self, whole: Callable[[], None] = _nothing, compiling: Callable[[], None] = _nothing) -> None:
         """Compiles and loads; whatever fails leaves the interpreted kernels in place, with a warning.
 
         Args:
             whole: is called as soon as other processes may load, too.
+            compiling: is called before the child compiles, which takes minutes.
         """
         if engine().compiled:
             whole()
@@ -50,7 +55,7 @@ class KernelCompiler:
             seed_cache()
             # Compiled twice where another server that starts on the same cache rewrites it while this one loads.
             ways = (self._loaded, self._compiled_and_loaded, self._compiled_and_loaded)
-            if not any(way(whole) for way in ways) and not self._closed.is_set():
+            if not any(way(whole, compiling) for way in ways) and not self._closed.is_set():
                 raise RuntimeError("Numba's cache does not keep what was compiled")
         except Exception as error:
             _log.warning("the kernels stay interpreted, responses take twenty times longer: %s", error)
@@ -58,16 +63,17 @@ class KernelCompiler:
             if engine().compiled:
                 _log.info("kernels ready after %.1f s", perf_counter() - began)
 
-    def _loaded(self, whole: Callable[[], None]) -> bool:
+    def _loaded(self, whole: Callable[[], None], _compiling: Callable[[], None]) -> bool:
         """Loads what an earlier start has left, where all of it is there; this process never compiles."""
         if not kept():
             return False
         whole()
         return self._load()
 
-    def _compiled_and_loaded(self, whole: Callable[[], None]) -> bool:
+    def _compiled_and_loaded(self, whole: Callable[[], None], compiling: Callable[[], None]) -> bool:
         if self._closed.is_set():
             return False
+        compiling()
         command, environment = compiler()
         self._child = subprocess.Popen(command, env=environment)
         status = self._child.wait()

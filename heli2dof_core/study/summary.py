@@ -9,6 +9,7 @@ from math import ceil, floor, inf, isfinite, isnan, nan
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import Heli2DofError
 from ..frozen import Frozen
@@ -36,6 +37,7 @@ class Judged(Frozen):
         exists: whether there is such a design.
         stable: share of the uncertain rigs whose loops are stable; NaN without such rigs.
         nominal: (measures,): NaN where there is none, ±∞ where it is unlimited.
+        missing: (measures,), how many of the uncertain rigs have no value.
         percentiles: (`PERCENTILES`, measures), of the uncertain rigs; what has no value counts as the worst.
         shares: (requirements,), of the uncertain rigs that meet each; NaN without such rigs.
         all_met: share of these that meet all requirements; NaN without such rigs.
@@ -46,6 +48,7 @@ class Judged(Frozen):
     exists: bool
     stable: float
     nominal: Floats
+    missing: NDArray[np.int64]
     percentiles: Floats
     shares: Floats
     all_met: float
@@ -107,7 +110,28 @@ class Summary(Shown):
             if not study.requirements and len(self.designs) > SHOWN:
                 title = f"the first {SHOWN} of {len(self.designs):,} designs"
             shown = (Table.of(title, self._heads, map(self._row, self.ranked[:SHOWN])),)
-        return (*shown, *self._required())
+        return (*shown, *self._missing(), *self._required())
+
+    def _missing(self) -> Iterator[Table]:
+        """What stands where a figure has no value, what that means, and of how many rigs it is so."""
+        study = self.study
+        told = self.ranked[: SHOWN if len(self.designs) > 1 else 1]
+        rows = []
+        for k, measure in enumerate(study.measures):
+            without = sum(isnan(own.nominal[k]) for own in told) if study.rigs is None else 0
+            count = without or sum(int(own.missing[k]) for own in told)
+            if count:
+                of = len(told) * (1 if study.rigs is None else study.rigs.count)
+                what = MEASURED[measure.name].words(measure.where)
+                rows.append((what, written(measure, nan), _meaning(measure), f"{count:,} of {of:,}"))
+        if rows:
+            counted = "designs" if study.rigs is None else "uncertain rigs"
+            counted += " under the designs above" if study.rigs is not None and len(told) > 1 else ""
+            yield Table.of(
+                "figures without a value, which count as the worst",
+                ("figure", "shown as", "because", counted),
+                rows,
+            )
 
     @property
     def _heads(self) -> tuple[str, ...]:
@@ -264,6 +288,7 @@ def _judged(study: Study, pieces: Sequence[Part]) -> Judged:
         exists=bool(exists.all()),
         stable=float(np.mean(stable[uncertain])) if any_ else nan,
         nominal=nominal,
+        missing=np.isnan(others).sum(axis=0),
         percentiles=np.column_stack([_percentiles(m, others[:, k]) for k, m in enumerate(study.measures)])
         if any_
         else np.full((len(PERCENTILES), len(study.measures)), nan),
@@ -303,11 +328,26 @@ def _worst_row(measures: Sequence[Measure]) -> list[int]:
     return [0 if MEASURED[own.name].figure.better == "higher" else len(PERCENTILES) - 1 for own in measures]
 
 
+_NONE = {
+    "settling_time": ("not settled", "the response has not settled when the run ends"),
+    "rise_time": ("not reached", "the response does not come to 90 % of its step"),
+}
+"""What stands where a figure has no value, and why it has none of a stable loop; of others there is ``none``."""
+
+
+def _meaning(measure: Measure) -> str:
+    """Why there is no value, in plain words."""
+    known = MEASURED[measure.name]
+    absent = "" if known.unlimited else known.figure.absent.removeprefix("where ")
+    why = _NONE.get(measure.name, ("", absent))[1]
+    return f"the loop is not stable, or {why}" if why else "the loop is not stable"
+
+
 def written(measure: Measure, value: float) -> str:
     """A value as it is shown; words where there is none, or no limit."""
     known = MEASURED[measure.name]
     if isnan(value):
-        return NOTHING if known.unlimited else known.written(None)
+        return _NONE.get(measure.name, ("none", ""))[0]
     return "unlimited" if not isfinite(value) else known.written(value)
 
 

@@ -9,6 +9,8 @@ import pytest
 from click.testing import CliRunner
 
 from app.cli.group import heli2dof
+from app.contract import tracks
+from app.contract.experiment import THREADS
 from app.contract.tracks import TrackReply, TrackRequest
 from heli2dof_core import Spec
 from heli2dof_core.tracks import track
@@ -106,3 +108,16 @@ def test_files_are_those_of_the_command_line(client):
 def test_its_request_keeps_the_design():
     request = TrackRequest.model_validate({"poles": POLES, "track": {"path": "gain"}})
     assert np.allclose(request.to_spec().poles.array[2:], [-3 + 4j, -3 - 4j])
+
+
+def test_a_track_takes_as_many_threads_as_a_map(monkeypatch):
+    taken = []
+
+    def swept(*args, threads, **options):
+        taken.append(threads)
+        return track(*args, threads=threads, **options)
+
+    monkeypatch.setattr(tracks, "track", swept)
+    asked = {"track": {"path": "loops.pitch.kp", "points": 3, "measures": [{"measure": "disk_margin"}]}}
+    assert TrackRequest.model_validate(asked).to_track().figures.shape[1] == 1
+    assert taken == [THREADS]

@@ -7,8 +7,9 @@ import asyncio
 import os
 import pickle
 import signal
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator, Callable, Iterator
 from importlib import import_module
+from threading import Event
 from types import MappingProxyType
 from typing import Any
 
@@ -21,6 +22,7 @@ from websockets.sync.connection import Connection
 from app.jobs.compute import Compute, OverdueError, WorkerLostError
 from app.jobs.current import JobError, is_portable, portable
 from app.jobs.fork_server import CAN_FORK
+from app.jobs.kernel_compiler import KernelCompiler
 from app.jobs.processes import WorkerProcesses
 from heli2dof_core import evaluate, loop_of, place, preset, simulate
 from heli2dof_core.errors import InvalidInputError
@@ -168,6 +170,41 @@ def test_a_closure_stays_in_a_thread(compute):
 def test_only_processes_are_processes(compute):
     pid = run(compute.run_slow(os.getpid))
     assert (pid == os.getpid()) == (compute.workers is None)
+
+
+@pytest.mark.skipif(not CAN_FORK, reason="slow work stays in threads here")
+@pytest.mark.parametrize("compiles", [False, True])
+def test_a_job_of_the_first_second_waits_for_workers_unless_kernels_are_compiled(compiles, monkeypatch):
+    looked, known, done = Event(), Event(), Event()
+
+    def load(_self: KernelCompiler, whole: Callable[[], None], compiling: Callable[[], None]) -> None:
+        looked.set()
+        known.wait(PATIENCE)
+        if compiles:
+            compiling()
+            done.wait(PATIENCE)
+        whole()
+
+    monkeypatch.setattr(KernelCompiler, "run", load)
+    compute = Compute(workers=WorkerProcesses(1), seconds=PATIENCE)
+    compute.start()
+
+    async def asked() -> int:
+        job = asyncio.ensure_future(compute.run_slow(os.getpid))
+        while not compute.waiting["slow"] and not job.done():  # until it is put
+            await asyncio.sleep(0)
+        while compute.waiting["slow"]:  # until a thread has it
+            await asyncio.sleep(0)
+        known.set()
+        return await job
+
+    try:
+        assert looked.wait(PATIENCE)
+        assert (run(asked()) == os.getpid()) == compiles
+    finally:
+        done.set()
+        compute.close()
+        compute.join()
 
 
 @pytest.mark.skipif(not CAN_FORK, reason="slow work stays in threads here")

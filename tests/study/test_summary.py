@@ -89,7 +89,7 @@ def test_the_best_come_first(summary):
 
 def test_tables_say_what_is_told(summary):
     told, _ = summary
-    designs, required = told.tables()
+    designs, _missing, required = told.tables()
     figures = ("overshoot 95 %", "settling time 95 %", "disk margin 5 %", "V_peak V_p 95 %")
     assert designs.columns == (
         *("design", "loops pitch kp", "pitch pair re"), *figures, *("stable", "meet all", "meets")
@@ -100,6 +100,18 @@ def test_tables_say_what_is_told(summary):
     heads, *rows = told.rows()
     assert len({*heads}) == len(heads)
     assert {len(row) for row in rows} == {len(heads)}
+
+
+def test_what_has_no_value_is_told_in_words_and_how_many(summary):
+    told, rows = summary
+    missing = told.tables()[1]
+    assert missing.columns == ("figure", "shown as", "because", "uncertain rigs under the designs above")
+    of = {row[0]: row[1:] for row in missing.rows}
+    count = rows[rows.rig > 0].settling_time.isna().sum()
+    assert count > 0
+    because = "the loop is not stable, or the response has not settled when the run ends"
+    assert of["Settling time, either step"] == ("not settled", because, f"{count} of 600")
+    assert "not reached" not in {cell for row in told.tables()[0].rows for cell in row}  # of overshoot
 
 
 def test_a_design_alone_is_told_figure_by_figure(tmp_path):
