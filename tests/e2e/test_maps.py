@@ -200,7 +200,7 @@ def test_the_server_is_seen_to_compute_and_to_refuse_and_is_asked_again(chromium
             else:
                 held.append(route)
 
-        page.route("**/api/v1/map", answer)
+        page.route("**/api/v1/map*", answer)
         page.goto(f"{app.url}#v1{COMPLEX}&map=overshoot&method=tits-yang")
         settled(page)
         words, again = page.get_by_test_id("map-state"), page.get_by_test_id("map-again")
