@@ -33,9 +33,9 @@ export class Pad {
   /**
    * @param {{kind: 'pitch'|'yaw', testid: string, title: string, x: string, y: string, busy: () => boolean,
    *   move: (x: number, y: number, stamp: number) => void, end: () => void, free: () => boolean,
-   *   scale: (name: string) => number[], range?: boolean, seen?: () => void}} how  x, y: what stands at the axes; free: whether the point
-   *   may be moved; scale: the levels of its colours; range: whether it tells its least and largest value; seen: it is
-   *   now seen, or no more
+   *   scale: (name: string) => number[], range?: boolean, seen?: () => void}} how  x, y: what stands at the axes;
+   *   free: whether the point may be moved; scale: the levels of its colours; range: whether it tells its least and
+   *   largest value; seen: it is now seen, or no more
    */
   constructor(how) {
     this.how = how;
