@@ -33,8 +33,9 @@ class App:
 def running_app(port: int = 0, **settings: object) -> Iterator[App]:
     """The app as `heli2dof serve` starts it, in a process of its own, ready to compute.
 
-    It has these settings.
+    It has these settings; slow work may take as long as a test waits for it.
     """
+    settings = {"slow_seconds": PATIENCE} | settings
     command = (*SERVE, "--port", str(port))
     with TemporaryDirectory() as folder, served(Path(folder), command, **settings) as server:
         until(lambda: server.answers, "the app is ready")

@@ -162,6 +162,7 @@ def test_unstable_pi_is_told_and_the_suggestion_mends_it(page: Page):
     assert "unstable" in page.get_by_test_id("findings").inner_text()
     page.get_by_test_id("suggest-pi").click()
     page.wait_for_function("() => JSON.parse(document.documentElement.dataset.state).stable === true")
+    settled(page)  # words are the server's
     assert "pi_unstable" not in state(page)["findings"]
     page.get_by_test_id("reset").click()
     page.wait_for_function("() => JSON.parse(document.documentElement.dataset.state).poles[0].re === -12")
