@@ -189,7 +189,7 @@ def test_a_worker_that_keeps_much_is_replaced_after_its_job(workers):
 @pytest.mark.skipif(sys.platform != "linux", reason="Linux tells both")
 def test_slow_work_stands_back(workers):
     niceness, killed_first = workers.submit(jobs_to_do.standing).result(PATIENCE)
-    assert niceness >= 15
+    assert niceness >= min(os.nice(0) + 15, 19)
     assert killed_first >= 500
 
 
