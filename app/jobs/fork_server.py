@@ -73,14 +73,22 @@ class ForkServer:
         """
         with self._lock:
             self._start()
-            own, workers = socket.socketpair()
             try:
-                with workers:
-                    pid = self._asked(FORK, 0, workers.fileno())
-            except BaseException:
-                own.close()
-                raise
-            return Connection(own.detach()), pid
+                return self._fork()
+            except OSError:  # it has ended, or is just ending and still looks alive
+                self._end()
+                self._start()
+                return self._fork()
+
+    def _fork(self) -> tuple[Connection, int]:
+        own, workers = socket.socketpair()
+        try:
+            with workers:
+                pid = self._asked(FORK, 0, workers.fileno())
+        except BaseException:
+            own.close()
+            raise
+        return Connection(own.detach()), pid
 
     def reap(self, pid: int) -> int | None:
         """How the worker has ended, as `subprocess` tells it; waits until it has. None if nobody knows any more."""

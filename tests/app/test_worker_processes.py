@@ -170,6 +170,20 @@ def test_a_fork_server_that_is_killed_is_started_again(workers):
     assert workers._fork_server._child.pid != server.pid
 
 
+def test_a_fork_server_that_ends_and_still_looks_alive_is_started_again(workers, monkeypatch):
+    workers.submit(os.getpid).result(PATIENCE)
+    fork_server = workers._fork_server
+    server, died = fork_server._child, workers.died
+    server.kill()
+    server.wait()
+    monkeypatch.setattr(server, "poll", lambda: None)
+    connection, pid = fork_server.fork()
+    connection.close()
+    until(lambda: is_gone(pid), "it has ended")
+    assert fork_server._child.pid != server.pid
+    assert workers.died == died
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the system does not bound it")
 def test_memory_is_bounded(workers):
     assert workers.submit(jobs_to_do.of_size, MEMORY // 2).result(PATIENCE) == MEMORY // 2
