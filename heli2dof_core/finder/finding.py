@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -23,6 +23,8 @@ from .why import Contradiction
 MOST_TOLD, MOST_ON_RIGS = 60, 24
 """Designs that are told; where each is put on uncertain rigs."""
 MOST_POINTS = 100
+PAUSE = 0.2
+"""Seconds between two tellings of how far a search is: a front that changes faster is followed by nobody's eyes."""
 THREADS = 2
 APART = 0.05
 """How far two nearest misses are apart at least, as a share of what a free number may range over.
@@ -42,7 +44,8 @@ class Progress(Frozen):
         tried, designs: of the budget.
         seconds: since it began.
         met: how many of those tried meet everything.
-        points: figures of the best so far, (n, k), at most `MOST_POINTS`, as they are told.
+        points: the front so far: what is minimized, of at most `MOST_POINTS` designs that are spread along it,
+            (n, k), as `many.Many.values`.
     """
 
     tried: int
@@ -67,7 +70,7 @@ def find(
         spec: the design that is there, with rig and experiment; what is not free stays.
         ask: what is free, required and minimized.
         check: called now and then; what it raises ends the search.
-        progress: called every now and then with what is known so far.
+        progress: called with what is known so far, at most every `PAUSE` seconds.
         threads: that compute, at most.
 
     Raises:
@@ -95,12 +98,12 @@ def find_in_parts(
         yield Designs(ask, problem.told, (), present, 0, seconds, False, why)
         return
     search = Search(problem, ask.designs, begin + ask.seconds)
-    for _ in search.run():
+    for _ in _paced(search.run()):
         yield _progress(search, begin)
     why = None
     if search.front is None:
         contradiction = Contradiction(search)
-        for _ in contradiction.run():
+        for _ in _paced(contradiction.run()):
             yield _progress(search, begin)
         why = contradiction.why
     candidates = _told(search)
@@ -109,6 +112,16 @@ def find_in_parts(
     present = _present(problem, spec)
     seconds = perf_counter() - begin
     yield Designs(ask, problem.told, candidates, present, search.used, seconds, search.stopped, why)
+
+
+def _paced(parts: Iterable[None]) -> Iterator[None]:
+    """The first part, and of the others those that end `PAUSE` after the one before."""
+    told: float | None = None
+    for _ in parts:
+        now = perf_counter()
+        if told is None or now - told >= PAUSE:
+            told = now
+            yield
 
 
 def _progress(search: Search, begin: float) -> Progress:

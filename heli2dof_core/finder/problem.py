@@ -9,7 +9,6 @@ from math import inf, nan
 import numpy as np
 from numpy.typing import NDArray
 
-from ..block import Task
 from ..errors import Heli2DofError, nobody_leaves
 from ..frozen import Frozen
 from ..kernels.update_layout import DONE, FOUND_FIGURES, FOUND_OUTCOME, STABLE
@@ -19,6 +18,7 @@ from ..requirements import Requirement
 from ..signals import Floats
 from ..spec import Spec
 from .ask import Find
+from .gains import Gains
 from .space import Space
 from .uncertain import SEARCHED, OnAll, missed_share
 
@@ -85,7 +85,7 @@ class Problem:
         stepped: the axes that are stepped.
         told: what is told of each design: minimized first, then what else is required.
         measures: what is computed of each.
-        closed_form: whether the kernel finds K itself.
+        gains: where their K and L come from.
     """
 
     def __init__(
@@ -111,18 +111,15 @@ class Problem:
         self._guides = {own: len(self.measures) + i for i, own in enumerate(extra)} | self._column
         self.many = Many(spec, (*self.measures, *extra), threads=threads, unstable=False)
         self.on_all = OnAll(spec, ask, threads) if ask.of_rigs is not None else None
-        rest = Task.of(spec, each_axis=False).rest
-        self.closed_form = rest.has_closed_form and not rest.has_kalman_filter
+        self.gains = Gains(spec, ask, self.space, self.many)
 
     def rows(self, points: Floats) -> Floats:
         """The designs in numbers, (n, NUMBERS); NaN where one does not exist."""
-        rows = self.space.rows(self.many.row, points)
-        if self.closed_form:
-            return rows
-        for i, point in enumerate(points):  # K comes from outside the kernel
+        rows = self.space.rows(self.gains.row, points)
+        for i in np.flatnonzero(self.gains.give(rows, points)).tolist():
             self.check()
             try:
-                rows[i] = self.many.numbers_of(self.space.design(point), given=True)
+                rows[i] = self.many.numbers_of(self.space.design(points[i]), given=True)
             except Heli2DofError:
                 rows[i] = nan
         return rows

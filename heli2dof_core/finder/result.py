@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..exclusion import exclusion_text
 from ..many import Measure
-from ..requirements import Requirement, written
+from ..requirements import Requirement
 from ..spec import Spec
 from ..tables import NOTHING, Shown, Table, number, poles
 from .ask import Find, Free
@@ -133,7 +133,7 @@ class Designs(Shown):
         heads = (*(HEADS[name] for name in free), *(own.words for own in self.measures), "meets")
         rows = []
         for own in self.candidates:
-            figures = (written(measure, v) for measure, v in zip(self.measures, own.values, strict=True))
+            figures = (measure.written(v) for measure, v in zip(self.measures, own.values, strict=True))
             count = f"{sum(one.met for one in own.required)} of {len(own.required)}"
             rows.append((*(told(own.spec, name) for name in free), *figures, count))
         found = [Table.of("designs" if self.met else "nearest misses", heads, rows)]

@@ -75,7 +75,9 @@ class Space:
     def __init__(self, spec: Spec, ask: Find) -> None:
         ask.require_possible(spec)
         self.spec = spec
-        self._parts = [part for name in ask.free for part in _PARTS[name](spec, ask.bounds)]
+        named = [(name, part) for name in ask.free for part in _PARTS[name](spec, ask.bounds)]
+        self._parts = [part for _, part in named]
+        self._weights = next((i for i, (name, _) in enumerate(named) if name == "weights"), None)
         self.size = sum(part.size for part in self._parts)
 
     def _values(self, points: Floats) -> list[Floats]:
@@ -91,6 +93,11 @@ class Space:
         for part, values in zip(self._parts, self._values(points), strict=True):
             part.fill(rows, values)
         return rows
+
+    def weights(self, points: Floats) -> Floats:
+        """Diagonals of Q, R and, with integral action, Q_z of the designs, (n, k), where weights are free."""
+        assert self._weights is not None
+        return self._values(points)[self._weights]
 
     def design(self, point: Floats) -> Spec:
         """The design at one point, (size,).

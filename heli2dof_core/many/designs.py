@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import nullcontext, suppress
+from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
 from math import nan
@@ -22,6 +22,7 @@ from ..errors import Heli2DofError, InvalidInputError, nobody_leaves
 from ..estimators import estimator
 from ..evaluate import evaluate, place
 from ..kernels.update_layout import (
+    AIMS,
     ASKED,
     DONE,
     DOUBTFUL,
@@ -133,6 +134,11 @@ class Many:
         """
         return self.numbers_of(self.spec)
 
+    @cached_property
+    def _pool(self) -> ThreadPoolExecutor:
+        """Its threads; a search runs thousands of small generations, and they end with it."""
+        return ThreadPoolExecutor(self._threads)
+
     @property
     def changes_in_place(self) -> bool:
         """Whether designs may be made of `row` by other numbers: the kernel finds K and L of each itself."""
@@ -184,27 +190,24 @@ class Many:
             check: called after every few designs; what it raises ends the work.
         """
         found, poles = np.empty((len(rows), FOUND)), np.empty((len(rows), self.order), dtype=np.complex128)
-        size = max(1, PART * RIGS_EACH // (RIGS_EACH + len(self._factors)))
+        most = PART * RIGS_EACH // (RIGS_EACH + len(self._factors))
+        size = max(1, min(most, -(-len(rows) // self._threads)))  # a small generation is shared, too
         parts = [slice(i, i + size) for i in range(0, len(rows), size)]
-        with (
-            ThreadPoolExecutor(self._threads)
-            if self._threads > 1 and len(parts) > 1
-            else nullcontext() as pool
-        ):
-            for at in range(0, len(parts), self._threads):
-                check()
-                group = parts[at : at + self._threads]
-                each = ((rows[part], found[part], poles[part]) for part in group)
-                if pool is None:
-                    for task in each:
-                        self._fill(*task)
-                else:
-                    list(pool.map(lambda task: self._fill(*task), each))
+        for at in range(0, len(parts), self._threads):
+            check()
+            group = parts[at : at + self._threads]
+            each = ((rows[part], found[part], poles[part]) for part in group)
+            if len(group) == 1:
+                for task in each:
+                    self._fill(*task)
+            else:
+                list(self._pool.map(lambda task: self._fill(*task), each))
         for i in np.flatnonzero(found[:, FOUND_OUTCOME] != DONE).tolist():
             check()
             self._fill_given(i, spec_of, found, poles)
         if spec_of is not None and {"pole_error", "pole_error_bound"} & {own.name for own in self.measures}:
             exact = (rows[:, K_GIVEN] != 0.0) | (found[:, FOUND_FIGURES + DOUBTFUL] != 0.0)
+            exact &= rows[:, AIMS] != 0.0  # who chose the poles misses none
             for i in np.flatnonzero(exact & (found[:, FOUND_OUTCOME] == DONE)).tolist():
                 check()
                 placed = evaluate(_sparse(spec_of(i)), most_steps=1).placed

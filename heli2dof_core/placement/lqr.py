@@ -55,6 +55,13 @@ def require_weights(task: Task, outputs: int = 0) -> Weights:
     return weights
 
 
+def with_integrals(A: Floats, B: Floats, C: Floats) -> tuple[Floats, Floats]:
+    """A and B of [x, ∫y], y = Cx."""
+    q = len(C)
+    whole = np.block([[A, np.zeros((len(A), q))], [C, np.zeros((q, q))]])
+    return whole, np.vstack([B, np.zeros((q, B.shape[1]))])
+
+
 def regulate(A: Floats, B: Floats, Q: Floats, R: Floats, integrate: Floats | None = None) -> Floats:
     """K of u = −Kx by `control.lqr`; with `integrate` = C, of u = −K [x, ∫y]; Q and R are diagonal.
 
@@ -66,8 +73,7 @@ def regulate(A: Floats, B: Floats, Q: Floats, R: Floats, integrate: Floats | Non
     whole, inputs, integrators = A, B, 0
     if integrate is not None:
         integrators = len(integrate)
-        whole = np.block([[A, np.zeros((len(A), integrators))], [integrate, np.zeros((integrators,) * 2)]])
-        inputs = np.vstack([B, np.zeros((integrators, B.shape[1]))])
+        whole, inputs = with_integrals(A, B, integrate)
     task, units, volts = Regulator(whole, inputs, np.diag(Q), np.diag(R), integrators).in_own_units()
     weights = np.diag(task.states), np.diag(task.inputs)
     try:

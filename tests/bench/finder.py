@@ -2,6 +2,7 @@
 
     python -m tests.bench.finder brute --designs 1000000   (hours; goes on where it was, kept in build/finder)
     python -m tests.bench.finder finder                    (some three minutes: the same problems, 5 s each)
+    python -m tests.bench.finder finder --shared           (the same beside other work: 5 s of the cores' own time)
     python -m tests.bench.finder control                   (a minute: two of them around python-control)
 
 Hypervolumes are of the same figures up to the same point, a tenth beyond the worst of both fronts, as a share of that
@@ -15,14 +16,16 @@ import json
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, process_time, thread_time
 from typing import Any
 
 import numpy as np
 
 from heli2dof_core import Spec, plant, warm_up
 from heli2dof_core.finder import Designs, find
+from heli2dof_core.finder import search as search_module
 from heli2dof_core.finder.problem import Problem, Tried
 from heli2dof_core.finder.proof import proved
 from heli2dof_core.finder.search import Search, nondominated
@@ -31,9 +34,11 @@ from tests.finder.problems import SOLVABLE, UNSOLVABLE, Case
 from tests.finder.volume import volume
 
 KEPT = Path("build/finder")
-CHUNK = {"weights": 1000}
-"""Designs of one turn of the brute force where each takes a Riccati equation; 20,000 elsewhere."""
+CHUNK = 20_000
+"""Designs of one turn of the brute force."""
 SECONDS = 5.0
+UNEVEN = 0.6
+"""Of two threads' time, what passes on two cores: a generation waits for the later half of it."""
 MOST = 1_000_000
 Judge = Callable[[dict[str, Any]], tuple[list[float], float]]
 """From figures to what is minimized, and by how much limits are missed."""
@@ -72,10 +77,9 @@ class Brute:
 
     def turn(self) -> None:
         """Some more."""
-        count = CHUNK.get(self.case.name, 20_000)
         problem = Problem(self.case.spec(), self.case.find)
         begin = perf_counter()
-        own = problem.tried(np.random.default_rng([7, self.tried]).random((count, problem.space.size)))
+        own = problem.tried(np.random.default_rng([7, self.tried]).random((CHUNK, problem.space.size)))
         known = self.goals
         waiting = np.flatnonzero(own.waiting)
         if own.goals.shape[1]:
@@ -88,7 +92,7 @@ class Brute:
         if own.goals.shape[1]:
             goals = np.vstack((self.goals, good.goals))
             self.goals = goals[nondominated(goals)] if len(goals) else goals
-        self.tried, self.met = self.tried + count, self.met + int(np.count_nonzero(own.nominal))
+        self.tried, self.met = self.tried + CHUNK, self.met + int(np.count_nonzero(own.nominal))
         self.seconds += perf_counter() - begin
         KEPT.mkdir(parents=True, exist_ok=True)
         told = {"tried": self.tried, "met": self.met, "seconds": self.seconds, "goals": self.goals.tolist()}
@@ -98,9 +102,7 @@ class Brute:
 def brute(designs: int, only: str | None) -> None:
     """All problems by turns, until each has had so many designs."""
     every = [Brute(case) for case in (*SOLVABLE, *UNSOLVABLE) if only in (None, case.name)]
-    while waiting := [
-        own for own in every if own.tried < (designs if own.case.name not in CHUNK else designs // 50)
-    ]:
+    while waiting := [own for own in every if own.tried < designs]:
         for own in waiting:
             own.turn()
             print(
@@ -109,18 +111,24 @@ def brute(designs: int, only: str | None) -> None:
             )
 
 
-def finder(designs: int, seconds: float, only: str | None) -> None:
+def own_time() -> float:
+    """Seconds that would have passed since the process began, had nothing else run on two cores."""
+    alone = thread_time()
+    return alone + UNEVEN * (process_time() - alone)
+
+
+def finder(designs: int, seconds: float, only: str | None, clock: Callable[[], float]) -> None:
     """The finder on two threads, beside what the brute force has found so far."""
     heads = ("finder", "brute", "ratio", "tried", "seconds", "brute tried", "met")
     print(f"{'problem':36}" + "".join(f"{head:>12}" for head in heads))
     for case in SOLVABLE:
         if only not in (None, case.name):
             continue
-        begin, rough = perf_counter(), Brute(case)
+        rough, begin = Brute(case), clock()
         search = Search(Problem(case.spec(), case.find, 2), designs, begin + seconds)
         for _ in search.run():
             pass
-        took = perf_counter() - begin
+        took = clock() - begin
         front = np.zeros((0, len(case.find.minimize))) if search.front is None else search.front.goals
         mine, theirs = shares(front, rough.goals)
         ratio = mine / theirs if theirs else np.inf
@@ -133,9 +141,8 @@ def finder(designs: int, seconds: float, only: str | None) -> None:
         if only not in (None, case.name):
             continue
         found = find(case.spec(), replace(case.find, designs=20_000, seconds=60.0))
-        named = (
-            [] if found.why is None else [case.find.require[i].measure.name for i in found.why.requirements]
-        )
+        which = () if found.why is None else (*found.why.alone, *found.why.requirements)
+        named = [case.find.require[i].measure.name for i in which]
         right = "right" if frozenset(named) in case.contradict else "WRONG"
         print(f"{case.name:36}{' '.join(named)}: {right}, {found.seconds:.1f} s", flush=True)
 
@@ -270,12 +277,19 @@ if __name__ == "__main__":
         "--designs", type=int, default=MOST, help="the most, of the brute force or the finder"
     )
     parser.add_argument("--seconds", type=float, default=SECONDS, help="the most, of the finder")
+    parser.add_argument(
+        "--shared", action="store_true", help="the finder's seconds are of the cores' own time"
+    )
     parser.add_argument("--problem", help="one alone, by its name")
     asked = parser.parse_args()
     warnings.simplefilter("ignore")
     warm_up()
+    for library in ("cma", "control", "scipy.optimize"):  # as in a worker that has searched before
+        import_module(library)
+    clock = own_time if asked.shared else perf_counter
+    search_module.perf_counter = clock  # pyright: ignore[reportPrivateImportUsage]
     {
         "brute": lambda: brute(asked.designs, asked.problem),
-        "finder": lambda: finder(asked.designs, asked.seconds, asked.problem),
+        "finder": lambda: finder(asked.designs, asked.seconds, asked.problem, clock),
         "control": beside_control,
     }[asked.what]()

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import gc
+import threading
 from dataclasses import replace
 from math import inf, isnan, nan
+from typing import Any
 
 import numpy as np
 import pytest
@@ -24,7 +27,9 @@ from heli2dof_core.measured import MEASURED, Where, worse
 from heli2dof_core.placement.registry import METHODS
 from heli2dof_core.robustness import random_factors
 from heli2dof_core.scenario import Digital
+from heli2dof_core.signals import Floats
 from tests.core.random_specs import random_specs
+from tests.patience import PATIENCE
 
 
 def every_measure() -> list[Measure]:
@@ -262,3 +267,29 @@ def test_shares_need_rigs(spec):
     with pytest.raises(InvalidInputError, match="uncertain rigs") as refused:
         evaluate_many([spec], [Measure("share_stable")])
     assert refused.value.field == "uncertainty"
+
+
+def test_a_small_generation_is_shared_by_threads_which_end_with_it(monkeypatch):
+    many = Many(Spec.from_preset(), [Measure("V_peak")], threads=2)
+    rows = np.tile(many.row, (10, 1))
+    seen: list[tuple[int, threading.Thread]] = []
+    fill = Many._fill
+
+    def told(self: Many, rows: Floats, *filled: Any) -> None:
+        seen.append((len(rows), threading.current_thread()))
+        fill(self, rows, *filled)
+
+    monkeypatch.setattr(Many, "_fill", told)
+    many.run(rows[:1])
+    assert seen == [(1, threading.current_thread())]
+    del seen[:]
+    for _ in range(3):
+        many.run(rows)
+    assert [count for count, _ in seen] == 6 * [5]
+    threads = {thread for _, thread in seen}
+    assert threading.current_thread() not in threads and 1 <= len(threads) <= 2
+    del many
+    gc.collect()
+    for thread in threads:
+        thread.join(PATIENCE)
+        assert not thread.is_alive()

@@ -10,7 +10,7 @@ import pytest
 
 from heli2dof_core import Spec, Uncertainty, evaluate
 from heli2dof_core.errors import CancelledError, InvalidInputError
-from heli2dof_core.finder import Designs, Find, find, find_in_parts
+from heli2dof_core.finder import Designs, Find, find, find_in_parts, finding
 from heli2dof_core.finder.finding import distinct, thinned
 from heli2dof_core.finder.problem import Problem
 from heli2dof_core.finder.result import why_text
@@ -74,6 +74,16 @@ def test_the_budget_holds(easy):
         if not isinstance(part, Designs):
             assert part.tried <= part.designs == EASY.find.designs
             assert part.points.shape[1] == 2
+
+
+def test_how_far_it_is_is_told_now_and_then(monkeypatch):
+    def told() -> int:
+        return sum(not isinstance(part, Designs) for part in find_in_parts(EASY.spec(), EASY.find))
+
+    monkeypatch.setattr(finding, "PAUSE", 0.0)
+    every = told()
+    monkeypatch.setattr(finding, "PAUSE", 1e9)
+    assert told() == 1 < every
 
 
 def test_time_is_a_ceiling():
