@@ -10,7 +10,8 @@ from typing import Any, get_args
 
 from heli2dof_core.couplings import STRUCTURES
 from heli2dof_core.figures import AXIS, MARGINS
-from heli2dof_core.kernels import layout
+from heli2dof_core.flight import events, log, rig
+from heli2dof_core.kernels import flight_layout, layout
 from heli2dof_core.kernels import update_layout as update
 from heli2dof_core.parameters import PARAMETER_INFO
 from heli2dof_core.poles import ZERO
@@ -18,12 +19,14 @@ from heli2dof_core.quantities import Field
 from heli2dof_core.request import Place, quantities
 from heli2dof_core.robustness import GRID, PERCENTILES, RTOL, SMALLEST
 from heli2dof_core.rotors import AT_ONCE
-from heli2dof_core.scenario import AntiWindup, Measured
+from heli2dof_core.scenario import MOST_SAMPLE_TIMES, SAMPLED, AntiWindup, Measured
+from heli2dof_core.simulation.nonlinear import ABSOLUTE_TOLERANCE
 from tests.children import ROOT
 from tests.page_source import WIDTH, key, literal, quoted
 
 PAGE = ROOT / "static" / "kernel" / "layout.js"
 SHAPES = PAGE.with_name("shapes.js")
+FLIGHT = PAGE.with_name("flight_layout.js")
 HEAD = """/**
  * What stands where in the numbers that the kernel `update` takes and in the block that it fills, and what a request
  * may be. Made of heli2dof_core/kernels/update_layout.py and the core's dataclasses by `python -m tests.page_kernel`;
@@ -271,6 +274,85 @@ def _dimension(few: list[int], more: dict[str, list[int]]) -> str:
     return f"{term} + {rest}" if rest else term
 
 
+FLIGHT_HEAD = """/**
+ * What stands where in a flight's arrays, the words of its log and their ranges. Made of heli2dof_core/flight and
+ * heli2dof_core/kernels/flight_layout.py by `python -m tests.page_kernel`; not to be changed by hand.
+ */
+"""
+INPUTS = (
+    *("MANUAL", "STICK", "REFERENCE", "TURN", "TURN_FROM", "PUSH", "GUST", "GUST_FROM", "GUST_TICKS"),
+    *("THRUST", "HUNG", "STUCK", "NOISE", "SEED", "FLIGHT_INPUTS"),
+)
+CONTROLLER = (
+    *("BY_REFERENCE", "BASE", "ZERO_ANGLE", "TRIM", "MEASURED_AS", "ORDER", "TICKS", "FLIGHT_CONTROLLER"),
+)
+MEMORY = (
+    *("FILTERS", "HAS", "COMPUTED", "SEEN", "READ", "PHASE", "TICK", "ENDED_AS", "WISHED", "HITS", "PUSHED"),
+    "FLIGHT_MEMORY",
+)
+ROW = (*("STATE", "SENSED", "VOLTAGE", "UNLIMITED", "SPEED", "WISH", "OUTSIDE", "ON_STOP", "FLIGHT_ROW"),)
+LOG = ("FORMAT", "MOST_TICKS", "LONGEST", "MOST_EVENTS", "MOST_DESIGNS", "CHECK_EVERY", "AGREED")
+
+
+def flights() -> str:
+    """The module of a flight's layout."""
+    own = {name: getattr(flight_layout, name) for name in CONTROLLER}
+    sizes = {
+        **{"STATES": layout.FULL, "CONSTANTS": layout.MORE_CONSTANTS, "MODES": layout.MORE_MODES},
+        **{"OBSERVER_ROWS": layout.ESTIMATED[0], "OBSERVER_COLUMNS": layout.ESTIMATED[1]},
+        **{"WORK_ROWS": layout.WORKSPACE[0], "WORK_COLUMNS": layout.WORKSPACE[1]},
+    }
+    within = {
+        **{"RTOL": rig.TOLERANCE, "ATOL": ABSOLUTE_TOLERANCE * rig.TOLERANCE},
+        **{"MOST_STEPS": rig.MOST_STEPS, "SAMPLED": SAMPLED, "MOST_SAMPLES": MOST_SAMPLE_TIMES},
+        "GRAVITY": events.GRAVITY,
+    }
+    words = "\n".join(
+        f"  {word}: {_rows([_value(*value) for value in known.values])},"
+        for word, known in events.WORDS.items()
+    )
+    parts = (
+        FLIGHT_HEAD,
+        _places("What acts from outside.", "INPUT", flight_layout, INPUTS),
+        _object(
+            "A controller's settings, behind its sample time.", "CONTROLLER", {"TIME": layout.TIME, **own}
+        ),
+        _places("Of a loop's constants.", "CONSTANT", layout, ("LIMIT", "TRAVEL")),
+        _places("Of a rig's modes.", "MODE", layout, ("REST",)),
+        _places("What a flight remembers beside its state.", "MEMORY", flight_layout, MEMORY),
+        _places("A row of its course.", "ROW", flight_layout, ROW),
+        _places(
+            "What a change of controller tells.",
+            "TAKEN_OVER",
+            flight_layout,
+            ("JUMP", "JUMP_WITHOUT", "BUMPLESS", "TOLD"),
+        ),
+        _object("Sizes of the arrays.", "FLOWN", sizes),
+        _object(
+            "Tolerances within a tick, most steps; a continuous design's sample time, s; most samples; m/s².",
+            "WITHIN",
+            within,
+        ),
+        _places("Of a log.", "LOG", log, LOG),
+        "/**\n * The words of a log: what each carries, its unit, and its range.\n"
+        " * @type {Record<string, [name: string, unit: string, low: number, high: number][]>}\n */\n"
+        f"export const WORDS = {{\n{words}\n}};\n",
+    )
+    return "\n".join(parts)
+
+
+def _rows(entries: list[str]) -> str:
+    """A list of lists: several stand one below the other."""
+    if len(entries) == 1:
+        return f"[{entries[0]}]"
+    return "\n".join(("[", *(f"    {entry}," for entry in entries), "  ]"))
+
+
+def _value(name: str, unit: str, low: float, high: float) -> str:
+    return f"[{quoted(name)}, {quoted(unit)}, {literal(low)}, {literal(high)}]"
+
+
 if __name__ == "__main__":
+    FLIGHT.write_text(flights(), encoding="utf-8")
     PAGE.write_text(module(), encoding="utf-8")
     SHAPES.write_text(shapes(), encoding="utf-8")

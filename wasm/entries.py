@@ -11,6 +11,10 @@ ENTRIES = (
     "update",
     "run_rigs",
     "run_designs",
+    "flight_controller",
+    "begin_flight",
+    "fly",
+    "take_over",
     "eigenvalues",
 )
 """Names in `heli2dof_core.kernels.jit.ENTRIES`, which are those of the module's functions."""

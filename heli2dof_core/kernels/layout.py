@@ -9,16 +9,26 @@ import numpy as np
 from ..signals import fixed
 
 # c: the rig's parameters (α = J_p + m l²), gains u = G y + offset, limits, references, back-calculation,
-# pitch travel, and volts that disturb the motors
+# pitch travel, volts that disturb the motors, and torques about both axes from outside, N·m
 K_PP, K_PY, K_YP, K_YY, ALPHA, J_Y, ML2, MGL, B_P, B_Y, K_S = range(11)
-GAIN, OFFSET, LIMIT, WANTED, TRACKING, TRAVEL, DISTURBANCE, CONSTANTS = 11, 23, 25, 27, 29, 33, 34, 36
+GAIN, OFFSET, LIMIT, WANTED, TRACKING, TRAVEL, DISTURBANCE, TORQUE, CONSTANTS = (
+    11,
+    23,
+    25,
+    27,
+    29,
+    33,
+    34,
+    36,
+    38,
+)
 
 # c goes on for a rig whose rotors, friction or estimator are modelled: time constants, dead zones, squares s of the
 # thrust curves (0: linear), both frictions; the gains of both motors on the states behind the sixth; and the
 # estimator, six rows by state, by what the motors get, and a constant (`FULL` + 3 columns each); and how large the
 # states behind the sixth are as a rule, by which their errors are judged
-TAU, DEAD, SQUARE, COULOMB, BREAKAWAY, MORE_GAIN, ESTIMATOR, USUAL = 36, 38, 40, 42, 44, 46, 62, 164
-MORE_CONSTANTS = 172
+TAU, DEAD, SQUARE, COULOMB, BREAKAWAY, MORE_GAIN, ESTIMATOR, USUAL = 38, 40, 42, 44, 46, 48, 64, 166
+MORE_CONSTANTS = 174
 PLAIN, LAGGED, FULL = 6, 8, 14
 """States of the loop: θ, ψ, θ̇, ψ̇, z_p, z_y; with both rotors' speeds v_p, v_y; with six states of an estimator."""
 INNER = FULL - PLAIN

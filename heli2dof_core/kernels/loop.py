@@ -26,6 +26,7 @@ from .layout import (
     START,
     STATIC,
     STOP,
+    TORQUE,
     TRACKING,
     TRAVEL,
     VOLTS,
@@ -161,7 +162,7 @@ def nonlinear_loop(size, rig, trim, theta_0, law, by_reference, integral, x, mor
         c[OFFSET + i] = by_reference[i, 0] * (x[REFERENCE] - theta_0) + by_reference[i, 1] * x[REFERENCE + 1]
         c[OFFSET + i] += x[FED] * trim[i] - law[i, 0] * theta_0
         c[LIMIT + i], c[WANTED + i] = x[BOUND + i], x[REFERENCE + i]
-        c[DISTURBANCE + i] = x[VOLTS + i]
+        c[DISTURBANCE + i], c[TORQUE + i] = x[VOLTS + i], 0.0
         m[i], m[SIDE + i] = 0, 1
         # each integrator's motor is the one that it drives in the main
         m[MOTOR_OF + i] = 1 if abs(integral[1, i]) > abs(integral[0, i]) else 0

@@ -49,6 +49,7 @@ from .layout import (
     SIDE,
     SLIDING,
     SLIP,
+    TORQUE,
     TRACKING,
     TRAVEL,
     WANTED,
@@ -60,12 +61,14 @@ from .trigonometry import sine_and_cosine
 
 @kernel
 def accelerations(theta, theta_dot, psi_dot, V_p, V_y, c):
-    """(θ̈, ψ̈), rad/s² (Eqs. 9–12); a test holds them to the derivation."""
+    """(θ̈, ψ̈), rad/s² (Eqs. 9–12), with torques from outside; a test holds them to the derivation."""
     sine, cosine = sine_and_cosine(theta)
     sway = c[ML2] * sine * cosine
     pitch = c[K_PP] * V_p + c[K_PY] * V_y - c[B_P] * theta_dot - c[K_S] * theta
     pitch -= sway * psi_dot * psi_dot + c[MGL] * cosine
+    pitch += c[TORQUE]
     yaw = c[K_YP] * V_p + c[K_YY] * V_y - c[B_Y] * psi_dot + 2.0 * sway * theta_dot * psi_dot
+    yaw += c[TORQUE + 1]
     return pitch / c[ALPHA], yaw / (c[J_Y] + c[ML2] * cosine * cosine)
 
 

@@ -19,6 +19,10 @@ FILLED = {
     "update": tuple(re.sub("^open$", "own_poles", name) for name in block_shapes(6, 2)),
     "run_rigs": RIGS,
     "run_designs": ("found_poles", "found"),
+    "flight_controller": ("outcome", "c", "m", "estimated", "start", "k"),
+    "begin_flight": ("y", "s", "free"),
+    "fly": ("y", "s", "free", "rows"),
+    "take_over": ("y", "s", "told"),
     "eigenvalues": ("real", "imaginary"),
 }
 """What a kernel is asked for; all else that it writes into is scratch."""
