@@ -9,9 +9,9 @@
 (501,)
 
 `read_recording(path)` reads what a rig did; `driven_in_segments` lays the model over it and `identify` finds
-the rig's parameters. `design_map(spec, "yaw-pair", "overshoot")` tells what each place of a pair would give.
-`formulas()` gives the derivation
-as SymPy objects, `to_control()` of a plant, a design or a loop a
+the rig's parameters. `Rig(spec)` is the rig in hand: it flies in steps, is pushed, and takes another design in the
+air. `design_map(spec, "yaw-pair", "overshoot")` tells what each place of a pair would give. `formulas()` gives the
+derivation as SymPy objects, `to_control()` of a plant, a design or a loop a
 `control.StateSpace`. Results are frozen; a notebook shows them as small tables.
 
 Knows no web, no 3D and no plot. SymPy and python-control are imported when they are first needed.
@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from . import paper as paper
     from . import symbolic as symbolic
     from .finder import Bounds, Designs, Find, find
+    from .flight import FlightCourse, FlightLog, Rig, fly_script, read_script, simulate_flight
     from .many import Measure
     from .maps import DesignMap, design_map
     from .placement.symbols import SymbolicPlacement, symbolic_place
@@ -91,6 +92,8 @@ __all__ = [
     "Estimator",
     "Find",
     "Finding",
+    "FlightCourse",
+    "FlightLog",
     "Friction",
     "Heli2DofError",
     "Identification",
@@ -114,6 +117,7 @@ __all__ = [
     "Report",
     "Requirement",
     "Response",
+    "Rig",
     "Rotor",
     "Rotors",
     "Scenario",
@@ -143,6 +147,7 @@ __all__ = [
     "driven_in_segments",
     "evaluate",
     "find",
+    "fly_script",
     "formulas",
     "full_rank",
     "identify",
@@ -158,11 +163,13 @@ __all__ = [
     "pole_error",
     "preset",
     "read_recording",
+    "read_script",
     "relative_gain_array",
     "requirements_of",
     "rga_over_frequency",
     "rotor_formulas",
     "simulate",
+    "simulate_flight",
     "spec_of",
     "suggest_pi",
     "symbolic_place",
@@ -181,6 +188,9 @@ _LATE = {
     **dict.fromkeys(("Columns", "Recording"), ".recordings.recording"),
     "read_recording": ".recordings.files.opened",
     **dict.fromkeys(("Bounds", "Designs", "Find", "find"), ".finder"),
+    **dict.fromkeys(
+        ("FlightCourse", "FlightLog", "Rig", "fly_script", "read_script", "simulate_flight"), ".flight"
+    ),
     **dict.fromkeys(("Track", "track"), ".tracks"),
     **dict.fromkeys(("SymbolicPlacement", "symbolic_place"), ".placement.symbols"),
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
@@ -10,6 +11,8 @@ from typing import Protocol, TypeVar, get_args
 from .errors import InvalidInputError
 
 T = TypeVar("T")
+_QUOTED = 80
+"""Characters of a value in a message."""
 
 
 class Named(Protocol):
@@ -26,11 +29,24 @@ N = TypeVar("N", bound=Named)
 
 def checked_number(value: object, path: str) -> float:
     """`value` as a finite float, or InvalidInputError naming `path`."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise InvalidInputError(
-            f"{path} is {value!r}, not a finite number", field=path, value=value, hint="Give a finite number."
-        )
-    return float(value)
+    with contextlib.suppress(OverflowError):  # a whole number of a thousand digits is none
+        if isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value):
+            return float(value)
+    raise InvalidInputError(
+        f"{path} is {shortly(value)}, not a finite number",
+        field=path,
+        value=value,
+        hint="Give a finite number.",
+    )
+
+
+def shortly(value: object) -> str:
+    """A value as a message quotes it: nothing long, whatever it is."""
+    try:
+        text = repr(value)
+    except ValueError:  # a whole number of more digits than Python writes
+        return "a very long number"
+    return text if len(text) <= _QUOTED else f"{text[:_QUOTED]}…"
 
 
 def require_within(value: object, path: str, unit: str, low: float, high: float) -> float:

@@ -79,6 +79,15 @@ class Design(Frozen, Shown):
             return self.plant.A, self.plant.B
         return frozen(with_rotors(self.plant.A, self.plant.B * self.actuators.slope, self.actuators.tau))
 
+    def inverses(self, K: Floats) -> Floats:
+        """Ĝ(0)⁻¹, (..., 2, 2), of other gains for the same model, (..., 2, 4) or (..., 2, 6), by their numbers.
+
+        Where K has a closed form, `steady_state_inverse` has digits that these lose.
+        """
+        if self.rotor_poles is None:
+            return K[..., :2] - self.plant.statics
+        return _inverses_with_rotors(self.model[0], K)
+
     @property
     def states(self) -> tuple[Signal, ...]:
         """Those of the model."""
@@ -317,6 +326,9 @@ class _SixStates:
         wanted = np.array([*self.poles.values, *self.rotor_poles], dtype=np.complex128)
         found = chosen.place(Task(A, B, wanted, np.eye(2, 6), weights))
         K = np.ascontiguousarray(found.K, dtype=np.float64)
-        inverse = K[:, :2] - (np.eye(2) + K[:, 4:]) @ np.linalg.solve(A[2:4, 4:], A[2:4, :2])
-        own = (method, None, K, inverse, found.integral, chosen.places_poles)
+        own = (method, None, K, _inverses_with_rotors(A, K), found.integral, chosen.places_poles)
         return Design(self.plant, self.poles, *own, *known)
+
+
+def _inverses_with_rotors(A: Floats, K: Floats) -> Floats:
+    return K[..., :2] - (np.eye(2) + K[..., 4:]) @ np.linalg.solve(A[2:4, 4:], A[2:4, :2])

@@ -2,6 +2,7 @@
 
     Heli2DofError
     ├── InvalidInputError          a value is not a number, out of its range, or unknown
+    │   └── ChangedLogError        a flight's log is not what was flown
     ├── UnpairedPolesError         a pair is neither two real poles nor two conjugates
     ├── UncontrollableError        the two motors cannot move the two axes independently
     ├── StructureUnavailableError  the coupling asked for does not exist on this rig
@@ -58,6 +59,12 @@ class InvalidInputError(Heli2DofError):
     """A single value is unusable."""
 
     code = "invalid_input"
+
+
+class ChangedLogError(InvalidInputError):
+    """A flight's log is not as it was written: its checksum or the states that it tells do not fit."""
+
+    code = "changed_log"
 
 
 class UnpairedPolesError(Heli2DofError):

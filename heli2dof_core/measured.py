@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from .evaluate import Report
 from .figures import AXIS, DESIGN, LOOP, MARGINS, MOTOR, SENSITIVITY, STEP, Figure
-from .figures.written import DASH, in_shown_unit, percent, rounded, told
+from .figures.written import in_shown_unit, percent, rounded, told
 from .metrics import NOT_SETTLED
 from .scenario import Model
 
@@ -58,6 +58,7 @@ class Measured:
         own: its name in the registry of that kind.
         read: its values, several where both axes or motors are meant; None where there is none.
         unlimited: whether no value says that it has no limit.
+        none: the words that stand where there is no value.
     """
 
     name: str
@@ -66,6 +67,7 @@ class Measured:
     own: str
     read: Read
     unlimited: bool = False
+    none: str = "none"
 
     @property
     def has_axis(self) -> bool:
@@ -115,9 +117,7 @@ class Measured:
         if self.unlimited and (value is None or isinf(value)):
             return "unlimited"
         if value is None or not isfinite(value):
-            if self.unlimited or self.of != "axis":
-                return DASH
-            return NOT_SETTLED if self.name == "settling_time" else "not reached"
+            return self.none
         if _is_share(self.figure):
             return percent(value)
         return told(self.figure, value) + (f" {self.figure.shown}" if self.figure.in_head else "")
@@ -274,6 +274,8 @@ _NAMES = {
 }
 _NAMES |= {("sensitivity", "peak_frequency"): "sensitivity_peak_frequency"}
 _NAMES |= {("sensitivity", name): f"disk_{name}" for name in ("gain_low", "gain_high", "phase")}
+NOT_REACHED = "not reached"
+_NONE = {"settling_time": NOT_SETTLED, "rise_time": NOT_REACHED}
 
 
 def _registry() -> Mapping[str, Measured]:
@@ -292,9 +294,8 @@ def _registry() -> Mapping[str, Measured]:
             if figure.notation == "flag":
                 continue
             name = _NAMES.get((of, own), own)
-            found[name] = Measured(
-                name, figure, of, own, read(own), figure.absent.startswith("where unlimited")
-            )
+            unlimited = figure.absent.startswith("where unlimited")
+            found[name] = Measured(name, figure, of, own, read(own), unlimited, _NONE.get(name, "none"))
     return MappingProxyType(found)
 
 

@@ -11,10 +11,11 @@ from dataclasses import MISSING, dataclass, field, replace
 from functools import cache, cached_property
 from typing import Any, TypeVar
 
+from .body_shape import POLES, SPLIT, TEXT, require_shape
 from .checks import require_known
 from .couplings import Structure
 from .design import FULL_RANK
-from .errors import InvalidInputError, within_field
+from .errors import within_field
 from .estimators import Observer
 from .parameters import Parameters
 from .placement.method import Weights
@@ -213,14 +214,14 @@ def spec_of(body: Mapping[str, Any]) -> Spec:
     Raises:
         Heli2DofError: a value is out of its range or unknown; its field is the core's (see `path_of`).
     """
-    _require_known(body, _tree())
+    require_shape(body, _tree())
     return judged_spec(body)
 
 
 def judged_spec(body: Mapping[str, Any]) -> Spec:
     """As `spec_of`, of a body whose fields' names a schema has judged already."""
-    base = preset(body.get("preset", DEFAULT))
-    method, loops = body.get("method", FULL_RANK), body.get("loops", {})
+    base, loops = preset(_given(body, "preset", DEFAULT)), body.get("loops") or {}
+    method = _given(body, "method", FULL_RANK)
     require_known(method, METHODS, "method")  # also where another is used
     pi = {axis: place.changed(getattr(base.outer, axis), loops.get(axis)) for axis, place in LOOP.items()}
     return Spec(
@@ -230,15 +231,20 @@ def judged_spec(body: Mapping[str, Any]) -> Spec:
         poles=_poles(body.get("poles"), body.get("split"), base),
         structure=STRUCTURE.changed(base.structure, body),
         outer=OUTER.changed(base.outer, body, **pi),
-        scenario=_scenario(body.get("scenario", {}), base),
+        scenario=_scenario(body.get("scenario") or {}, base),
         method=method,
-        weights=_weights(body.get("weights", {}), bryson_weights(base.limits)),
+        weights=_weights(body.get("weights") or {}, bryson_weights(base.limits)),
         rotors=_by_axis(ROTOR, base.rotors, body.get("rotors")),
         friction=_by_axis(FRICTION, base.friction, body.get("friction")),
         place_rotors=base.place_rotors if body.get("place_rotors") is None else body["place_rotors"],
         rotor_poles=_rotor_poles(body.get("rotor_poles"), base),
         observer=_observer(body.get("observer")),
     )
+
+
+def _given(body: Mapping[str, Any], name: str, default: str) -> str:
+    value = body.get(name)
+    return default if value is None else value
 
 
 def _by_axis(places: Mapping[str, Place], base: T, given: Mapping[str, Any] | None) -> T:
@@ -262,28 +268,18 @@ def _observer(given: Mapping[str, Any] | None) -> Observer | None:
     return OBSERVER.changed(Observer(), given, **whole)
 
 
-def _require_known(values: Mapping[str, Any], tree: Mapping[str, Any], above: str = "") -> None:
-    for name, value in values.items():
-        if name not in tree:
-            raise InvalidInputError(
-                f"there is no field {above}{name}",
-                field=f"{above}{name}",
-                value=value,
-                hint="Known are " + ", ".join(tree) + ".",
-            )
-        if tree[name] and isinstance(value, Mapping):
-            _require_known(value, tree[name], f"{above}{name}.")
-
-
 @cache
 def _tree() -> dict[str, Any]:
-    """The names of a body's fields, below one another."""
-    whole = ("preset", "method", "poles", "split", "rotor_poles", "observer.poles", "scenario.model")
+    """The names of a body's fields, below one another, with what stands there (see `body_shape`)."""
+    whole = dict.fromkeys(("preset", "method", "scenario.model"), TEXT)
+    whole |= dict.fromkeys(("poles", "rotor_poles", "observer.poles"), POLES)
     tree: dict[str, Any] = {}
-    for path in (*whole, *(path for path, _, _ in quantities())):
+    for path, kind in ({**whole, "split": SPLIT} | {path: known for path, _, known in quantities()}).items():
+        *above, name = path.split(".")
         level = tree
-        for name in path.split("."):
-            level = level.setdefault(name, {})
+        for part in above:
+            level = level.setdefault(part, {})
+        level[name] = kind
     return tree
 
 
@@ -324,7 +320,7 @@ def _scenario(given: Mapping[str, Any], base: Preset) -> Scenario:
 
 def _weights(given: Mapping[str, Mapping[str, Any]], base: Weights) -> Weights:
     def merged(kind: str, signals: tuple[Signal, ...]) -> tuple[float, ...]:
-        own = given.get(kind, {})
+        own = given.get(kind) or {}
         values = (own.get(signal.name) for signal in signals)
         return tuple(b if v is None else v for v, b in zip(values, getattr(base, kind), strict=True))
 

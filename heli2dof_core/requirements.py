@@ -96,7 +96,7 @@ class Requirement:
 
     def written(self, value: float | None) -> str:
         """A value of the figure as it is shown; words where there is none."""
-        return written(self.measure, value)
+        return self.measure.written(value)
 
     def meets(self, value: float | None) -> bool:
         """Whether one rig's value does; None, NaN and ±∞ are values that do not exist or have no limit."""
@@ -255,11 +255,6 @@ def told_measure(measure: Measure) -> dict[str, Any]:
     said = _allowed(known) if known is not None else {}
     own = {name: getattr(where, name) for name, allowed in said.items() if allowed}
     return {"measure": measure.name, **{name: value for name, value in own.items() if value is not None}}
-
-
-def written(measure: Measure, value: float | None) -> str:
-    """A value as it is shown; words where there is none (None, NaN) or no limit (infinite, None where it may be)."""
-    return measure.written(value)
 
 
 def between(low: str | None, high: str | None) -> str:

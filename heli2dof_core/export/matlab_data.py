@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from io import BytesIO
 from typing import Any
 
@@ -22,8 +23,6 @@ _TEXT = 116
 
 def render(spec: Spec, link: str = "") -> bytes:
     """One variable per matrix, structs for parameters and responses; equal designs give equal bytes."""
-    from scipy.io import savemat
-
     report = evaluate(spec)
     design, loop = report.design, report.loop
     content: dict[str, Any] = {
@@ -55,6 +54,13 @@ def render(spec: Spec, link: str = "") -> bytes:
             for model, step in report.step.items()
         },
     }
+    return mat_file(content)
+
+
+def mat_file(content: Mapping[str, Any]) -> bytes:
+    """Variables as a MAT-file; equal ones give equal bytes, since the head has no date."""
+    from scipy.io import savemat
+
     file = BytesIO()
     savemat(file, content, oned_as="column")
     head = f"MATLAB 5.0 MAT-file, heli2dof {package_version()}".encode().ljust(

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from .figure import Figure, figures_of
+from .flight import FLIGHT, FLIGHT_BY_AXIS
 from .loop import DESIGN, LOOP, MARGINS, SENSITIVITY, Margins
 from .response import (
     AXIS,
@@ -32,12 +33,14 @@ KINDS: Mapping[str, Mapping[str, Figure]] = {
     "loop": LOOP,
     "design": DESIGN,
 }
-"""All of them: per stepped axis, per step, per motor, per motor's loop, of both loops, of the state feedback."""
+"""All of a design: per stepped axis, per step, per motor, per motor's loop, of both loops, of the state feedback."""
 
 __all__ = [
     "AXIS",
     "AXIS_METRICS",
     "DESIGN",
+    "FLIGHT",
+    "FLIGHT_BY_AXIS",
     "KINDS",
     "LOOP",
     "MARGINS",

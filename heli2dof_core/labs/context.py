@@ -12,9 +12,10 @@ from ..lazily import computed
 from ..request import Body, spec_of
 from ..spec import Spec
 from .bodies import Flat, body_of_flat, flat_body
+from .flights import Flown, flown_again
 from .flown import fly
 from .lab import Lab, Step
-from .rigs import handed_in, solution_flat, start_flat, true_rig
+from .rigs import free_paths, handed_in, solution_flat, start_flat, true_rig
 
 Which = Literal["own", "start", "solution", "rig"]
 SAMPLES = 501
@@ -70,6 +71,7 @@ class Context:
         given: the design as handed in.
         check: called now and then in long work; raises where nobody waits any more.
         seed: of the student; None where nobody said it.
+        flight: the log of the flight that is handed in with it; None without one.
     """
 
     lab: Lab
@@ -78,6 +80,26 @@ class Context:
     given: Body
     check: Callable[[], None] = nobody_leaves
     seed: int | None = None
+    flight: Mapping[str, Any] | None = None
+
+    @computed
+    def flown(self) -> Flown | Heli2DofError | None:
+        """The flight that was handed in, made again, once for all goals; or why it does not count.
+
+        None where there is none, or the step asks for none.
+        """
+        if self.flight is None:
+            return None
+        of = next((goal.told() for goal in self.step.goals if goal.kind == "flight"), None)
+        if of is None:
+            return None
+        free = free_paths(self.lab, self.step) if of.get("changes") else []
+        try:
+            return flown_again(
+                self.flight, of["task"], self.forced[0], free, seed=of.get("seed"), wanted=self.check
+            )
+        except Heli2DofError as error:
+            return error
 
     @computed
     def forced(self) -> tuple[Flat, tuple[str, ...]]:

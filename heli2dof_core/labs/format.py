@@ -14,7 +14,7 @@ from .lab import FORMAT, Hint, Lab, Step
 from .locks import HIDDEN, LOCKS
 from .question_records import QUESTION
 
-VIEWS = ("explore", "design", "compare", "rig", "derivation", "plant")
+VIEWS = ("explore", "design", "compare", "rig", "derivation", "plant", "fly")
 """Where a step may lead."""
 RIG = ("parameters", "limits", "rotors", "friction", "operating_point", "scenario")
 """What makes a lab's rig, of a design body."""
@@ -62,6 +62,12 @@ def _check_step(step: Step, at: Reading, path: str) -> None:
         ("questions", [q.name for q in step.questions]),
     ):
         _tell_twice(names, at, path, what)
+    flights = [(i, goal.told()) for i, goal in enumerate(step.goals) if goal.kind == "flight"]
+    for i, own in flights[1:]:
+        for part in ("task", "changes", "seed"):
+            if own.get(part) != flights[0][1].get(part):
+                hint = "With an attempt one flight is handed in; put the other into a step of its own."
+                at.tell_at(f"{path}.goals[{i}].{part}", f"a step's goals differ in {part}", hint)
 
 
 def _tell_twice(names: list[str], at: Reading, path: str, what: str) -> None:
@@ -119,6 +125,10 @@ def _check_lab(lab: Lab, at: Reading, path: str) -> None:
     if lab.worn and not lab.hidden_rig:
         at.tell_at("worn", "only a hidden rig is worn", "Write `true_rig: hidden`, or say it in `rig`.")
     _tell_twice([step.name for step in lab.steps], at, path, "steps")
+    for i, step in enumerate(lab.steps):
+        if lab.hidden_rig and any(goal.kind == "flight" for goal in step.goals):
+            hint = "A page that flies a rig knows it: leave `true_rig` out."
+            at.tell_at(f"steps[{i}].goals", "a hidden rig cannot be flown", hint)
     if lab.steps[0].continues:
         at.tell_at("steps[0].continue", "there is no step before the first", "Leave `continue` out.")
 

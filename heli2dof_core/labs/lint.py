@@ -8,6 +8,7 @@ from typing import Any
 from ..errors import Heli2DofError
 from .bodies import body_of_flat
 from .context import Context
+from .flights import tried_flight
 from .goals.figure import FigureGoal
 from .kinds import Reading
 from .lab import Lab, Step
@@ -46,7 +47,10 @@ def tell_unwise(lab: Lab, at: Reading) -> None:
 def _task(step: Step, path: str, warn: Warn) -> None:
     if not step.goals and not step.questions:
         warn(path, f"the step {step.name} has neither goals nor questions", "Give it one, or make it text.")
-    if step.goals and not any(LOCKS[name] for name in step.unlocked):
+    on_design = [
+        goal for goal in step.goals if goal.kind != "flight"
+    ]  # a flight may be the task, not the design
+    if on_design and not any(LOCKS[name] for name in step.unlocked):
         warn(
             f"{path}.unlocked", "there are goals, but all is locked", "Unlock what the student shall change."
         )
@@ -107,7 +111,9 @@ def _solved(lab: Lab, step: Step, path: str, warn: Warn) -> None:
     for where, rig, seed in rigs:
         try:
             flat = solution_flat(lab, step, rig, seed)
-            marked = mark(lab, step.name, rig, {} if flat is None else body_of_flat(flat), {}, seed=seed)
+            body = {} if flat is None else body_of_flat(flat)
+            flight = tried_flight(step, body)
+            marked = mark(lab, step.name, rig, body, {}, seed=seed, flight=flight)
         except Heli2DofError as error:
             warn(f"{path}.solution", f"on {where} the solution is no design: {error}", error.hint)
             return
@@ -129,7 +135,11 @@ def _solved(lab: Lab, step: Step, path: str, warn: Warn) -> None:
 
 def _begun(lab: Lab, step: Step, path: str, warn: Warn) -> None:
     rig = lab_rig(lab) if not lab.hidden_rig else student_rig(lab, SEEDS[0])
-    marked = mark(lab, step.name, rig, body_of_flat(start_flat(lab, step, rig)), {}, seed=SEEDS[0])
+    body = body_of_flat(start_flat(lab, step, rig))
+    flight = tried_flight(step, body)
+    marked = mark(lab, step.name, rig, body, {}, seed=SEEDS[0], flight=flight)
+    if all(goal.kind == "flight" for goal in step.goals) and not any(LOCKS[name] for name in step.unlocked):
+        return  # there is nothing to design: what is to be done is to fly
     if step.goals and all(told.met for told in marked.goals) and not step.continues:
         warn(f"{path}.start", "the start reaches every goal already", "Ask for more, or begin farther away.")
 

@@ -11,6 +11,7 @@ from ..errors import InvalidInputError, nobody_leaves
 from ..findings import Finding
 from ..request import Body
 from .context import Context
+from .flights import Flown
 from .lab import Goal, Lab, Outcome, Question, Step
 from .questions import NumberQuestion
 
@@ -55,6 +56,7 @@ class Marked:
         findings: remarks on the design.
         ignored: locked parts in which the design differed from the step's start, which was taken.
         body: the design that was judged: on the student's rig and the step's locks.
+        flight: of the flight that was judged its task, seed, ticks, checksum and figures; None where none was.
     """
 
     step: str
@@ -68,6 +70,7 @@ class Marked:
     findings: tuple[Finding, ...]
     ignored: tuple[str, ...]
     body: Body
+    flight: Mapping[str, Any] | None = None
 
     @property
     def done(self) -> bool:
@@ -81,6 +84,8 @@ class Marked:
             if told["value"] is None:
                 del told["value"]
         found["ignored"] = [*self.ignored]
+        if self.flight is None:
+            del found["flight"]
         return found
 
 
@@ -94,6 +99,7 @@ def mark(
     hints: Iterable[int] = (),
     check: Callable[[], None] = nobody_leaves,
     seed: int | None = None,
+    flight: Mapping[str, Any] | None = None,
 ) -> Marked:
     """Marks an attempt; nothing of it is believed but the design's free parts and the answers.
 
@@ -106,12 +112,13 @@ def mark(
         hints: numbers, from 1, of the hints that were taken; each costs once.
         check: called now and then in long work; raises where nobody waits any more.
         seed: of the student, for goals on what only the server knows of their rig.
+        flight: the log of a flight, for goals on a task in the air.
 
     Raises:
         Heli2DofError: there is no such step or hint, or the body is no design.
     """
     step = lab.step(step_name)
-    context = Context(lab, step, rig, dict(body), check, seed)
+    context = Context(lab, step, rig, dict(body), check, seed, flight)
     own, ignored = context.own, context.forced[1]
     goals = tuple(_goal(goal, context) for goal in step.goals)
     questions = tuple(_question(question, answers.get(question.name), context) for question in step.questions)
@@ -130,6 +137,7 @@ def mark(
         () if own.failure is not None else own.report.findings,
         ignored,
         own.body,
+        context.flown.told if goals and isinstance(context.flown, Flown) else None,
     )
 
 

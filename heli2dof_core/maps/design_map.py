@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from math import isfinite, isnan, nan
+from math import isfinite, nan
 from typing import Any
 
 import numpy as np
@@ -118,9 +118,7 @@ class DesignMap(Frozen, Shown):
         return int(np.argmin(np.abs(np.log(places / value)))) if value > 0.0 else 0
 
     def written(self, value: float) -> str:
-        """A value as it is shown, with its unit."""
-        if isnan(value) and self.measure.unlimited:
-            return "none"
+        """A value as it is shown, with its unit; words where there is none (NaN) or no limit (infinite)."""
         return self.measure.written(value)
 
     def svg(self) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterator
 from html import escape
-from math import isfinite
+from math import isfinite, nan
 
 import numpy as np
 
@@ -118,7 +118,7 @@ def key(c: Canvas) -> Iterator[str]:
     if not np.any(lacks):
         none = "no design"
     elif np.all(there) and found.measure.name == "settling_time":
-        none = "not settled"
+        none = found.written(nan)
     x = LEFT
     for seen, kind, words in (
         (np.any(there & ~found.stable), "u", "unstable"),

@@ -123,7 +123,7 @@ class Summary(Shown):
             if count:
                 of = len(told) * (1 if study.rigs is None else study.rigs.count)
                 what = MEASURED[measure.name].words(measure.where)
-                rows.append((what, written(measure, nan), _meaning(measure), f"{count:,} of {of:,}"))
+                rows.append((what, measure.written(nan), _meaning(measure), f"{count:,} of {of:,}"))
         if rows:
             counted = "designs" if study.rigs is None else "uncertain rigs"
             counted += " under the designs above" if study.rigs is not None and len(told) > 1 else ""
@@ -157,7 +157,7 @@ class Summary(Shown):
         cells = [str(own.design), *(_cell(value) for value in study.changes(own.design).values())]
         values = own.percentiles[_worst_row(study.measures)] if uncertain else own.nominal
         values = np.diagonal(values) if uncertain else values
-        cells += [written(m, value) for m, value in zip(study.measures, values.tolist(), strict=True)]
+        cells += [m.written(value) for m, value in zip(study.measures, values.tolist(), strict=True)]
         cells += [_percent(own.stable)] * uncertain
         if study.requirements:
             cells += [_percent(own.all_met)] * uncertain + ["yes" if own.meets else "no"]
@@ -169,7 +169,9 @@ class Summary(Shown):
         rows = []
         for k, measure in enumerate(study.measures):
             values = [own.nominal[k], *own.percentiles[:, k]] if study.rigs is not None else [own.nominal[k]]
-            rows.append((MEASURED[measure.name].words(measure.where), *(written(measure, v) for v in values)))
+            rows.append(
+                (MEASURED[measure.name].words(measure.where), *(measure.written(float(v)) for v in values))
+            )
         if study.rigs is not None:
             rows.append(("stable", NOTHING, _percent(own.stable), *[NOTHING] * (len(PERCENTILES) - 1)))
         return Table.of(study.title or "study", heads, rows)
@@ -187,7 +189,7 @@ class Summary(Shown):
         )
         rows = []
         for k, own in enumerate(study.requirements):
-            row = [own.words, own.limit_text, own.written(_known(best.nominal[self._at(k)]))]
+            row = [own.words, own.limit_text, own.written(float(best.nominal[self._at(k)]))]
             if uncertain:
                 row += [_percent(best.shares[k]), NOTHING if own.share is None else f"{100 * own.share:g} %"]
             rows.append(row)
@@ -328,27 +330,19 @@ def _worst_row(measures: Sequence[Measure]) -> list[int]:
     return [0 if MEASURED[own.name].figure.better == "higher" else len(PERCENTILES) - 1 for own in measures]
 
 
-_NONE = {
-    "settling_time": ("not settled", "the response has not settled when the run ends"),
-    "rise_time": ("not reached", "the response does not come to 90 % of its step"),
+_BECAUSE = {
+    "settling_time": "the response has not settled when the run ends",
+    "rise_time": "the response does not come to 90 % of its step",
 }
-"""What stands where a figure has no value, and why it has none of a stable loop; of others there is ``none``."""
+"""Why a stable loop has no such figure, where the registry's words are meant for a reply."""
 
 
 def _meaning(measure: Measure) -> str:
     """Why there is no value, in plain words."""
     known = MEASURED[measure.name]
     absent = "" if known.unlimited else known.figure.absent.removeprefix("where ")
-    why = _NONE.get(measure.name, ("", absent))[1]
+    why = _BECAUSE.get(measure.name, absent)
     return f"the loop is not stable, or {why}" if why else "the loop is not stable"
-
-
-def written(measure: Measure, value: float) -> str:
-    """A value as it is shown; words where there is none, or no limit."""
-    known = MEASURED[measure.name]
-    if isnan(value):
-        return _NONE.get(measure.name, ("none", ""))[0]
-    return "unlimited" if not isfinite(value) else known.written(value)
 
 
 def _head(measure: Measure) -> str:
@@ -365,7 +359,3 @@ def _cell(value: Any) -> str:
 def _percent(share: float) -> str:
     """Rounded down: 99.96 % are not all."""
     return NOTHING if isnan(share) else f"{floor(1000 * share + 1e-9) / 10:g} %"
-
-
-def _known(value: float) -> float | None:
-    return None if isnan(value) else value

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..errors import InvalidInputError
 from ..frozen import Frozen
 from ..many import SHARES, Measure
-from ..requirements import measure_of, written
+from ..requirements import measure_of
 from ..signals import Complexes, Floats
 from ..spec import Spec
 from ..systems.model import System
@@ -129,7 +129,7 @@ class Track(Frozen, Shown):
             size = float(np.max(np.abs(self.poles[i])))
             upper = [_clean(p, size) for p in self.poles[i].tolist() if p.imag >= 0.0]
             upper.sort(key=lambda p: (-p.real, p.imag))
-            figures = (written(m, v) for m, v in zip(self.measures, self.figures[i].tolist(), strict=True))
+            figures = (m.written(v) for m, v in zip(self.measures, self.figures[i].tolist(), strict=True))
             told = ", ".join(conjugates(p) for p in upper)
             rows.append((number(self.values[i].item()), told, "yes" if self.stable[i] else "no", *figures))
         unit = "poles (rad/s)" if self.plane == "s" else "poles (z)"

@@ -75,8 +75,9 @@ def test_a_requirement_that_is_repeated_is_refused():
     [
         ("settling_time", "not settled"),
         ("rise_time", "not reached"),
-        ("gain_margin", "–"),
-        ("V_peak", "–"),
+        ("overshoot", "none"),
+        ("gain_margin", "none"),
+        ("V_peak", "none"),
         ("share_stable", "–"),
     ],
 )

@@ -25,6 +25,7 @@ from heli2dof_core import Digital, Disturbance, Loop, OuterLoop, Spec, Uncertain
 from heli2dof_core.engine import engine
 from heli2dof_core.export import FORMATS
 from heli2dof_core.finder import Find, find_in_parts
+from heli2dof_core.flight import FlightController, FlightLog, Rig, simulate_flight, thin_flight
 from heli2dof_core.frozen import Frozen, frozen, read_only
 from heli2dof_core.kernels.jit import EXAMPLES
 from heli2dof_core.lag_track import lag_track
@@ -116,6 +117,15 @@ def recordings(folder: Path) -> Iterator[Any]:
     yield heli.identify(
         SPEC.parameters, recording, ("K_pp",), heli.Rotors(heli.Rotor(0.05), heli.Rotor(0.05))
     )
+
+
+def flights() -> Iterator[Any]:
+    """What a rig in hand has flown, and what is made of a flight's log."""
+    yield Rig(SPEC).fly(0.1)
+    log = FlightLog({}, 100, ((0, "push", 0.01, 0.0),))
+    yield FlightController.of(SPEC)
+    yield simulate_flight(log)
+    yield thin_flight(log, 10)
 
 
 def synthetic(loop: Loop) -> Recording:
@@ -216,6 +226,7 @@ def writable(thing: Any, path: str, seen: dict[int, Any]) -> Iterator[str]:
 @pytest.mark.slow
 def test_no_array_of_a_result_can_be_written_to(made: list[Frozen], tmp_path: Path):
     results = [*evaluations(), *recordings(tmp_path), *everything_else(), heli.PRESETS, heli.METHODS]
+    results += flights()
     results.append(a_study(tmp_path))
     seen: dict[int, Any] = {}
     assert list(writable(results, "results", seen)) == []

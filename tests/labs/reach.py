@@ -20,8 +20,10 @@ from heli2dof_core import Heli2DofError, warm_up
 from heli2dof_core.figures.written import in_shown_unit
 from heli2dof_core.labs import Lab, Marked, Step, mark, read_file, shipped_labs, student_rig
 from heli2dof_core.labs.bodies import Flat, body_of_flat
+from heli2dof_core.labs.flights import tried_flight
 from heli2dof_core.labs.goals.figure import FigureGoal
 from heli2dof_core.labs.rigs import free_paths, solution_flat
+from heli2dof_core.request import Body
 
 TRIES = 3
 """Searches from further points, each farther away, before a rig counts as unsolved."""
@@ -116,7 +118,11 @@ def reached(lab: Lab, step: Step, seed: int, tries: int = TRIES) -> Reached:
     rig = student_rig(lab, seed)
     flat = solution_flat(lab, step, rig, seed)
     assert flat is not None, f"{lab.name}/{step.name} has no solution"
-    best = mark(lab, step.name, rig, body_of_flat(flat), {}, seed=seed)
+
+    def marked_of(body: Body) -> Marked:
+        return mark(lab, step.name, rig, body, {}, seed=seed, flight=tried_flight(step, body))
+
+    best = marked_of(body_of_flat(flat))
     at_once = all(goal.met is not False for goal in best.goals)
     if at_once:
         return Reached(seed, step.name, True, best)
@@ -128,7 +134,7 @@ def reached(lab: Lab, step: Step, seed: int, tries: int = TRIES) -> Reached:
         if least == 0.0:
             return 0.0
         try:
-            marked = mark(lab, step.name, rig, free.body(x), {}, seed=seed)
+            marked = marked_of(free.body(x))
         except Heli2DofError:
             return 1e3
         found = missed_by(step, marked)

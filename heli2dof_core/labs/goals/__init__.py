@@ -9,9 +9,11 @@ from types import MappingProxyType
 
 from ..kinds import Record, Tagged
 from ..lab import Goal
-from . import cloud, figure, setting
+from . import cloud, figure, flight, setting
 
-RECORDS = MappingProxyType({"figure": figure.RECORD, "cloud": cloud.RECORD, "setting": setting.RECORD})
+RECORDS = MappingProxyType(
+    {"figure": figure.RECORD, "cloud": cloud.RECORD, "setting": setting.RECORD, "flight": flight.RECORD}
+)
 """By the word in a goal's field `kind`."""
 GOAL: Tagged[Goal] = Tagged(RECORDS, "figure", "the goal")
 
