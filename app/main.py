@@ -35,6 +35,7 @@ from .routes import (
     design,
     exports,
     find,
+    flights,
     frequency,
     health,
     labs,
@@ -54,6 +55,11 @@ _DESCRIPTION = (
     "Pole placement for a two-degree-of-freedom laboratory helicopter. SI units: radians, volts, seconds. "
     "The live socket is at /api/v1/live."
 )
+_COMPUTED = (
+    *(design, frequency, tracks, find, nearest, derivation),
+    *(systems, comparison, maps, motion, flights),
+)
+"""Routes that need nothing but the core."""
 
 
 class App(FastAPI):
@@ -120,16 +126,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.mount("/static", files, name="static")
     app.include_router(health.build_router(compute, connections, metrics if settings.metrics else None))
     app.include_router(catalogue.build_router())
-    app.include_router(design.build_router(compute))
-    app.include_router(frequency.build_router(compute))
-    app.include_router(tracks.build_router(compute))
-    app.include_router(find.build_router(compute))
-    app.include_router(nearest.build_router(compute))
-    app.include_router(derivation.build_router(compute))
-    app.include_router(systems.build_router(compute))
-    app.include_router(comparison.build_router(compute))
-    app.include_router(maps.build_router(compute))
-    app.include_router(motion.build_router(compute))
+    for part in _COMPUTED:
+        app.include_router(part.build_router(compute))
     app.include_router(recordings.build_router(compute, settings))
     app.include_router(exports.build_router(compute))
     rates = class_calls.Rates(settings)

@@ -120,6 +120,7 @@ class Desk:
             body=handed.design,
             answers=handed.answers,
             hints=found.hints,
+            flight=handed.flight,
             whose=(f"class {found.of.id}", found.student.id),
         )
         return await self.database.write(lambda writing: handing.keep(writing, found, handed, result, time()))
@@ -207,7 +208,7 @@ class Desk:
         return known.hint(step, number)
 
     async def mark_alone(self, known: KnownLab, step: str, **given: Any) -> Reply:
-        """An attempt's marks; `given` is the seed, the body, the answers and the hints (see `Marker.marked`)."""
+        """An attempt's marks; `given` is the seed, the body and what comes with it (see `Marker.marked`)."""
         self.require_alone(known)
         require_step(known, step)
         return await self.marker.marked(known, step, **given)

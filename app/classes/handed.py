@@ -14,6 +14,8 @@ class Handed:
     Attributes:
         client_id: made by the page; one attempt has one, however often it is sent.
         handed_at: by the page's clock, s; of an attempt that was made offline.
+        flight: the log of a flight, where the step asks for one. It is marked and not kept: logs are long, the
+            student has it, and its checksum, which is kept with the marks, tells whether a file is that very flight.
     """
 
     client_id: str
@@ -21,6 +23,7 @@ class Handed:
     design: Mapping[str, Any]
     answers: Mapping[str, Any]
     handed_at: float | None = None
+    flight: Mapping[str, Any] | None = None
 
 
 @dataclass(frozen=True)

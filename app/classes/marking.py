@@ -30,6 +30,7 @@ class _Attempt:
     body: Mapping[str, Any]
     answers: Mapping[str, Any]
     hints: tuple[int, ...]
+    flight: Mapping[str, Any] | None = None
 
 
 class Marker:
@@ -48,6 +49,7 @@ class Marker:
         body: Mapping[str, Any],
         answers: Mapping[str, Any],
         hints: Sequence[int],
+        flight: Mapping[str, Any] | None = None,
         whose: tuple[str, int] | None = None,
     ) -> dict[str, Any]:
         """The marks, as JSON.
@@ -59,6 +61,7 @@ class Marker:
             body: the design.
             answers: by the question's name.
             hints: those that were taken, 1-based.
+            flight: the log of a flight, for goals on tasks in the air.
             whose: class and student, who wait in turn with others; the address where left out.
         """
         caller = current_caller.get()
@@ -67,7 +70,7 @@ class Marker:
         kinds = {goal.get("kind", "figure") for goal in known.steps[step]["goals"]}
         run = self._compute.run if kinds <= _QUICK else self._compute.run_slow
 
-        attempt = _Attempt(step, seed, body, answers, tuple(hints))
+        attempt = _Attempt(step, seed, body, answers, tuple(hints), flight)
         try:
             async with self._room:
                 return await run(_marked, known.file, known.lab.name, attempt)
@@ -79,7 +82,7 @@ def _marked(lab_text: str, name: str, attempt: _Attempt) -> dict[str, Any]:
     """The marks; takes the lab as text, since its goals hold functions, which cannot be sent."""
     lab, seed = frozen_lab(lab_text, name).lab, attempt.seed
     rig = student_rig(lab, seed)
-    given = {"hints": attempt.hints, "seed": seed, "check": check_cancelled}
+    given = {"hints": attempt.hints, "seed": seed, "check": check_cancelled, "flight": attempt.flight}
     with within_field("design"):
         return told(mark(lab, attempt.step, rig, attempt.body, attempt.answers, **given).as_dict())
 

@@ -68,7 +68,8 @@ def find(as_json: bool, base: IO[str] | None, **values: Any) -> None:
     """Search for designs that meet limits of figures; where none does, say which limits contradict."""
     from heli2dof_core.finder.result import why_text
 
-    from ..contract.find import FindRequest, find_reply
+    from ..contract.find import FindRequest
+    from ..contract.find_replies import find_reply
 
     with refusals(as_json):
         asked = body(base, values)

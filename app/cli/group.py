@@ -13,6 +13,7 @@ COMMANDS = {
     "gains": ("designs", "The gain K and the poles that it gives."),
     "rga": ("designs", "Relative gain array, pairing, Niederlinski index."),
     "step": ("designs", "Step response: metrics, motors, whole loop."),
+    "fly": ("flights", "A flight by a script: hands, gusts, changes in the air."),
     "place": ("systems", "K of any system, in numbers or in formulas."),
     "system": ("systems", "Any system from a file: modes, zeros, K, L."),
     "compare": ("comparisons", "The same poles through several methods."),

@@ -141,7 +141,8 @@ def try_(
     """Show LAB as the student of a seed has it: their rig, the steps' texts, what start and solution reach."""
     from heli2dof_core.labs import mark, right_answers, student_rig
     from heli2dof_core.labs.bodies import body_of_flat
-    from heli2dof_core.labs.rigs import solution_flat, start_flat
+    from heli2dof_core.labs.flights import tried_flight
+    from heli2dof_core.labs.rigs import handed_in, solution_flat, start_flat
 
     with refusals(as_json):
         known = opened(lab)
@@ -152,10 +153,15 @@ def try_(
         rig = student_rig(known, seed)
         found: list[tuple[Step, Marked, Marked | None, dict[str, Any]]] = []
         for step in steps:
-            start = mark(known, step.name, rig, body_of_flat(start_flat(known, step, rig)), {}, seed=seed)
+            begun = body_of_flat(start_flat(known, step, rig))
+            start = mark(known, step.name, rig, begun, {}, seed=seed, flight=tried_flight(step, begun))
             flat = solution_flat(known, step, rig, seed) if given is None else None
             body = given if flat is None else body_of_flat(flat)
-            own = None if body is None else mark(known, step.name, rig, body, answered, seed=seed)
+            own = None
+            if body is not None:
+                judged = body_of_flat(handed_in(known, step, rig, body)[0])
+                flight = tried_flight(step, judged)
+                own = mark(known, step.name, rig, body, answered, seed=seed, flight=flight)
             key = right_answers(known, step.name, rig, start.body if body is None else body, seed=seed)
             found.append((step, start, own, key))
         if as_json:
@@ -259,8 +265,8 @@ def _notes(step: Step, own: Marked | None) -> Iterator[str]:
 def mark_(lab: Path, attempts: Any, seed: int, step: str | None, as_json: bool) -> None:
     """Mark ATTEMPTS at LAB, a JSON file: one attempt or a list of them.
 
-    An attempt is {"step", "seed", "design", "answers", "hints", "name"}; a design alone will do where --step and
-    --seed say the rest. `-` reads from standard input.
+    An attempt is {"step", "seed", "design", "answers", "hints", "flight", "name"}; a design alone will do where
+    --step and --seed say the rest. `-` reads from standard input.
     """
     from heli2dof_core.labs import mark, student_rig
 
@@ -280,6 +286,7 @@ def mark_(lab: Path, attempts: Any, seed: int, step: str | None, as_json: bool) 
                 attempt["answers"],
                 hints=attempt["hints"],
                 seed=own,
+                flight=attempt["flight"],
             )
             rows.append((attempt["name"], own, told))
         if as_json:
@@ -313,12 +320,14 @@ def _attempt(given: Any, place: int, seed: int, step: str | None) -> dict[str, A
         "design": _design(own.get("design") or {}),
         "answers": own.get("answers") or {},
         "hints": own.get("hints") or [],
+        "flight": own.get("flight"),
     }
     if found["step"] is None:
         raise InvalidInputError(
             f"attempt {place} names no step", field="step", hint="Give --step, or its field step."
         )
     kinds = {"seed": int, "step": str, "design": dict, "answers": dict, "hints": list}
+    kinds |= {} if found["flight"] is None else {"flight": dict}
     for name, kind in kinds.items():
         if not isinstance(found[name], kind) or isinstance(found[name], bool):
             raise InvalidInputError(

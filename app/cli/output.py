@@ -65,8 +65,10 @@ def print_json(reply: Any) -> None:
     click.echo(json_bytes(reply))
 
 
-def written(content: str | bytes, path: Path | None, *, force: bool) -> None:
+def written(content: str | bytes, path: Path | None, *, force: bool, err: bool = False) -> None:
     """Writes a file and prints its name; to standard output where there is no path, or where it is -.
+
+    The name is printed on stderr where `err` says so.
 
     Raises:
         click.ClickException: it is there already, and `force` does not say to write over it; or it cannot be written.
@@ -82,7 +84,7 @@ def written(content: str | bytes, path: Path | None, *, force: bool) -> None:
         raise click.ClickException(f"{path} is there already; --force writes over it") from error
     except OSError as error:
         raise click.ClickException(f"cannot write {path}: {error.strerror}") from error
-    click.echo(path)
+    click.echo(path, err=err)
 
 
 @contextmanager

@@ -11,7 +11,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, StringConstraints
 
 from ..classes.handed import Draft, Handed
 from .fields import Strict, Whole
-from .labs import Answers, Design, LabView, Marked, StepName, Told
+from .labs import Answers, Design, FlightGiven, LabView, Marked, StepName, Told
 from .model import Complex, Model
 
 LONGEST_NAME = 80
@@ -103,12 +103,13 @@ class AttemptRequest(Strict):
     step: StepName = Field(description="the step's name")
     design: Design = Field(description="as for evaluate")
     answers: Answers = Field(default_factory=dict)
+    flight: FlightGiven | None = None
     at: Time | None = Field(default=None, description="by the page's clock, of an attempt made offline")
 
     def to_handed(self) -> Handed:
         """The attempt as it is marked and kept."""
         design: Any = self.design
-        return Handed(self.id, self.step, design, self.answers, self.at)
+        return Handed(self.id, self.step, design, self.answers, self.at, self.flight)
 
 
 class DraftRequest(Strict):

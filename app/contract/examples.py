@@ -12,6 +12,26 @@ Json = dict[str, Any]
 _PAIR: list[Json] = [{"re": -3, "im": 4}, {"re": -3, "im": -4}]
 _PITCH: Json = {"reference": {"theta": 0.2}, "duration": 3, "samples": 301}
 
+_FLIGHT: Json = {
+    "flight": 1,
+    "design": {},
+    "ticks": 1500,
+    "events": [
+        [0, "reference", 0.1, 0.3],
+        [500, "gust", 0.05, 0.1, 250],
+        [1000, "design", {"poles": [-6, -7, -9, -8]}],
+        [1000, "turn", 0.0, 0.2],
+    ],
+    "seed": 0,
+    "checks": [
+        [500, 0.09992125641580855, 0.29995233098947305, -0.0036055942869021762, 0.021819095680851597],
+        [1000, 0.0998589202227122, 0.29727567575817815, 0.003398335492413272, 0.006034089291550714],
+        [1500, 0.10197203221255273, 0.4370401615617683, 0.00038193462595357685, 0.20567651786438304],
+    ],
+    "task": "",
+    "checksum": "f0a6c956",
+}
+
 EXAMPLES: dict[str, dict[str, tuple[str, Json]]] = {
     "DesignRequest": {
         "default": ("The default rig with the paper's poles", {}),
@@ -124,6 +144,18 @@ EXAMPLES: dict[str, dict[str, tuple[str, Json]]] = {
                 }
             },
         ),
+    },
+    "FlightRequest": {
+        "changed": ("Three seconds with a gust and a change of design", {"samples": 301, "flight": _FLIGHT}),
+    },
+    "FlightNumbersRequest": {
+        "every": ("Every tenth tick", {"every": 10, "flight": _FLIGHT}),
+    },
+    "FlightRecordingRequest": {
+        "own": ("The same flight, as a laboratory would have recorded it", {"flight": _FLIGHT}),
+    },
+    "FlightFilmRequest": {
+        "half": ("Half a second of it", {"flight": _FLIGHT, "begin": 0.5, "end": 1.0}),
     },
     "JoinRequest": {
         "one": ("A file that was sent before; give the id of each signal's", {"recordings": ["{key}"]})

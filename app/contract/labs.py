@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints, WrapValidator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StringConstraints, WrapValidator
 
 from .experiment import StepRequest
 from .fields import Strict, Whole
@@ -13,6 +13,8 @@ from .model import Finding, Model
 LARGEST_SEED = 2**53
 MOST_ANSWERS = 60
 LONGEST_ANSWER = 4000
+LONGEST_ANSWERS = 48 * 1024
+"""Characters of all answers together: they are kept."""
 
 
 class Told(BaseModel):
@@ -29,6 +31,15 @@ def _as_given(value: Any, check: Any) -> Any:
 
 Design = Annotated[StepRequest, WrapValidator(_as_given)]
 """A design and its experiment, as a JSON object; in Python the dictionary that was sent."""
+
+
+def _not_too_long(answers: dict[str, Any]) -> dict[str, Any]:
+    size = sum(len(name) + len(str(answer)) for name, answer in answers.items())
+    if size > LONGEST_ANSWERS:
+        raise ValueError(f"answers have at most {LONGEST_ANSWERS} characters in all")
+    return answers
+
+
 StepName = Annotated[str, StringConstraints(min_length=1, max_length=40, pattern=r"^[a-z0-9-]+$")]
 Answer = (
     Annotated[str, StringConstraints(max_length=LONGEST_ANSWER)]
@@ -38,10 +49,17 @@ Answer = (
 )
 Answers = Annotated[
     dict[Annotated[str, StringConstraints(min_length=1, max_length=40)], Answer],
+    AfterValidator(_not_too_long),
     Field(
         max_length=MOST_ANSWERS,
         description="by the question's name: a number, a choice or several (1-based), or text",
     ),
+]
+
+
+FlightGiven = Annotated[
+    dict[str, Any],
+    Field(max_length=20, description="the log of a flight, where a goal is one; it is marked and not kept"),
 ]
 
 
@@ -57,6 +75,7 @@ class MarkRequest(Strict):
     hints: list[Whole] = Field(
         default_factory=list, max_length=100, description="hints that were taken, 1-based"
     )
+    flight: FlightGiven | None = None
 
 
 class LabSummary(Model):
@@ -90,6 +109,16 @@ class GoalTold(Told):
     of: float = Field(description="points there are")
 
 
+class FlightTold(Model):
+    """A flight that was marked: enough to tell later that a log is this one."""
+
+    task: str
+    seed: int = Field(description="of its gusts and its noise")
+    ticks: int = Field(description="how long it was")
+    checksum: str = Field(description="of its log")
+    values: dict[str, float | dict[str, float]] = Field(description="figures, some by axis")
+
+
 class Marked(Told):
     """An attempt, marked."""
 
@@ -99,6 +128,7 @@ class Marked(Told):
     of: float = Field(description="points there are")
     stable: bool | None = None
     findings: list[Finding] | None = None
+    flight: FlightTold | None = Field(None, description="where one was handed in and counts")
 
 
 class Hint(Told):

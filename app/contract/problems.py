@@ -86,13 +86,13 @@ def _whole(text: str) -> str:
 
 
 def _path_of(field: str) -> str:
-    """The path in a request of what the core calls `field`, in a pinned design, too."""
-    pin = _PINNED.match(field)
-    begin = pin.end() if pin else 0
+    """The path in a request of what the core calls `field`, in another design of the request, too."""
+    other = _OTHERS.match(field)
+    begin = other.end() if other else 0
     return field[:begin] + path_of(field[begin:])
 
 
-_PINNED = re.compile(r"pins\.\d+\.")
+_OTHERS = re.compile(r"(pins\.\d+|flight\.(design|events\[\d+\]\[2\]))\.")
 
 
 def problem_of(error: Exception) -> dict[str, Any]:  # noqa: PLR0911

@@ -143,6 +143,9 @@ class TrackReply(Model):
         description="per pole its course over `values`, rad/s or in the z-plane"
     )
     stable: list[bool] = Field(description="one per value")
+    on_border: list[bool] = Field(
+        description="whether it is not stable, but no pole lies beyond the border of stability either: some lie on it"
+    )
     crossings: list[Crossed] = Field(description="of the border of stability, by value")
     zeros: list[Complex] = Field(description="where branches end as a gain grows without limit, rad/s")
     figures: list[FigureTrack] = Field(description="in the order of the request's measures")
@@ -163,6 +166,7 @@ def track_reply(found: Track) -> Reply:
         "starts": list(found.starts),
         "poles": [poles_reply(course) for course in found.poles.T],
         "stable": found.stable,
+        "on_border": found.on_border,
         "crossings": [
             {"value": c.value, "pole": {"re": c.pole.real, "im": c.pole.imag}, "outwards": c.outwards}
             for c in found.crossings

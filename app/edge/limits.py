@@ -26,8 +26,12 @@ _POLICY, _TRY_LATER = 1008, 1013
 _READ_BYTES = 16 * 1024
 _UPLOAD_PATH = "/api/v1/recordings"
 """The one call that takes a file."""
+_FLIGHTS_PATH, _FLIGHT_BYTES = "/api/v1/flights", 4 * 2**20
+"""Calls that take a flight's log, and the largest one, bytes: two events in each frame of ten minutes."""
 _KEPT_PATH, _KEPT_BYTES = "/api/v1/classes", 64 * 1024
 """Calls whose bodies are kept, and the largest of these, bytes: a design has two thousand, an answer four."""
+_ATTEMPTS = "/attempts"
+"""Of an attempt the flight is not kept, and its log may be long; what is kept, `contract.labs` holds small."""
 _RATE_LIMITED_PATHS = ("/api/", "/scene/", "/lti/")
 """Where requests are counted: the page's own files cost nothing, and a class loads thousands of them at once."""
 _MOST_ADDRESSES = 10_000
@@ -143,7 +147,10 @@ class Limits:
         """Bytes of the largest body that a path takes."""
         if path == _UPLOAD_PATH:
             return MOST_BYTES
-        return _KEPT_BYTES if path.startswith(_KEPT_PATH) else self._settings.body_bytes
+        if path.startswith(_FLIGHTS_PATH):
+            return max(_FLIGHT_BYTES, self._settings.body_bytes)
+        kept = path.startswith(_KEPT_PATH) and not path.endswith(_ATTEMPTS)
+        return _KEPT_BYTES if kept else self._settings.body_bytes
 
     async def _websocket(self, scope: Scope, receive: Receive, send: Send) -> None:
         address, settings = address_of(scope), self._settings

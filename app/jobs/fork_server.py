@@ -164,6 +164,9 @@ def main(descriptor: int, memory: int, modules: Sequence[str]) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     os.nice(_NICENESS)
+    # Nothing of what is loaded is garbage, and to look for some again and again takes a sixth of the time. Workers do
+    # not look through it either: that would write to each object, and copy what they share.
+    gc.disable()
     control = socket.socket(fileno=descriptor)
     _load(modules)
     control.sendall(_LOADED)
@@ -175,9 +178,11 @@ def main(descriptor: int, memory: int, modules: Sequence[str]) -> None:
         if what == REAP:
             control.sendall(_TOLD.pack(_status_of(number)))
             continue
+        gc.freeze()
         pid = os.fork()
         if pid == 0:
             try:
+                gc.enable()
                 control.close()
                 serve(Connection(descriptors[0]), memory)
             finally:
@@ -208,6 +213,3 @@ def _load(modules: Sequence[str]) -> None:
     except NotKeptError as error:
         _log.warning("workers compute with interpreted kernels: %s", error)
     derive(STRUCTURES)
-    # Not looked through again: a collection would write to each object, and copy what workers share.
-    gc.collect()
-    gc.freeze()

@@ -10,7 +10,8 @@ from fastapi import APIRouter, Response, WebSocket
 from heli2dof_core.finder import Designs
 
 from ..contract.encoding import json_bytes, json_text
-from ..contract.find import FindReply, FindRequest, find_reply, part_reply
+from ..contract.find import FindRequest
+from ..contract.find_replies import FindReply, find_reply, part_reply
 from ..contract.model import described
 from ..jobs.compute import Compute, check_cancelled, seconds_left
 from .progress_socket import Send, serve_with_progress

@@ -47,6 +47,7 @@ def build_router(classes: Classes) -> APIRouter:
                 body=request.design,
                 answers=request.answers,
                 hints=request.hints,
+                flight=request.flight,
             )
         )
 

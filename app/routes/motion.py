@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 from urllib.parse import quote
 
+import numpy as np
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import RedirectResponse
 
@@ -50,13 +51,14 @@ def build_router(compute: Compute) -> APIRouter:
     return router
 
 
-def _of_rig(request: StepRequest) -> tuple[RigName, str]:
-    chosen = preset(request.preset)
+def of_rig(name: str) -> tuple[RigName, str]:
+    """Which rig a preset's scene shows, and the preset's title."""
+    chosen = preset(name)
     return "aero" if chosen.rig == "aero" else "helicopter", chosen.title
 
 
 def _file(request: StepRequest, kind: MotionFormat) -> bytes:
-    rig, title = _of_rig(request)
+    rig, title = of_rig(request.preset)
     spec = request.to_spec()
     return motion_file(rig, _motion(spec, request.scenario.model), kind, _title(title, spec))
 
@@ -66,7 +68,8 @@ def _motion(spec: Spec, model: Model) -> Motion:
     theta, psi = response.angles
     V_p, V_y = response.voltages
     limits = (spec.limits.V_p, spec.limits.V_y, spec.limits.theta)
-    return Motion(response.t, theta, psi, V_p, V_y, response.reference, limits)
+    wanted = [np.full(len(response.t), angle) for angle in response.reference]
+    return Motion(response.t, theta, psi, V_p, V_y, (wanted[0], wanted[1]), limits)
 
 
 def _title(rig: str, spec: Spec) -> str:

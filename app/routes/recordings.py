@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import asyncio
 from dataclasses import replace
 from typing import Annotated, Any
 
-from fastapi import APIRouter, HTTPException, Query, Request, Response, WebSocket
+from fastapi import APIRouter, Query, Request, Response, WebSocket
 
 from heli2dof_core import loop_of, preset
-from heli2dof_core.engine import engine
 from heli2dof_core.export.machine import machine_lines
 from heli2dof_core.recordings.files import Dialect, joined_tables, read_table, write_csv
 from heli2dof_core.recordings.files.text import SYNTHETIC, Decimal, Separator
@@ -34,10 +32,9 @@ from ..contract.recordings import (
 from ..jobs.compute import Compute, check_cancelled, current_caller, report
 from ..jobs.recording_store import RecordingStore
 from ..ops.settings import Settings
+from .kernels import wait_for_kernels
 from .progress_socket import Send, serve_with_progress
 
-_KERNEL_POLLS = 180
-"""Half seconds that a request waits for the kernels after the start."""
 _DEFAULT_STEPS = (0.2, 0.4)
 """Reference steps of a sample where the preset's scenario names none, rad."""
 
@@ -74,7 +71,7 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
         ),
     )
     async def sample(request: SampleRequest) -> Response:
-        await _wait_for_kernels()
+        await wait_for_kernels()
         content = await compute.run_slow(_sample, request)
         name = {"Content-Disposition": 'attachment; filename="heli2dof-recording.csv"'}
         return Response(content, media_type="text/csv; charset=utf-8", headers=name)
@@ -83,7 +80,7 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
         "/{key}/overlay", **described(OverlayReply, "The recording over the simulation, with its fit")
     )
     async def overlay(key: str, request: OverlayRequest) -> Response:
-        await _wait_for_kernels()
+        await wait_for_kernels()
         table = store.get(key)
         return json_content(await compute.run_slow(_overlay, request, table))
 
@@ -94,24 +91,13 @@ def build_router(compute: Compute, settings: Settings) -> APIRouter:
         async def answer(data: Any, send: Send) -> None:
             request = IdentifyRequest.model_validate(data)
             request.to_spec()  # what is refused is refused at once
-            await _wait_for_kernels()
+            await wait_for_kernels()
             async for part in compute.stream(_identify, request, store.get(request.recording)):
                 await send(part)
 
         await serve_with_progress(socket, answer)
 
     return router
-
-
-async def _wait_for_kernels() -> None:
-    """Waits for the compiled kernels, without which all this would take minutes."""
-    for _ in range(_KERNEL_POLLS):
-        if engine().compiled:
-            return
-        await asyncio.sleep(0.5)
-    raise HTTPException(
-        503, "Still compiling after the start; try again in half a minute.", {"Retry-After": "15"}
-    )
 
 
 def _sample(request: SampleRequest) -> bytes:

@@ -8,7 +8,7 @@ so that a slow window is late and holds nobody up.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from time import monotonic
 from typing import Annotated, Any
 
@@ -88,13 +88,20 @@ class Transport(msgspec.Struct, tag="transport", forbid_unknown_fields=True):
     at: _Finite
 
 
+class Sticks(msgspec.Struct, tag="sticks", forbid_unknown_fields=True):
+    """What a window that flies along asks for, from −1 to 1: nose up, and nose to the right."""
+
+    pitch: Annotated[float, msgspec.Meta(ge=-1.0, le=1.0)]
+    yaw: Annotated[float, msgspec.Meta(ge=-1.0, le=1.0)]
+
+
 class _Clock(msgspec.Struct, tag="clock", forbid_unknown_fields=True):
     """Asks for the server's time; `sent` comes back as it is."""
 
     sent: float
 
 
-_text_decoder = msgspec.json.Decoder(Transport | _Clock)
+_text_decoder = msgspec.json.Decoder(Transport | Sticks | _Clock)
 _shown_decoder = msgspec.json.Decoder(Shown)
 
 
@@ -120,6 +127,7 @@ class Window:
 
     def __init__(self, *, page: bool) -> None:
         self.page = page
+        self.sticks = Sticks(0.0, 0.0)
         self._mailbox: Mailbox[tuple[str, str | bytes]] = Mailbox()
         self._edits: dict[str, Any] = {}
 
@@ -181,6 +189,8 @@ class Room:
     def leave(self, window: Window) -> None:
         """Forget a window."""
         self.windows.remove(window)
+        if window.sticks != Sticks(0.0, 0.0):
+            self.steer(Sticks(0.0, 0.0), window)  # who has gone holds nothing
         self._announce_windows()
 
     def show(self, frame: bytes, sender: Window) -> None:
@@ -198,6 +208,18 @@ class Room:
         self.transport = transport
         self._broadcast("transport", msgspec.json.encode(transport).decode(), sender)
         self.on_change(transport)
+
+    def steer(self, sticks: Sticks, sender: Window) -> None:
+        """Pass on what the windows that fly along ask for together."""
+        sender.sticks = sticks
+        message = encode_message(
+            "sticks",
+            pitch=_together(window.sticks.pitch for window in self.windows),
+            yaw=_together(window.sticks.yaw for window in self.windows),
+        )
+        for window in self.windows:
+            if window is not sender:
+                window.queue("sticks", message)
 
     def edit(self, edits: dict[str, Any]) -> None:
         """Hand on what someone has set at the panel."""
@@ -218,6 +240,10 @@ class Room:
                 "windows",
                 encode_message("windows", others=others, leads=window is self.leader, count=self._edits),
             )
+
+
+def _together(asked: Iterable[float]) -> float:
+    return min(max(sum(asked), -1.0), 1.0)
 
 
 async def serve_window(socket: WebSocket, room: Room, window: Window) -> None:
@@ -247,6 +273,8 @@ async def _receive(socket: WebSocket, room: Room, window: Window) -> None:
             match _text_decoder.decode(text or ""):
                 case Transport() as transport:
                     room.set_transport(transport, window)
+                case Sticks() as sticks:
+                    room.steer(sticks, window)
                 case _Clock(sent=sent):
                     window.queue("clock", encode_message("clock", sent=sent, now=monotonic()))
         except msgspec.MsgspecError as error:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from heli2dof_core.errors import Wanted, nobody_leaves
 from heli2dof_core.geometry import RigName
 from heli2dof_core.signals import Floats
 
@@ -29,29 +30,45 @@ REST = 1.0
 """Seconds for which the end is held before the player starts again."""
 
 
-def frame_times(duration: float) -> Floats:
-    """Return evenly spaced times from 0 to the duration, s; fewer a second where it is long."""
-    count = min(max(math.ceil(duration * RATE), 1), MOST_FRAMES)
+def frame_times(duration: float, most: int = MOST_FRAMES) -> Floats:
+    """Return evenly spaced times from 0 to the duration, s; fewer a second where they would be more than `most`."""
+    count = min(max(math.ceil(duration * RATE), 1), most)
     return np.linspace(0.0, duration, count + 1)
 
 
-def motion_file(rig: RigName, motion: Motion, kind: MotionFormat, title: str = "heli2dof") -> bytes:
+def motion_file(
+    rig: RigName,
+    motion: Motion,
+    kind: MotionFormat,
+    title: str = "heli2dof",
+    *,
+    most: int = MOST_FRAMES,
+    wanted: Wanted = nobody_leaves,
+) -> bytes:
     """Return a file in which the rig plays the motion, again and again.
 
-    Takes a quarter of a second and a viser server of its own for as long.
+    Takes a quarter of a second for each hundred frames, and a viser server of its own for as long.
+
+    Args:
+        rig: what is seen.
+        motion: what it does.
+        kind: of the file.
+        title: of the page.
+        most: frames.
+        wanted: called before each frame; what it raises ends it.
     """
     from .rig import RigServer
 
-    frames = motion.sampled(frame_times(float(motion.t[-1])))
+    frames = motion.sampled(frame_times(float(motion.t[-1]), most))
     server = RigServer(rig)
     try:
-        content = _played(server, frames, kind)
+        content = _played(server, frames, kind, wanted)
     finally:
         server.stop()
     return content if isinstance(content, bytes) else standalone_page(content, title).encode()
 
 
-def _played(server: RigServer, frames: Motion, kind: MotionFormat) -> bytes | str:
+def _played(server: RigServer, frames: Motion, kind: MotionFormat, wanted: Wanted) -> bytes | str:
     nodes: dict[str, Any] = {}
     shown: dict[Slot, Any] = {}
 
@@ -66,6 +83,7 @@ def _played(server: RigServer, frames: Motion, kind: MotionFormat) -> bytes | st
 
     serializer = None
     for k, state in enumerate(states(frames)):
+        wanted()
         show(state)
         # What stands at first belongs to the scene.
         serializer = serializer or server.get_scene_serializer()

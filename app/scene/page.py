@@ -33,12 +33,32 @@ _NOTES = """
 html[data-theme=dark] .window-notes { color: #e6e9ec; }
 .window-notes p { margin: 0; }
 .window-time { white-space: pre; }
+.window-partner { position: fixed; z-index: 1000; left: 50%; bottom: 16px; display: grid; gap: 6px;
+  justify-content: center;
+  grid-template: ". up ." 52px "left down right" 52px "words words words" auto / 52px 52px 52px;
+  translate: -50%; font: 15px/1.4 system-ui, sans-serif; color: #2b3138; user-select: none; touch-action: none; }
+.window-partner[hidden] { display: none; }
+.window-partner button { border: 1px solid #9aa3ad; border-radius: 10px; background: #fcfdfdd9; color: #2b3138;
+  font-size: 22px; touch-action: none; }
+.window-partner button:active { background: #24689b; color: #fff; }
+.window-partner p { grid-area: words; width: 300px; margin: 0 -66px; text-align: center; }
+.ArrowUp { grid-area: up; } .ArrowDown { grid-area: down; } .ArrowLeft { grid-area: left; }
+.ArrowRight { grid-area: right; }
+html[data-theme=dark] .window-partner { color: #e6e9ec; }
 """
-# In the page's frame, viser's panel (a bottom sheet in narrow windows), its notices and its logo are hidden, and a
-# finger that goes up or down moves the page: sideways it turns the rig, two of them zoom.
+# In the page's frame, viser's panel (a bottom sheet in narrow windows), its notices and its logo are hidden, and the
+# rig has their room; a finger that goes up or down moves the page: sideways it turns the rig, two of them zoom. In a
+# narrow window whoever flies along sees the rig and the arrows instead of the panel.
 _BARE = """
-html[data-place=frame] :is([data-floating-window], [data-dock-region], .mantine-Notifications-root,
+html[data-place=frame] :is([data-floating-window], [data-dock-root] > :not(:has(canvas)), .mantine-Notifications-root,
   .mantine-ScrollAreaAutosize-root, .mantine-Paper-root) { display: none !important; }
+html[data-place=frame] [data-dock-root] > :has(canvas) { inset: 0 !important; }
+@media (max-width: 760px) {
+  body:has(.window-partner:not([hidden])) :is([data-floating-window], [data-dock-root] > :not(:has(canvas)),
+    .mantine-ScrollAreaAutosize-root, .mantine-Paper-root:not(.mantine-Notifications-root *)) {
+      display: none !important; }
+  body:has(.window-partner:not([hidden])) [data-dock-root] > :has(canvas) { inset: 0 !important; }
+}
 .mantine-Notifications-root { top: auto !important; bottom: 0; }
 html[data-place=frame] * { touch-action: pan-y !important; }
 """

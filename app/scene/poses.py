@@ -33,7 +33,7 @@ class Motion:
     """What is played: N samples at times t (s) of θ, ψ (rad), V_p, V_y (V).
 
     Attributes:
-        reference: θ, ψ, rad.
+        reference: of θ and of ψ, rad, a sample each.
         limits: of |V_p|, |V_y|, V, and of |θ|, rad; None where there is none.
     """
 
@@ -42,7 +42,7 @@ class Motion:
     psi: Floats
     V_p: Floats
     V_y: Floats
-    reference: tuple[float, float]
+    reference: tuple[Floats, Floats]
     limits: tuple[float, float, float | None]
 
     def sampled(self, times: Floats) -> Motion:
@@ -51,8 +51,15 @@ class Motion:
         def at(y: Floats) -> Floats:
             return np.interp(times, self.t, y)
 
+        theta, psi = self.reference
         return Motion(
-            times, at(self.theta), at(self.psi), at(self.V_p), at(self.V_y), self.reference, self.limits
+            times,
+            at(self.theta),
+            at(self.psi),
+            at(self.V_p),
+            at(self.V_y),
+            (at(theta), at(psi)),
+            self.limits,
         )
 
 
@@ -70,7 +77,8 @@ def states(motion: Motion) -> Iterator[State]:
         state |= _stops(travel)
         state |= _rotor("pitch", "z", float(spins["pitch"][k]), float(motion.V_p[k]), V_p)
         state |= _rotor("yaw", "y", float(spins["yaw"][k]), float(motion.V_y[k]), V_y)
-        yield state | _reference(motion.reference, theta, psi)
+        wanted = float(motion.reference[0][k]), float(motion.reference[1][k])
+        yield state | _reference(wanted, theta, psi)
 
 
 def rotor_angles(t: Floats, V: Floats) -> Floats:

@@ -22,12 +22,28 @@ class View(TypedDict):
     fov: float
 
 
+class Arms(TypedDict):
+    """Of the rotors, metres: where along the body they are, or how far from its axis."""
+
+    pitch: float
+    yaw: float
+
+
 class RigView(TypedDict):
-    """What the page's cameras need, in metres; `outer` is the largest distance from the mast."""
+    """What the page's cameras and hands need, in metres.
+
+    `outer` is the largest distance from the mast; `arms` are from the pitch axle, the yaw rotor's behind it;
+    `offsets` are upwards for the pitch rotor and to the left for the yaw rotor; `guard` and `wall` are the
+    radius and the height of a rotor's guard.
+    """
 
     pivot_height: float
     reach: float
     outer: float
+    arms: Arms
+    offsets: Arms
+    guard: float
+    wall: float
     view: View
 
 
@@ -47,6 +63,10 @@ def rig_view(rig: RigGeometry) -> RigView:
         "pivot_height": rig.pivot_height,
         "reach": rig.reach,
         "outer": rig.reach + _NUMERALS,
+        "arms": {"pitch": rig.pitch_rotor.distance, "yaw": rig.yaw_rotor.distance},
+        "offsets": {"pitch": rig.pitch_rotor.offset, "yaw": rig.yaw_rotor.offset},
+        "guard": max(rig.pitch_rotor.guard_radius, rig.yaw_rotor.guard_radius),
+        "wall": max(rig.pitch_rotor.guard_height, rig.yaw_rotor.guard_height),
         "view": first_view(rig),
     }
 

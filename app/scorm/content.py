@@ -34,6 +34,7 @@ _VIEWS = {
     "rig": "it is done in the view Rig, which needs a server",
     "derivation": "it is done in the view Derivation, which needs a server",
     "plant": "it is done in the view Plant, which needs a server",
+    "fly": "it is flown, and flights are marked by a server",
 }
 
 

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import json
+from itertools import pairwise
 
 import pytest
 from click.testing import CliRunner
 
 from app.cli.group import heli2dof
-from app.contract.find import FindProgress, FindReply, FindRequest
+from app.contract.find import FindRequest
+from app.contract.find_replies import FindProgress, FindReply
 from app.jobs.current import run_job
 from app.routes.find import _parts as find_parts
 from heli2dof_core import Spec
-from heli2dof_core.finder import Find, find
+from heli2dof_core.finder import Find, find, finding
 from heli2dof_core.requirements import measure_of, requirements_of, told_requirements
 from tests.app.test_rest import post
 
@@ -110,6 +112,21 @@ def test_socket_tells_progress_and_the_same_answer(client, reply):
             FindProgress.model_validate(part)
         tried = [part["tried"] for part in parts]
         assert tried == sorted(tried) and parts[-1]["designs"] == reply["designs"]
+
+
+def test_progress_holds_the_front_so_far(monkeypatch):
+    monkeypatch.setattr(finding, "PAUSE", 0.0)
+    texts: list[str] = []
+    body = {**BODY, "find": {**ASKED, "designs": 3000}}
+    run_job(find_parts, (FindRequest.model_validate(body),), lambda: False, texts.append, 60.0)
+    *told, last = map(json.loads, texts)
+    fronts = [part["points"] for part in told if part["points"]]
+    assert len(fronts) > 3 and all(0 < len(front) <= finding.MOST_POINTS for front in fronts)
+    for before, after in pairwise(fronts):
+        # what was on the front stays there, or something as good in both has taken its place
+        assert all(any(a <= x and b <= y for a, b in after) for x, y in before)
+    found = [[figure["value"] for figure in design["figures"][:2]] for design in last["designs"]]
+    assert all(any(a <= x and b <= y for a, b in found) for x, y in fronts[0])
 
 
 def test_socket_can_be_called_off_and_goes_on(client):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.contract.find import FindReply
+from app.contract.find_replies import FindReply
 from tests.children import ROOT
 
 

@@ -67,7 +67,12 @@ def steps(theta: float = 0.2, psi: float = 0.3, duration: float = 2.0, **more: A
 
 
 @pytest.mark.parametrize(
-    ("path", "made"), [(page_kernel.PAGE, page_kernel.module), (page_kernel.SHAPES, page_kernel.shapes)]
+    ("path", "made"),
+    [
+        (page_kernel.PAGE, page_kernel.module),
+        (page_kernel.SHAPES, page_kernel.shapes),
+        (page_kernel.FLIGHT, page_kernel.flights),
+    ],
 )
 def test_the_pages_layout_is_current(path: Path, made: Callable[[], str]):
     """`make contract` writes it anew."""

@@ -100,7 +100,7 @@ def test_python_example_runs(capsys, monkeypatch):
 
 
 def save_files():
-    """A rig's run and a study as the files that the README names."""
+    """A rig's run, a study and a flight's script as the files that the README names."""
     spec = Spec.from_preset(preset())
     loop, digital = close_loop(place(spec), spec.outer), Digital()
     rig = deviating_rig(spec.parameters, 0.1, 1)
@@ -112,6 +112,7 @@ def save_files():
     for name, values in signals.items():
         Path(f"{name}.csv").write_bytes(write_csv({"time": made.t, name: values}))
     Path("gains.toml").write_text("study = 1\n[rigs]\ncount = 20\n")
+    Path("gust.txt").write_bytes((ROOT / "examples" / "gust.txt").read_bytes())
     Path("plant.m").write_text("A = [0 1; 20.6 0]; B = [0; 1]; C = [1 0]; p = [-2 -3];")
 
 

@@ -126,3 +126,9 @@ def test_aero_has_two_equal_rotors_at_equal_arms():
 def test_views_are_told_for_every_rig():
     assert rig_view(geometry("aero"))["pivot_height"] == pytest.approx(0.295)
     assert rig_view(geometry("helicopter"))["reach"] < rig_view(geometry("helicopter"))["outer"]
+    # what a hand can hold: the nose is as far out as the longer of the arms and a guard
+    for rig in map(geometry, RIG_NAMES):
+        told = rig_view(rig)
+        assert told["arms"]["yaw"] < 0.0 < told["arms"]["pitch"]
+        assert told["arms"]["pitch"] + told["guard"] == pytest.approx(told["reach"])
+        assert told["offsets"] == {"pitch": rig.pitch_rotor.offset, "yaw": rig.yaw_rotor.offset}

@@ -101,6 +101,25 @@ def test_newcomer_is_told_what_is_shown_and_how_it_plays(server: SceneServer):
             assert hears(window, "transport") == RUN
 
 
+def test_who_flies_along_is_heard_together_and_lets_go_when_gone(server: SceneServer):
+    with join(server, "pair", page=True) as page:
+        with join(server, "pair") as first, join(server, "pair") as second:
+            hears(page, "windows", others=2)
+            first.send(json.dumps({"type": "sticks", "pitch": 1.0, "yaw": 0.25}))
+            hears(page, "sticks", pitch=1.0, yaw=0.25)
+            second.send(json.dumps({"type": "sticks", "pitch": 0.5, "yaw": -1.0}))
+            hears(page, "sticks", pitch=1.0, yaw=-0.75)
+            with pytest.raises(ConnectionClosed):
+                second.send(json.dumps({"type": "sticks", "pitch": 1.5, "yaw": 0.0}))
+                while True:
+                    second.recv(timeout=20)
+            hears(page, "sticks", pitch=1.0, yaw=0.25)
+        hears(page, "sticks", pitch=0.0, yaw=0.0)
+        with join(server, "pair") as late:
+            hears(late, "windows")
+            hears_nothing_more(late)
+
+
 def test_other_sessions_hear_nothing(server: SceneServer):
     with join(server, "mine", page=True) as page, join(server, "theirs", page=True) as other:
         hears(other, "windows", others=0)

@@ -26,7 +26,8 @@ const { trajectory, limits } = JSON.parse(text);
 const { pitch, yaw } = rotorAngles(trajectory);
 console.log(JSON.stringify(trajectory.t.map((t, k) => {
   const at = Object.fromEntries(["theta", "psi", "V_p", "V_y"].map((name) => [name, trajectory[name][k]]));
-  return poseMessages({ t, ...at, pitchRotor: pitch[k], yawRotor: yaw[k], reference: trajectory.reference, limits });
+  const reference = { theta: trajectory.reference.theta[k], psi: trajectory.reference.psi[k] };
+  return poseMessages({ t, ...at, pitchRotor: pitch[k], yawRotor: yaw[k], reference, limits });
 })));
 """
 
@@ -35,12 +36,13 @@ def motion(samples: int = 26, duration: float = 2.0) -> Motion:
     """All that a rig can do: voltages of both signs, small, large and at their limits."""
     t = np.linspace(0.0, duration, samples)
     V_p, V_y = 24.0 * np.sin(3.0 * t), np.clip(20.0 * np.cos(2.0 * t), -15.0, 15.0)
-    return Motion(t, 0.3 * np.sin(2.0 * t), 0.5 * t, V_p, V_y, (0.2, 0.5), (24.0, 15.0, 0.7))
+    wanted = np.full(samples, 0.2), 0.5 - 0.3 * t
+    return Motion(t, 0.3 * np.sin(2.0 * t), 0.5 * t, V_p, V_y, wanted, (24.0, 15.0, 0.7))
 
 
 def of_the_page(motion: Motion) -> list[list[dict[str, Any]]]:
     """What the page would tell viser at each sample."""
-    theta, psi = motion.reference
+    theta, psi = (course.tolist() for course in motion.reference)
     series = {name: getattr(motion, name).tolist() for name in ("t", "theta", "psi", "V_p", "V_y")}
     limits = dict(zip(("V_p", "V_y", "theta"), motion.limits, strict=True))
     asked = {"trajectory": {**series, "reference": {"theta": theta, "psi": psi}}, "limits": limits}

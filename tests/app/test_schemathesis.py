@@ -62,6 +62,10 @@ RIGS = EXPERIMENT | {
     "invalid_input scenario.(digital|disturbance|noise)": "the cloud is continuous and undisturbed",
 }
 LAB = {"unknown_step step": "the lab's steps", "invalid_input hints": "as many hints as the step has"}
+LOG = {
+    "changed_log flight.checksum": "CRC-32 of all else that the log holds",
+    "invalid_input flight.flight": "an event's values may be anything in the schema, but are not deep",
+}
 RULES: dict[str, dict[str, str]] = {
     "POST /api/v1/suggest": DESIGN
     | {
@@ -143,6 +147,10 @@ RULES: dict[str, dict[str, str]] = {
         "invalid_input (A|B).*": "the grammar of expressions, the shapes of matrices, and time",
         "invalid_input (poles|groups).*": "as many poles as states, dealt by the indices",
     },
+    "POST /api/v1/flights/controller": EXPERIMENT,
+    **dict.fromkeys(
+        [f"POST /api/v1/flights{kind}" for kind in ("", "/csv", "/mat", "/recording", "/film")], LOG
+    ),
     "POST /api/v1/recordings": {"unusable_recording file": "a table in the file's bytes"},
     "POST /api/v1/recordings/join": {"unusable_recording recording": "the keys of recordings that are there"},
     "POST /api/v1/recordings/{key}/overlay": EXPERIMENT
@@ -195,8 +203,8 @@ def first_fields(document: dict[str, Any]) -> dict[str, Any]:
         for name, field in body["properties"].items():
             known = document["components"]["schemas"].get(field.get("$ref", "").removeprefix(BY), {})
             if "$ref" in field and (name, json.dumps(field, sort_keys=True)) in seen:
-                # required, and covered in another call: left as its defaults, where it has some
-                body["properties"][name] = field if known.get("required") else EMPTY
+                # required, and covered in another call: left as its defaults, where it has some, or refused
+                body["properties"][name] = field if known.get("required") and name != "flight" else EMPTY
         seen |= fields
         media["schema"] = body
         media.pop("examples", None)  # they are whole bodies

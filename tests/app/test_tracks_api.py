@@ -45,6 +45,14 @@ def test_the_reply_is_the_cores_track(client):
     assert [v > 0 for v in disk["values"]] == disk["valid"] == reply["stable"]
 
 
+def test_where_poles_lie_on_the_border_of_stability_is_told(client):
+    found = track(Spec.from_preset(), "gain", (0.0, 1.0), 20)
+    reply = post(client, "track", {"track": {"path": "gain", "over": [0, 1], "points": 20}})
+    assert reply["on_border"] == found.on_border.tolist() == [True] + [False] * (len(reply["values"]) - 1)
+    beyond = post(client, "track", {"poles": POLES, "track": TAU})
+    assert not all(beyond["stable"]) and not any(beyond["on_border"])
+
+
 def test_a_figure_without_a_limit_says_so(client):
     reply = post(client, "track", {"track": {"path": "poles.factor", "points": 5, "measures": [MEASURES[2]]},
                                    "outer": "none"})  # fmt: skip

@@ -63,6 +63,11 @@ def test_a_worker_has_everything_from_its_fork_on(workers):
     assert workers.submit(jobs_to_do.loaded).result(PATIENCE) == (True, True)
 
 
+def test_a_worker_collects_its_own_garbage_and_leaves_what_is_shared(workers):
+    collects, shared = workers.submit(jobs_to_do.collecting).result(PATIENCE)
+    assert collects and shared > 100_000
+
+
 def test_parts_come_in_order_before_the_outcome(workers):
     job, parts = begun(workers, jobs_to_do.counted, 100)
     assert job.result(PATIENCE) is None
