@@ -12,6 +12,7 @@ const FLOORS = [
   ['plots', 'splane', 'scene', 'recordings', 'explore', 'exports', 'panels'],
   ['paper', 'compare', 'rig', 'machine', 'clouds', 'plant', 'labs'],
   ['finder', 'nearest', 'optimal', 'wall', 'maps', 'tracks'],
+  ['flight'],
   ['further'],
   ['scorm'],
 ];

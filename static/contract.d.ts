@@ -41,6 +41,14 @@ export interface Angles {
   psi?: number;
 }
 
+/** What the controller or a hand asked of the motors, before their limits. */
+export interface AskedCourse {
+  /** V */
+  V_p: number[];
+  /** V */
+  V_y: number[];
+}
+
 /** What is kept of a student who came by a learning platform (LTI). */
 export interface AtPlatform {
   /** the platform, as it is registered here */
@@ -63,6 +71,8 @@ export interface AttemptReply {
   of: number;
   stable?: boolean;
   findings?: Finding[];
+  /** where one was handed in and counts */
+  flight?: FlightTold;
   id: string;
   step: string;
   /** the server's time */
@@ -83,8 +93,25 @@ export interface AttemptRequest {
   design: StepRequest;
   /** by the question's name: a number, a choice or several (1-based), or text */
   answers?: Record<string, string | number | number[] | null>;
+  flight?: Record<string, unknown> | null;
   /** by the page's clock, of an attempt made offline */
   at?: string | null;
+}
+
+/** A course for each axis. */
+export interface AxesCourse {
+  /** of pitch; rad, or N·m of torques */
+  theta: number[];
+  /** of yaw; rad, or N·m of torques */
+  psi: number[];
+}
+
+/** A figure of each axis, in the registry's unit. */
+export interface AxisFigures {
+  /** of pitch */
+  theta: number;
+  /** of yaw */
+  psi: number;
 }
 
 /** Friction of both axes. */
@@ -139,6 +166,8 @@ export interface Best {
   of: number;
   stable?: boolean;
   findings?: Finding[];
+  /** where one was handed in and counts */
+  flight?: FlightTold;
   /** to which the verdict was given */
   answers?: Record<string, unknown>;
 }
@@ -364,6 +393,27 @@ export interface ComponentInfo {
   meaning: string;
   unit: string;
   printed: string;
+}
+
+/** How a controller took over in the air. */
+export interface ControllerChange {
+  /** when it did: at the first sample behind the event */
+  tick: number;
+  /** s */
+  time: number;
+  jump: Voltages;
+  /** what it would have been with the integrals as they were */
+  jump_without: Voltages;
+  /** whether the integrals drive both motors, so that neither need jump */
+  bumpless: boolean;
+}
+
+/** A design's numbers, of which the kernel `flight_controller` makes the controller that flies. */
+export interface ControllerReply {
+  /** little-endian 64-bit floats, NaN and infinities among them, in base64 */
+  numbers: string;
+  /** whether the linear loop is */
+  stable: boolean;
 }
 
 /** Angles, rad; null where nothing was simulated. */
@@ -687,7 +737,10 @@ export interface FindProgress {
   seconds: number;
   /** how many of those tried meet everything */
   met: number;
-  /** the minimized figures of the best so far, a row per design; those with values alone */
+  /**
+   * the front so far: the minimized figures of its designs, a row each, at most 100 that are spread along it; those
+   * alone that have a value of each
+   */
   points: number[][];
 }
 
@@ -735,6 +788,154 @@ export interface FittedCourses {
   after: Courses;
   /** measured minus found */
   residuals: Courses;
+}
+
+/** A flight as it was flown: from this alone it is made again. docs/flights.md has its words. */
+export interface FlightBody {
+  /** version of the format */
+  flight: 1;
+  /** rig, design, and where the experiment begins */
+  design: StepRequest;
+  /** how many were flown */
+  ticks: number;
+  /** [tick, word, values …] in order; the value of `design` is a design; rad, rad/s, V, N·m */
+  events?: unknown[][];
+  /** of the noise on measured angles */
+  seed?: number;
+  /** [tick, θ, ψ, θ̇, ψ̇]: states on the way, rad and rad/s */
+  checks?: [number, number, number, number, number][];
+  /** that was flown; empty without one */
+  task?: string;
+  /** CRC-32 of all else, see docs/flights.md */
+  checksum: string;
+}
+
+/** A flight to be played by the rig. */
+export interface FlightFilmRequest {
+  flight: FlightBody;
+  /** of the film, s into the flight */
+  begin?: number;
+  /** of the film, s; null: the flight's */
+  end?: number | null;
+}
+
+/** A flight whose numbers are wanted as a file. */
+export interface FlightNumbersRequest {
+  flight: FlightBody;
+  /** tick that is told; at most 400,000 rows are */
+  every?: number;
+}
+
+/** A flight that is to be a recording. */
+export interface FlightRecordingRequest {
+  flight: FlightBody;
+  /** whether samples stay in which something pushed the body or an encoder stuck */
+  whole?: boolean;
+}
+
+/** A flight as the server makes it again. */
+export interface FlightReply {
+  /** that were flown */
+  ticks: number;
+  /** s */
+  duration: number;
+  /** tick of which the course tells */
+  every: number;
+  /** s; the last is that of the last state */
+  t: number[];
+  /** pitch, rad */
+  theta: number[];
+  /** yaw, rad */
+  psi: number[];
+  /** rad/s */
+  theta_dot: number[];
+  /** rad/s */
+  psi_dot: number[];
+  /** of the pitch motor, V */
+  V_p: number[];
+  /** of the yaw motor, V */
+  V_y: number[];
+  measured: MeasuredCourse;
+  asked: AskedCourse;
+  speeds: SpeedsCourse;
+  references: AxesCourse;
+  /** from outside: hands and gusts */
+  torques: AxesCourse;
+  /** stop that pitch rests on: 1 the upper, −1 the lower, 0 none */
+  stops: number[];
+  /** of the controller, in order */
+  changes: ControllerChange[];
+  /** why the flight ended by itself; empty if it did not */
+  ended: string;
+  /** how far the log's own states are from these at most, rad and rad/s; 0 without any */
+  apart: number;
+  /** left out of a flight of more than 400,000 ticks */
+  score?: FlightScore;
+  /** SHA-256 of all rows that were flown, as little-endian 64-bit floats */
+  hash: string;
+}
+
+/** A flight, and how much of its course is replied. */
+export interface FlightRequest {
+  flight: FlightBody;
+  /** of the course, at most: every n-th tick, and the last state */
+  samples?: number;
+}
+
+/** What a flight is worth; without a task its own set points are what was asked. */
+export interface FlightScore {
+  /** by figure, in the registry's units (SI); what there is not is left out */
+  values: Record<string, number | AxisFigures>;
+  /** of the task, 0 to 3; 0 without one */
+  stars: number;
+  /** whether the task has come to its end */
+  done: boolean;
+  /** why the flight does not count as its task; empty if it does, or has none */
+  flaw: string;
+}
+
+/** A task in the air. */
+export interface FlightTask {
+  /** in logs */
+  name: string;
+  title: string;
+  /** what is to be done */
+  words: string;
+  /** s; with marks to be reached, at most */
+  duration: number;
+  /** [time (s), θ − θ₀ as a share of the task's reach, ψ (rad)], in between smoothly */
+  marks: [number, number, number][];
+  /** by which stars are given; lower is better */
+  figure: string;
+  /** that are told, it first */
+  figures: string[];
+  /** its limits for one, two and three stars */
+  stars: number[];
+  /** that come, by the log's seed */
+  gusts: number;
+  /** of their torques, as a share of what a motor's limit gives */
+  strength: number;
+  /** whether set points are the pilot's */
+  free: boolean;
+  /** how it is done before its time */
+  ends: '' | 'landed' | 'reached';
+  /** whose hands share it */
+  pilots: number;
+  /** whether these limits are times V_p,max² + V_y,max² of the rig, V² */
+  per_square_volt: boolean;
+}
+
+/** A flight that was marked: enough to tell later that a log is this one. */
+export interface FlightTold {
+  task: string;
+  /** of its gusts and its noise */
+  seed: number;
+  /** how long it was */
+  ticks: number;
+  /** of its log */
+  checksum: string;
+  /** figures, some by axis */
+  values: Record<string, number | Record<string, number>>;
 }
 
 /** One expression in three notations. */
@@ -1402,6 +1603,7 @@ export interface MarkRequest {
   answers?: Record<string, string | number | number[] | null>;
   /** hints that were taken, 1-based */
   hints?: number[];
+  flight?: Record<string, unknown> | null;
 }
 
 /** An attempt, marked. */
@@ -1414,6 +1616,20 @@ export interface Marked {
   of: number;
   stable?: boolean;
   findings?: Finding[];
+  /** where one was handed in and counts */
+  flight?: FlightTold;
+}
+
+/** What the controller knew at its last sample. */
+export interface MeasuredCourse {
+  /** rad */
+  theta: number[];
+  /** rad */
+  psi: number[];
+  /** rad/s */
+  theta_dot: number[];
+  /** rad/s */
+  psi_dot: number[];
 }
 
 /** Somebody in the course. */
@@ -2392,6 +2608,14 @@ export interface Signs {
   psi?: -1 | 1;
 }
 
+/** The rotors' speeds, as the voltages that would hold them. */
+export interface SpeedsCourse {
+  /** V */
+  v_p: number[];
+  /** V */
+  v_y: number[];
+}
+
 /** One way to deal the poles: positions of pitch's pair and of yaw's, and what it gives. */
 export interface Split {
   /** positions from 0 of pitch's pair and of yaw's */
@@ -3048,6 +3272,8 @@ export interface TrackReply {
   poles: Complex[][];
   /** one per value */
   stable: boolean[];
+  /** whether it is not stable, but no pole lies beyond the border of stability either: some lie on it */
+  on_border: boolean[];
   /** of the border of stability, by value */
   crossings: Crossed[];
   /** where branches end as a gain grows without limit, rad/s */

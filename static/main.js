@@ -275,7 +275,9 @@ async function furtherDown() {
   });
   const { further } = await fetched(() => import('./further/index.js'));
   const reply = (/** @type {import('./types.js').Design} */ design) => own?.replyTo(design);
-  const finder = await further({ store, address, plane, plots, reply, pool: () => designs }, { fetched, styles, show });
+  const pool = () => designs;
+  const page = { store, address, plane, plots, reply, pool, scene, sharing };
+  const finder = await further(page, { fetched, styles, show });
   drawFinder = drawn([finder, byId('find')]);
   schedule();
 }

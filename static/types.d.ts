@@ -3,7 +3,7 @@
  */
 import type * as contract from './contract.js';
 import type { Angles, BothModels, Complex, Evaluation, ScenarioChanges } from './contract.js';
-import type { Goal } from './labs/shapes.js';
+import type { FlightAsked, Goal } from './labs/shapes.js';
 
 export type {
   AxisMetrics,
@@ -23,7 +23,7 @@ export type Poles = [Complex, Complex, Complex, Complex];
 export type Axis = keyof Angles;
 export type Motor = keyof contract.Voltages;
 export type Motion = Axis | 'both';
-export type View = 'explore' | 'design' | 'find' | 'compare' | 'rig' | 'plant' | 'derivation';
+export type View = 'explore' | 'design' | 'fly' | 'find' | 'compare' | 'rig' | 'plant' | 'derivation';
 export type Connection = 'connecting' | 'open' | 'lost';
 /** Numbers over time: of the live socket, a view on its frame. */
 export type Series = ArrayLike<number>;
@@ -278,7 +278,7 @@ export interface State {
   /** names in locks.js */
   locks: string[];
   /** what the step of a lab leaves free of these, what it keeps back, and its goals; its locks are not a link's */
-  task: { free: Lock[]; hidden: string[]; goals?: Goal[] } | null;
+  task: { free: Lock[]; hidden: string[]; goals?: Goal[]; flight?: FlightAsked | null } | null;
   /** any system, as a link has it (plant/link_text.js) */
   plant: string | null;
   plantPins: PlantPin[];

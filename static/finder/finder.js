@@ -6,7 +6,7 @@
  * @typedef {import('./settings.js').Row} Row
  * @typedef {import('./shapes.js').Found} Found
  */
-import { count, say, t } from '../text/index.js';
+import { count, say, significant, t } from '../text/index.js';
 import { bodyOf, presetOf, scenarioOf } from '../model/index.js';
 import { button, check, h, setText } from '../ui/index.js';
 import { uncertain } from '../clouds/index.js';
@@ -15,8 +15,10 @@ import { FindFeed } from './feed.js';
 import { Preview } from './preview.js';
 import { Reach } from './reach.js';
 import { Results } from './results.js';
+import { readAs } from './scatter_math.js';
 import {
   isHidden,
+  isSame,
   isKeptBack,
   askedOf,
   BUDGETS,
@@ -26,16 +28,19 @@ import {
   proposed,
   settingsIn,
   SPREADS,
+  titleOf,
+  unitOf,
   whereOf,
 } from './settings.js';
 
-const WHERE = /** @type {const} */ (['axis', 'motor', 'model', 'steps']);
-/** What is meant where nothing is said. */
-const USUALLY = { axis: 'both', motor: 'both', model: 'nonlinear', steps: 'alone' };
-
-/** @param {import('./shapes.js').Progress} progress */
-const progressWords = ({ tried, designs, met }) =>
-  `${tried.toLocaleString('en')} / ${designs.toLocaleString('en')}: ${count(met, '{0} meets all', '{0} meet all')}`;
+/** @param {import('./shapes.js').Progress} progress @param {import('./shapes.js').Seen[]} better */
+function progressWords({ tried, designs, met, points }, better) {
+  const share = [tried, designs].map((own) => own.toLocaleString('en')).join(' / ');
+  const words = `${share}: ${count(met, '{0} meets all', '{0} meet all')}`;
+  const best = better.length === 1 && points.length ? readAs(better[0], points[0][0]) : undefined;
+  if (best === undefined) return words;
+  return say`${words}; best so far ${`${significant(best, 3)} ${unitOf(better[0].measure)}`.trim()}`;
+}
 
 export class Finder {
   /** What stands in the controls. @type {Settings|null} */ #settings = null;
@@ -44,6 +49,7 @@ export class Finder {
   /** @type {import('../types.js').Design|null} */ #from = null;
   #freeKey = '';
   /** @type {Found|null} what was found last */ #last = null;
+  /** @type {import('./shapes.js').Seen[]} what the search makes better */ #better = [];
 
   /**
    * @param {HTMLElement} root
@@ -223,8 +229,10 @@ export class Finder {
     const { state } = this.store;
     const { design } = state;
     if (!design) return;
+    const asked = this.#asked(state);
     this.#from = design;
-    this.feed.ask({ ...bodyOf(design), scenario: scenarioOf(design), find: this.#asked(state) });
+    this.#better = asked.minimize.map((own) => ({ ...own, title: titleOf(own.measure) }));
+    this.feed.ask({ ...bodyOf(design), scenario: scenarioOf(design), find: asked });
     this.cancel.focus();
   }
 
@@ -232,7 +240,6 @@ export class Finder {
   #found(found) {
     if (!this.#from) return;
     this.#last = found;
-    this.empty.hidden = true;
     this.results.put(found, this.#from);
     // below the window it would be there and nobody would know
     const { node } = this.results;
@@ -255,8 +262,10 @@ export class Finder {
           ? this.#objection(this.store.state)
           : !progress
             ? 'Searching…'
-            : progressWords(progress),
+            : progressWords(progress, this.#better),
     );
+    this.results.follow(busy && progress ? { figures: this.#better, points: progress.points } : null);
+    this.empty.hidden = !this.results.node.hidden;
     this.problem.hidden = !problem;
     setText(this.problem, problem ? [problem.detail ?? problem.title, problem.hint].filter(Boolean).join(' ') : '');
   }
@@ -273,8 +282,7 @@ export class Finder {
   /** @param {Row} row @param {Found['requirements'][number]} of */
   #isOf(row, of) {
     const figure = this.#last?.figures[of.figure];
-    if (!figure || figure.measure !== row.measure) return false;
-    const where = whereOf(row);
-    return WHERE.every((name) => (where[name] ?? USUALLY[name]) === (figure[name] ?? USUALLY[name]));
+    if (!figure) return false;
+    return isSame({ measure: row.measure, ...whereOf(row) }, figure);
   }
 }

@@ -2,6 +2,7 @@
  * What was found: in words, as a scatter that one brushes, as a table; and where nothing meets all, what contradicts
  * and what each would have to give.
  * @typedef {import('./shapes.js').Found} Found
+ * @typedef {import('./shapes.js').SoFar} SoFar
  * @typedef {import('./scatter_math.js').Range} Range
  * @typedef {import('../types.js').Design} Design
  */
@@ -9,13 +10,16 @@ import { count, say, significant } from '../text/index.js';
 import { button, h, setText } from '../ui/index.js';
 import { Candidates } from './candidates.js';
 import { Scatter, rangeWords } from './scatter.js';
-import { axisTitle, brushed, firstAxes } from './scatter_math.js';
+import { isSame } from './settings.js';
+import { axisTitle, begun, brushed, firstAxes, soFarOn } from './scatter_math.js';
 import { FoundTable } from './table.js';
 
 export class Results {
   /** @type {Candidates|null} */ #candidates = null;
   /** @type {Map<number, Range>} ranges of figures that are kept */ #brushes = new Map();
   #axes = { x: 0, y: 0 };
+  /** @type {SoFar|null} of the search that goes on */ #soFar = null;
+  /** @type {import('./shapes.js').Drawn|null} it by itself: nothing was found before in its figures */ #begun = null;
 
   /**
    * @param {import('../model/store.js').Store} store
@@ -58,7 +62,7 @@ export class Results {
     this.touched = h('div', { class: 'row find-touched', hidden: true });
     this.picture = h(
       'div',
-      {},
+      { class: 'find-picture' },
       h(
         'div',
         { class: 'row find-axes' },
@@ -88,17 +92,14 @@ export class Results {
   /** @param {Found} found @param {Design} from the design that the search began with */
   put(found, from) {
     this.preview.end();
+    this.#soFar = null;
     this.#candidates = new Candidates(found, from);
     this.#brushes.clear();
-    this.#axes = firstAxes(found);
-    this.node.hidden = false;
-    this.picture.hidden = !found.designs.length;
-    for (const name of /** @type {const} */ (['x', 'y'])) {
+    for (const name of /** @type {const} */ (['x', 'y']))
       this.axes[name].replaceChildren(
         ...found.figures.map((figure, k) => h('option', { value: k }, axisTitle(figure))),
       );
-      this.axes[name].value = String(this.#axes[name]);
-    }
+    this.#setAxes(firstAxes(found));
     this.#tell(found);
     this.render(this.store.state);
   }
@@ -155,15 +156,50 @@ export class Results {
     this.#show({ pins, preview, design });
   }
 
+  /** Draws what a search has so far, until it ends. @param {SoFar|null} soFar */
+  follow(soFar) {
+    const there = soFar && soFar.points.length && soFar.figures.length > 1 ? soFar : null;
+    if (there?.points === this.#soFar?.points) return;
+    if (there && !this.#soFar) this.#begun = this.#turnedTo(there) ? null : begun(there);
+    this.#soFar = there;
+    this.#show();
+  }
+
+  /** Turns to figures that the search makes better. @param {SoFar} soFar @returns {boolean} whether they are there */
+  #turnedTo(soFar) {
+    const found = this.#candidates?.found;
+    if (!found?.designs.length) return false;
+    if (soFarOn(found, this.#axes.x, this.#axes.y, soFar)) return true;
+    const [x, y] = soFar.figures.map((own) => found.figures.findIndex((figure) => isSame(figure, own)));
+    if (x < 0 || y < 0) return false;
+    this.#setAxes({ x, y });
+    return true;
+  }
+
+  /** @param {{x: number, y: number}} axes */
+  #setAxes(axes) {
+    this.#axes = axes;
+    for (const name of /** @type {const} */ (['x', 'y'])) this.axes[name].value = String(axes[name]);
+  }
+
   /** @param {Pick<import('../types.js').State, 'pins'|'preview'|'design'>} [state] */
   #show(state = this.store.state) {
     const own = this.#candidates;
-    if (!own) return;
+    const alone = this.#soFar && this.#begun;
+    this.node.classList.toggle('begun', Boolean(alone));
+    this.node.hidden = !own && !alone;
+    this.picture.hidden = !own?.found.designs.length && !alone;
+    const { x, y } = alone ? { x: 0, y: 1 } : this.#axes;
+    const drawn = alone ?? own?.found;
+    const soFar = this.#soFar && drawn ? soFarOn(drawn, x, y, this.#soFar) : null;
+    if (alone)
+      this.scatter.show({ found: alone, kept: new Set(), active: -1, taken: -1, pins: new Map(), x, y, soFar });
+    if (alone || !own) return;
     const { found } = own;
     const kept = brushed(found, this.#brushes);
     const pins = new Map(state.pins.map((pin) => [own.indexOf(pin.design), pin.index]));
     const active = own.indexOf(state.preview?.design ?? null);
-    const seen = { found, kept, active, taken: own.indexOf(state.design), pins, ...this.#axes };
+    const seen = { found, kept, active, taken: own.indexOf(state.design), pins, soFar, ...this.#axes };
     this.scatter.show(seen);
     this.table.show(seen);
     this.chips.replaceChildren(

@@ -1,11 +1,11 @@
 /**
  * The scatter of two figures: each point a design. Under the pointer, or by the arrow keys, the page shows it; a click
- * or Enter takes it, another pins it; a drag keeps those within a rectangle.
- * @typedef {import('./shapes.js').Found} Found
+ * or Enter takes it, another pins it; a drag keeps those within a rectangle. What a search has so far is grey.
+ * @typedef {import('./shapes.js').Drawn} Drawn
  * @typedef {import('./scatter_math.js').Point} Point
  * @typedef {import('./scatter_math.js').Range} Range
  */
-import { say, significant } from '../text/index.js';
+import { say, significant, t } from '../text/index.js';
 import { letterOf } from '../model/index.js';
 import { drawingUnit, h, setAttr, setText, svg } from '../ui/index.js';
 import { EDGE, frameOf } from './scatter_frame.js';
@@ -14,9 +14,10 @@ import { limitsOn, nearest, pointsOf, rangeOf, readOf, shortTitle, stepped } fro
 const DRAG = 6; // px that make a click a brush
 
 /**
- * @typedef {{found: Found, kept: Set<number>, active: number, taken: number, pins: Map<number, number>,
- *   x: number, y: number}} Seen
- *   active: that is looked at; taken: that is the present one; pins: letters by design
+ * @typedef {{found: Drawn, kept: Set<number>, active: number, taken: number, pins: Map<number, number>,
+ *   x: number, y: number, soFar: {x: number, y: number}[]|null}} Seen
+ *   active: that is looked at; taken: that is the present one; pins: letters by design; soFar: the front of a search
+ *   that goes on
  */
 export class Scatter {
   /** @type {Seen|null} */ #seen = null;
@@ -40,6 +41,7 @@ export class Scatter {
   constructor(tell) {
     this.tell = tell;
     this.frame = svg('g', { 'aria-hidden': 'true' });
+    this.soFar = svg('g', { 'aria-hidden': 'true', 'data-testid': 'find-so-far' });
     this.marks = svg('g', { role: 'group', 'aria-label': 'Designs' });
     this.band = svg('rect', { class: 'find-band', visibility: 'hidden', 'aria-hidden': 'true' });
     this.svg = svg(
@@ -54,6 +56,7 @@ export class Scatter {
           'pins it, Escape leaves it',
       },
       this.frame,
+      this.soFar,
       this.marks,
       this.band,
     );
@@ -78,11 +81,8 @@ export class Scatter {
   show(seen) {
     const before = this.#seen;
     this.#seen = seen;
-    if (
-      !before ||
-      ['found', 'x', 'y'].some((k) => before[/** @type {keyof Seen} */ (k)] !== seen[/** @type {keyof Seen} */ (k)])
-    )
-      this.#draw(seen);
+    const drawn = /** @type {const} */ (['found', 'x', 'y', 'soFar']);
+    if (!before || drawn.some((k) => before[k] !== seen[k])) this.#draw(seen);
     else this.#mark(seen);
   }
 
@@ -181,12 +181,12 @@ export class Scatter {
   #draw(seen) {
     const { width, height } = this.#size;
     if (!width) return;
-    const { found, x, y } = seen;
+    const { found, x, y, soFar } = seen;
     this.#points = pointsOf(found, x, y);
     const { present } = found;
     const own = present && [readOf(found, present, x), readOf(found, present, y)];
     const here = own && own[0] !== undefined && own[1] !== undefined ? { x: own[0], y: own[1] } : null;
-    const all = [...this.#points, ...(here ? [here] : [])];
+    const all = [...this.#points, ...(here ? [here] : []), ...(soFar ?? [])];
     const range = (/** @type {'x'|'y'} */ axis, /** @type {number} */ k) => {
       const values = all.map((p) => p[axis]);
       const [low, high] = rangeOf(values);
@@ -201,6 +201,7 @@ export class Scatter {
     const py = (/** @type {number} */ v) => EDGE.top + tall * (1 - (v - ranges.y[0]) / (ranges.y[1] - ranges.y[0]));
     this.#pixels = this.#points.map((p) => ({ index: p.index, x: px(p.x), y: py(p.y) }));
     this.frame.replaceChildren(...frameOf({ found, x, y, ranges, here, at: { px, py }, size: { width, height } }));
+    this.soFar.replaceChildren(...(soFar ? greyed(soFar, { px, py }, width - EDGE.right) : []));
     this.#build(seen);
     this.#mark(seen);
   }
@@ -255,8 +256,19 @@ export class Scatter {
   }
 }
 
+/**
+ * The front of a search that goes on, and what it is.
+ * @param {{x: number, y: number}[]} points
+ * @param {{px: (v: number) => number, py: (v: number) => number}} at @param {number} right
+ */
+function greyed(points, { px, py }, right) {
+  const words = svg('text', { x: right, y: 15, 'text-anchor': 'end' });
+  words.textContent = t('grey: found so far');
+  return [...points.map(({ x, y }) => svg('circle', { cx: px(x).toFixed(1), cy: py(y).toFixed(1), r: 4 })), words];
+}
+
 const idOf = (/** @type {number} */ index) => `find-point-${index}`;
 
-/** A brushed range in words. @param {Found} found @param {number} k @param {Range} range */
+/** A brushed range in words. @param {Drawn} found @param {number} k @param {Range} range */
 export const rangeWords = (found, k, [low, high]) =>
   `${shortTitle(found.figures[k])}: ${significant(low, 3)} … ${significant(high, 3)}`;

@@ -1,6 +1,6 @@
 /**
  * What lies under the points of the scatter: axes, limits that were set, and where one began.
- * @typedef {import('./shapes.js').Found} Found
+ * @typedef {import('./shapes.js').Drawn} Drawn
  * @typedef {import('./scatter_math.js').Range} Range
  */
 import { inField, t } from '../text/index.js';
@@ -11,7 +11,7 @@ import { limitsOn, shortTitle, ticksOf } from './scatter_math.js';
 export const EDGE = { left: 46, right: 14, top: 26, bottom: 40 };
 
 /**
- * @param {{found: Found, x: number, y: number, ranges: {x: Range, y: Range}, here: {x: number, y: number}|null,
+ * @param {{found: Drawn, x: number, y: number, ranges: {x: Range, y: Range}, here: {x: number, y: number}|null,
  *   at: {px: (v: number) => number, py: (v: number) => number}, size: {width: number, height: number}}} drawing
  *   x, y: the figures; here: where one began; at: from figures to pixels
  * @returns {SVGElement[]}

@@ -1,34 +1,37 @@
 /**
  * What the scatter shows of what was found: scales, the nearest point, what a brush keeps. Pure.
- * @typedef {import('./shapes.js').Found} Found
+ * @typedef {import('./shapes.js').Drawn} Drawn
+ * @typedef {import('./shapes.js').Seen} Seen
+ * @typedef {import('./shapes.js').SoFar} SoFar
  * @typedef {import('./shapes.js').Outcome} Outcome
  * @typedef {[low: number, high: number]} Range
  * @typedef {{index: number, x: number, y: number}} Point
  */
 import { niceStep, ticks } from '../model/index.js';
 import { MEASURED_FIGURES } from '../kernel/index.js';
-import { shownValue, titleOf, unitOf } from './settings.js';
+import { isSame, shownValue, titleOf, unitOf } from './settings.js';
 
-/** An axis' words: its title and the unit in which its numbers are. @param {Found['figures'][number]} figure */
+/** An axis' words: its title and the unit in which its numbers are. @param {Seen} figure */
 export function axisTitle({ measure, title }) {
   const unit = unitOf(measure);
   return `${title || titleOf(measure)}${unit ? `, ${unit}` : ''}`;
 }
 
-/** The same in short, for a drawing. @param {Found['figures'][number]} figure */
+/** The same in short, for a drawing. @param {Seen} figure */
 export const shortTitle = (figure) => axisTitle({ ...figure, title: figure.title.split(',')[0] });
 
-/** A design's figure in the unit in which it is read. @param {Found} found @param {Outcome} of @param {number} k */
-export function readOf(found, of, k) {
-  const value = of.figures[k]?.value;
-  const { measure } = found.figures[k];
+/** A design's figure in the unit in which it is read. @param {Drawn} found @param {Outcome} of @param {number} k */
+export const readOf = (found, of, k) => readAs(found.figures[k], of.figures[k]?.value);
+
+/** A value in the unit in which it is read. @param {Seen} figure @param {number|undefined} value */
+export function readAs({ measure }, value) {
   if (value === undefined) return undefined;
   const v = MEASURED_FIGURES.get(measure)?.figure.signed ? Math.abs(value) : value;
   const shown = shownValue(measure, v);
   return Number.isFinite(shown) ? shown : undefined;
 }
 
-/** The two figures that tell most at first: the first of those that differ. @param {Found} found */
+/** The two figures that tell most at first: the first of those that differ. @param {Drawn} found */
 export function firstAxes(found) {
   const varied = found.figures
     .map((_, k) => k)
@@ -37,12 +40,29 @@ export function firstAxes(found) {
   return { x, y };
 }
 
-/** Those designs that have both figures. @param {Found} found @param {number} x @param {number} y @returns {Point[]} */
+/** Those designs that have both figures. @param {Drawn} found @param {number} x @param {number} y @returns {Point[]} */
 export const pointsOf = (found, x, y) =>
   found.designs.flatMap((design, index) => {
     const [a, b] = [readOf(found, design, x), readOf(found, design, y)];
     return a === undefined || b === undefined ? [] : [{ index, x: a, y: b }];
   });
+
+/**
+ * Where the front of a search that goes on lies in two of the figures.
+ * @param {Drawn} found @param {number} x @param {number} y @param {SoFar} soFar
+ * @returns {{x: number, y: number}[]|null} null where the search makes not both of them better
+ */
+export function soFarOn({ figures }, x, y, soFar) {
+  const [a, b] = [x, y].map((k) => soFar.figures.findIndex((own) => isSame(own, figures[k])));
+  if (a < 0 || b < 0 || a === b) return null;
+  return soFar.points.flatMap((row) => {
+    const [u, v] = [readAs(figures[x], row[a]), readAs(figures[y], row[b])];
+    return u === undefined || v === undefined ? [] : [{ x: u, y: v }];
+  });
+}
+
+/** What is drawn of a search before it has found anything: its figures. @param {SoFar} soFar @returns {Drawn} */
+export const begun = ({ figures }) => ({ figures, designs: [], requirements: [] });
 
 /** A little more than the values need. @param {number[]} values @returns {Range} */
 export function rangeOf(values) {
@@ -72,7 +92,7 @@ export function nearest(pixels, x, y, within = 28) {
 
 /**
  * Designs within all brushed ranges.
- * @param {Found} found
+ * @param {Drawn} found
  * @param {Map<number, Range>} brushes by figure, in the units that are read
  * @returns {Set<number>} their indices
  */
@@ -98,7 +118,7 @@ export function stepped(points, kept, active, by) {
   return order[Math.max(0, Math.min(order.length - 1, from + by))].index;
 }
 
-/** Limits of a figure, in the units that are read. @param {Found} found @param {number} k */
+/** Limits of a figure, in the units that are read. @param {Drawn} found @param {number} k */
 export const limitsOn = (found, k) =>
   found.requirements
     .filter(({ figure }) => figure === k)

@@ -280,6 +280,17 @@ export function whereOf({ measure, where, model, steps }) {
   };
 }
 
+const WHERE = /** @type {const} */ (['axis', 'motor', 'model', 'steps']);
+/** What is meant where nothing is said. */
+const USUALLY = { axis: 'both', motor: 'both', model: 'nonlinear', steps: 'alone' };
+
+/**
+ * Whether two figures are one, of the same response.
+ * @param {Where & {measure: string}} a @param {Where & {measure: string}} b
+ */
+export const isSame = (a, b) =>
+  a.measure === b.measure && WHERE.every((name) => (a[name] ?? USUALLY[name]) === (b[name] ?? USUALLY[name]));
+
 /**
  * What the server is asked.
  * @param {Settings} settings

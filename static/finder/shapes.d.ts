@@ -16,6 +16,15 @@ export interface Asked {
 }
 
 export type Found = contract.FindReply;
+/** A figure that a design is looked at by. */
+export type Seen = Where & Pick<contract.ToldFigure, 'measure' | 'title'>;
+/** What the scatter draws: designs by their figures. */
+export type Drawn = Pick<Found, 'designs' | 'requirements' | 'present'> & { figures: Seen[] };
+/** The front of a search that goes on: rows of the figures that it makes better. */
+export interface SoFar {
+  figures: Seen[];
+  points: number[][];
+}
 export type Progress = contract.FindProgress;
 /** What a design comes to. */
 export type Outcome = contract.PresentDesign;

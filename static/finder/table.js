@@ -2,7 +2,7 @@
  * What was found, in figures: a row for each design that the brush keeps. A row under the pointer, or one that has the
  * focus, is shown by the whole page.
  * @typedef {import('./shapes.js').Found} Found
- * @typedef {import('./scatter.js').Seen} Seen
+ * @typedef {import('./scatter.js').Seen & {found: Found}} Seen
  */
 import { say, t } from '../text/index.js';
 import { colorOf, letterOf } from '../model/index.js';

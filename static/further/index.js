@@ -10,6 +10,8 @@
  * @property {import('../plots/plots.js').Plots} plots
  * @property {(design: Design) => import('../types.js').Reply|null|undefined} reply  the page's own
  * @property {() => import('../kernel/designs.js').Designs|null} pool
+ * @property {import('../scene/view.js').SceneView} scene
+ * @property {import('../scene/sharing.js').SceneSharing} sharing
  * @typedef {object} Loading
  * @property {<T>(load: () => Promise<T>) => Promise<T>} fetched  again and again, where the server has gone away
  * @property {(name: string) => Promise<unknown>} styles  a sheet
@@ -17,9 +19,16 @@
  */
 import { byId } from '../ui/index.js';
 import { draughtsman } from '../plots/index.js';
+import { late } from '../scene/index.js';
+import { FlyRoom } from './fly.js';
 
 /** @param {Page} page @param {Loading} loading */
-export async function further({ store, address, plane, plots, reply, pool }, { fetched, styles, show }) {
+export async function further(page, loading) {
+  const { store, address, plane, plots, reply, pool, scene } = page;
+  const { fetched, styles, show } = loading;
+  const [{ sceneMenu }, poses, ghosts] = await fetched(late);
+  if (scene.webgl) scene.transport.node.append(sceneMenu(store, scene.session));
+  show([[new FlyRoom({ ...page, poses, ghosts }, loading)]]);
   const [{ exportMenu }, compare, { RigPanel }, { RecordingsPanel }, paper, { OwnRigs }] = await fetched(() =>
     Promise.all([
       import('../exports/index.js'),

@@ -76,11 +76,14 @@ export class AloneDesk {
   }
 
   /** @type {Desk['mark']} */
-  async mark(step, design, answers) {
+  async mark(step, design, answers, flight) {
     const { hints = [] } = this.kept[step] ?? {};
     const taken = hints.map((hint) => (typeof hint === 'number' ? hint : hint.hint));
     /** @type {import('./shapes.js').Marked} */
-    const marked = await call(path(this.lab.name, '/mark'), { seed: this.seed, step, design, answers, hints: taken });
+    const marked = await call(path(this.lab.name, '/mark'), {
+      ...{ seed: this.seed, step, design, answers, hints: taken },
+      ...(flight && { flight }),
+    });
     this.#reread();
     const { best, attempts = 0 } = this.kept[step] ?? {};
     const better = !best || best.points < marked.points;
@@ -98,6 +101,11 @@ export class AloneDesk {
     this.#keep(step, { hints: [...others, { ...text, hint }] });
     this.#tell();
     return text;
+  }
+
+  /** @param {string} step */
+  flightName(step) {
+    return `flight.${this.lab.name}.${this.seed}.${step}`;
   }
 
   /** @type {Desk['keep']} */

@@ -241,9 +241,10 @@ export class ClassDesk {
   }
 
   /** @type {Desk['mark']} */
-  async mark(step, design, answers) {
+  async mark(step, design, answers, flight) {
     const { code, student } = this;
-    const attempt = { id: newId(), code, student, step, design, answers, at: new Date().toISOString() };
+    const at = new Date().toISOString();
+    const attempt = { id: newId(), code, student, step, design, answers, at, ...(flight && { flight }) };
     this.outbox.put(attempt);
     /** @type {Marked|null} */ let own = null;
     /** @type {unknown} */ let refused;
@@ -256,6 +257,11 @@ export class ClassDesk {
     own = await handIn(attempt); // another tab has sent it: the same id has the same answer
     this.#took(step, own);
     return own;
+  }
+
+  /** @param {string} step */
+  flightName(step) {
+    return `flight.${this.draftName}.${step}`;
   }
 
   /** @type {Desk['hint']} */

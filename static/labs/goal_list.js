@@ -6,6 +6,7 @@
  */
 import { count, t } from '../text/index.js';
 import { h, setAttr, setText } from '../ui/index.js';
+import { judgedFlight } from './flights.js';
 import { judged, pointsText } from './goals.js';
 
 const SIGNS = { met: '✓', missed: '○', unknown: '?' };
@@ -61,11 +62,19 @@ export class GoalList {
   /**
    * @param {Pick<import('../types.js').State, 'reply'|'design'>} state
    * @param {Marked|null} told of this very design
+   * @param {import('./flights.js').Flown|null} [flown] its best flight
    */
-  render(state, told) {
+  render(state, told, flown = null) {
     for (const { goal, node, sign, spoken, value, more, tick } of this.#rows) {
       const verdict = told?.goals.find(({ name }) => name === goal.name);
-      const { met, text } = verdict ? { met: verdict.met, text: verdict.value_text ?? '' } : judged(goal, state);
+      const isFlight = goal.kind === 'flight';
+      const own = () =>
+        !isFlight
+          ? judged(goal, state)
+          : flown
+            ? judgedFlight(goal, flown.values)
+            : { met: false, text: t('not flown') };
+      const { met, text } = verdict ? { met: verdict.met, text: verdict.value_text ?? '' } : own();
       const kind = kindOf(met);
       if (node.dataset.kind !== kind) node.dataset.kind = kind;
       setText(sign, SIGNS[kind]);

@@ -12,7 +12,7 @@
  * @typedef {{met: boolean|null, text: string}} Now  met: null where the page cannot tell
  */
 import { fixed, inField, percent, t } from '../text/index.js';
-import { AXIS, figureIn, MOTOR, textOf } from '../model/index.js';
+import { AXIS, figureIn, textOf } from '../model/index.js';
 import { MEASURED_FIGURES } from '../kernel/index.js';
 import { bodyFrom } from '../bodies/index.js';
 
@@ -32,7 +32,7 @@ export const figureOf = ({ of, figure }) => {
 };
 
 /** A share is shown in percent, below one percent with a decimal, and never as none. */
-const isShare = (/** @type {Figure} */ figure) => figure === MOTOR.saturated;
+const isShare = (/** @type {Figure} */ { scale }) => scale === 100;
 
 /** @param {number} v @param {number} digits */
 const decimals = (v, digits) => Number(v.toFixed(digits));
@@ -124,7 +124,7 @@ export function valuesOf(goal, reply, theta0 = 0) {
 export function written(figure, value) {
   if (value === undefined) {
     if (UNLIMITED.includes(figure)) return t('unlimited');
-    return figure === AXIS.settling ? t('not settled') : Object.values(AXIS).includes(figure) ? t('not reached') : '–';
+    return figure === AXIS.settling ? t('not settled') : figure === AXIS.rise ? t('not reached') : t('none');
   }
   if (isShare(figure)) return value > 0 && value < 0.0005 ? '< 0.1 %' : percent(value, value < 0.01 ? 1 : 0);
   return `${textOf(figure, value).replace('e+', 'e')}${figure.head?.match(/, (\S+)$/)?.[1].replace(/^/, ' ') ?? ''}`;

@@ -4,7 +4,7 @@
  * closed, nor where two tabs send at once. Who holds the lock sends for all.
  * @typedef {import('./shapes.js').Marked} Marked
  * @typedef {{id: string, code: string, student: string, step: string, design: import('../bodies/bodies.js').Body,
- *   answers: import('./shapes.js').Answers, at: string}} Attempt
+ *   answers: import('./shapes.js').Answers, at: string, flight?: import('./shapes.js').Log}} Attempt
  * @typedef {(attempt: Attempt) => Promise<Marked>} Send
  * @typedef {<T>(act: () => Promise<T>) => Promise<T>} Alone  one tab at a time, where browsers can
  */
@@ -13,6 +13,20 @@ import { read, write } from './kept.js';
 const NAME = 'outbox';
 /** More than anybody hands in by hand; the oldest of a full box were long overtaken. */
 const MOST = 200;
+/** Of these the newest keep their flights: logs are long, a browser keeps five million signs, and the best flight of a
+ * step is handed in with every attempt at it. */
+const MOST_FLIGHTS = 20;
+
+/** @param {Attempt[]} attempts oldest first @returns {Attempt[]} */
+function lighter(attempts) {
+  const flown = attempts.filter(({ flight }) => flight);
+  const heavy = new Set(flown.slice(0, -MOST_FLIGHTS));
+  return attempts.map((attempt) => {
+    if (!heavy.has(attempt)) return attempt;
+    const { flight: _flight, ...rest } = attempt;
+    return rest;
+  });
+}
 
 /** @type {Alone} */
 const alone = (act) => (globalThis.navigator?.locks ? navigator.locks.request(`heli2dof.${NAME}`, act) : act());
@@ -31,7 +45,7 @@ export class Outbox {
 
   /** @param {Attempt} attempt */
   put(attempt) {
-    write(NAME, [...this.waiting.filter(({ id }) => id !== attempt.id), attempt].slice(-MOST));
+    write(NAME, lighter([...this.waiting.filter(({ id }) => id !== attempt.id), attempt].slice(-MOST)));
   }
 
   /** @param {string} id */

@@ -5,13 +5,18 @@
  * @typedef {import('./shapes.js').Desk} Desk
  * @typedef {import('./shapes.js').Step} Step
  * @typedef {import('./shapes.js').Marked} Marked
+ * @typedef {{step: string, design: import('../types.js').Design, marked: Marked, flight?: string}} Told  flight: which
  */
 import { messageOf, say, t } from '../text/index.js';
-import { button, copyText, h, setAttr, setText } from '../ui/index.js';
-import { bodyFrom } from '../bodies/index.js';
+import { button, h, setText } from '../ui/index.js';
+import { bodyFrom, designFrom } from '../bodies/index.js';
 import { markdown } from '../markdown/index.js';
+import { copyLink } from './copy_link.js';
+import { flightOf, StepFlights } from './flights.js';
+import { FlyLine } from './fly_line.js';
 import { pointsText } from './goals.js';
 import { GoalList } from './goal_list.js';
+import { StepDots } from './dots.js';
 import { Hints } from './hints.js';
 import { freeParts, locksOf } from './parts.js';
 import { Questions } from './questions.js';
@@ -22,8 +27,7 @@ import { lateText, progressOf, Verdict } from './verdict.js';
 export class LabPanel {
   /** The step that is shown; after the last, the end. */ #at = 0;
   /** @type {import('../types.js').Design|null} the design of the step, as it was kept last */ #kept = null;
-  /** @type {{step: string, design: import('../types.js').Design, marked: Marked}|null} the newest verdict */ #told =
-    null;
+  /** @type {Told|null} the newest verdict */ #told = null;
   /** @type {import('./shapes.js').Answers} */ #answers = {};
   #busy = false;
   #trouble = '';
@@ -44,14 +48,16 @@ export class LabPanel {
     this.goals = new GoalList();
     this.questions = new Questions(lab.math ?? {}, (answers) => this.#answered(answers));
     this.hints = new Hints((n) => this.#hint(n));
+    this.flights = new StepFlights({
+      nameOf: (step) => desk.flightName?.(step) ?? step,
+      design: () => store.state.design && bodyFrom(store.state.design),
+      whole: (body) => bodyFrom(designFrom(body, store.state.presets)),
+      told: () => this.#schedule(),
+    });
+    this.fly = new FlyLine(() => this.#fly());
     this.standing = h('p', { class: 'lab-standing', role: 'status', 'data-testid': 'lab-standing' });
     this.points = h('span', { class: 'lab-points', 'data-testid': 'lab-points' });
-    this.dots = [...lab.steps.keys(), lab.steps.length].map((i) =>
-      button(
-        { class: 'dot', 'data-testid': `lab-step-${i + 1}`, onclick: () => this.start(i) },
-        i < lab.steps.length ? String(i + 1) : '⚑',
-      ),
-    );
+    this.dots = new StepDots(lab, (i) => this.start(i));
     this.title = h('h3', { tabindex: -1, 'data-testid': 'lab-step-title' });
     this.text = h('div', { class: 'lab-text', 'data-testid': 'lab-text' });
     this.free = h('p', { class: 'lab-free', 'data-testid': 'lab-free' });
@@ -82,7 +88,7 @@ export class LabPanel {
     this.foot = h('div', { class: 'lab-foot' }, this.handIn, this.next, this.again);
     const more = [
       desk.who && h('span', { class: 'lab-who', 'data-testid': 'lab-who', translate: 'no' }, desk.who),
-      desk.link && this.#copy(desk.link),
+      desk.link && copyLink(desk.link),
       desk.who && notMe && button({ class: 'quiet', 'data-testid': 'lab-not-me', onclick: notMe }, 'This is not me'),
       leave && button({ class: 'quiet', 'data-testid': 'lab-leave', onclick: leave }, 'Leave the lab'),
     ].filter((node) => typeof node === 'object');
@@ -94,6 +100,7 @@ export class LabPanel {
       this.recording,
       this.free,
       this.goals.node,
+      this.fly.node,
       this.questions.node,
       this.hints.node,
       this.verdict.node,
@@ -104,12 +111,7 @@ export class LabPanel {
         'div',
         { class: 'lab-head' },
         h('h2', { translate: 'no', 'data-testid': 'lab-title' }, lab.title),
-        h(
-          'div',
-          { class: 'lab-progress' },
-          h('div', { class: 'dots', role: 'group', 'aria-label': 'Steps' }, this.dots),
-          this.points,
-        ),
+        h('div', { class: 'lab-progress' }, this.dots.node, this.points),
         this.standing,
       ),
       this.goals.ticker,
@@ -118,6 +120,7 @@ export class LabPanel {
     );
     this.off = new AbortController();
     const { signal } = this.off;
+    this.flights.listen(signal);
     root.addEventListener('keydown', (e) => this.#key(e), { signal });
     let { connection } = store.state;
     const changed = () => {
@@ -133,22 +136,6 @@ export class LabPanel {
     );
     const at = lab.steps.findIndex(({ name }) => name === desk.at);
     this.start(Math.max(0, at));
-  }
-
-  /** @param {string} link */
-  #copy(link) {
-    const copy = button(
-      {
-        class: 'quiet',
-        'data-testid': 'lab-link',
-        title: 'Your personal link: it opens your work on another machine. Who has it is you.',
-        onclick: async () => {
-          setText(copy, (await copyText(link)) ? 'Copied' : 'Not copied');
-        },
-      },
-      'Copy my link',
-    );
-    return copy;
   }
 
   /** @returns {Step|undefined} undefined: the end */
@@ -180,7 +167,7 @@ export class LabPanel {
       this.store.load(design);
       this.store.set({
         locks,
-        task: { free, hidden, goals: step.goals },
+        task: { free, hidden, goals: step.goals, flight: flightOf(step) },
         notice: null,
         view: step.view ?? 'design',
         motion: 'both',
@@ -212,6 +199,7 @@ export class LabPanel {
       ...parts.flatMap((part) => [' ', this.#leadTo(part)]),
     );
     this.goals.show(step?.goals ?? []);
+    this.flights.show(step);
     for (const node of [this.questions.node, this.hints.node, this.handIn, this.again, this.goals.ticker])
       node.hidden = !step;
     this.recording.hidden = !step?.recording || !this.desk.recording;
@@ -284,8 +272,9 @@ export class LabPanel {
     this.render();
     try {
       const answers = this.#answers;
-      const marked = await soon(this.desk.mark(step.name, bodyFrom(design), answers));
-      if (marked && this.step === step) this.#told = { step: step.name, design, marked: { ...marked, answers } };
+      const flight = this.flights.best?.log;
+      const marked = await soon(this.desk.mark(step.name, bodyFrom(design), answers, flight));
+      if (marked && this.step === step) this.#tell(marked, design, answers, flight);
       this.#late = !marked && this.step === step;
     } catch (error) {
       this.#trouble = messageOf(error);
@@ -295,14 +284,21 @@ export class LabPanel {
     this.verdict.node.scrollIntoView({ block: 'nearest' });
   }
 
+  /**
+   * @param {Marked} marked @param {import('../types.js').Design} design
+   * @param {import('./shapes.js').Answers} answers @param {import('./shapes.js').Log} [flight]
+   */
+  #tell(marked, design, answers, flight) {
+    this.#told = { step: this.step?.name ?? '', design, marked: { ...marked, answers }, flight: flight?.checksum };
+  }
+
   /** What had to wait is marked, or refused. @type {import('./shapes.js').Arrived} */
-  #arrived({ step: name, design: body, answers }, marked, error) {
+  #arrived({ step: name, design: body, answers, flight }, marked, error) {
     const { design } = this.store.state;
     if (name !== this.step?.name || !design) return;
     this.#late = false;
     if (!marked) this.#trouble = messageOf(error);
-    else if (JSON.stringify(body) === JSON.stringify(bodyFrom(design)))
-      this.#told = { step: name, design, marked: { ...marked, answers } };
+    else if (JSON.stringify(body) === JSON.stringify(bodyFrom(design))) this.#tell(marked, design, answers, flight);
     this.#schedule();
   }
 
@@ -317,6 +313,11 @@ export class LabPanel {
       this.#trouble = messageOf(error);
     }
     this.#schedule();
+  }
+
+  /** To the view Fly, which takes the task from the state. */
+  #fly() {
+    this.store.set({ view: 'fly' });
   }
 
   async #record() {
@@ -353,29 +354,15 @@ export class LabPanel {
     const steps = lab.steps.map((one) => progressOf(kept[one.name], one));
     const sum = steps.reduce((all, { points }) => all + points, 0);
     setText(this.points, say`${pointsText(sum)} of ${pointsText(lab.points)} points`);
-    this.dots.forEach((dot, i) => {
-      const own = lab.steps[i];
-      const { done = false, tried = false, points = 0 } = steps[i] ?? {};
-      dot.classList.toggle('done', done);
-      dot.classList.toggle('tried', tried && !done);
-      setAttr(
-        dot,
-        'aria-label',
-        !own
-          ? t('The end')
-          : tried
-            ? say`Step ${i + 1}: ${own.title}, ${pointsText(points)} of ${pointsText(own.points)} points`
-            : say`Step ${i + 1}: ${own.title}`,
-      );
-      setAttr(dot, 'title', own?.title ?? t('The end'));
-      if (i === this.#at) dot.setAttribute('aria-current', 'step');
-      else dot.removeAttribute('aria-current');
-    });
+    this.dots.render(steps, this.#at);
     if (!step) return this.verdict.end(this.desk, steps, sum);
     const newest = this.#told?.step === step.name ? this.#told : null;
     const told = newest?.design === state.design ? newest.marked : null;
-    if (state.problem) this.goals.render({ reply: null, design: state.design }, told);
-    else if (state.reply && state.answered === state.design) this.goals.render(state, told);
+    const flown = this.flights.best;
+    const verdict = newest?.flight === flown?.log.checksum ? told : null;
+    if (state.problem) this.goals.render({ reply: null, design: state.design }, verdict, flown);
+    else if (state.reply && state.answered === state.design) this.goals.render(state, verdict, flown);
+    this.fly.render(step, this.flights);
     this.questions.render(newest?.marked ?? kept[step.name]?.best ?? null, kept[step.name]?.hand ?? [], this.#answers);
     this.hints.render(kept[step.name]?.hints ?? []);
     this.handIn.disabled = this.#busy;

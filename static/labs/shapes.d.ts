@@ -1,6 +1,7 @@
 /** What labs send and take (app/contract/labs.py, app/contract/classes.py), as the page reads it. */
 import type { Axis, Motor, View } from '../types.js';
 import type { Body } from '../bodies/bodies.js';
+import type { Figure } from '../model/figures.js';
 
 /** MathML by LaTeX. */
 export type Formulas = Record<string, string>;
@@ -31,7 +32,38 @@ export interface Goal {
   scale?: number;
   /** false: the server alone can tell */
   page?: boolean;
+  /** of a flight: how its figure is written, as the registry has it */
+  written?: Omit<Figure, 'name'>;
+  /** of a flight: what is flown, whether with the controller off, and whether the design may change in the air */
+  task?: string;
+  hands?: 'on' | 'off';
+  changes?: 'allowed';
+  /** of its gusts */
+  seed?: number;
 }
+
+/** Of a flight, as static/flight/log.js writes it. */
+export interface Log {
+  task: string;
+  seed: number;
+  ticks: number;
+  checksum: string;
+  design: Body;
+  events: [tick: number, word: string, ...values: (number | Body)[]][];
+  [part: string]: unknown;
+}
+
+/** What is flown in a step of a lab. */
+export interface FlightAsked {
+  task: string;
+  hands?: 'on' | 'off';
+  changes?: 'allowed';
+  /** of the gusts; without: each flight its own */
+  seed?: number;
+}
+
+/** A flight's figures, some by axis. */
+export type FlightValues = Record<string, number | Partial<Record<Axis, number>>>;
 
 export interface Question {
   name: string;
@@ -149,7 +181,7 @@ export interface Standing {
 
 /** Of an attempt that could not be sent at once: its mark, or null and why it was refused for good. */
 export type Arrived = (
-  attempt: { step: string; design: Body; answers: Answers },
+  attempt: { step: string; design: Body; answers: Answers; flight?: Log },
   marked: Marked | null,
   error?: unknown,
 ) => void;
@@ -166,13 +198,15 @@ export interface Desk {
   who: string;
   standing: Standing;
   /** null: it waits, and `changed` tells when it was marked */
-  mark(step: string, design: Body, answers: Answers): Promise<Marked | null>;
+  mark(step: string, design: Body, answers: Answers, flight?: Log): Promise<Marked | null>;
   /** `hint` from 1 */
   hint(step: string, hint: number): Promise<HintText>;
   /** where the student is, with what; soon after, and the newest alone */
   keep(step: string, design: Body, answers: Answers): void;
   /** `told` is called where `kept` or `standing` are others, `arrived` where what had waited is marked */
   onChange(told: () => void, arrived: Arrived): void;
+  /** under which name this browser keeps a step's flight; left out where nothing is flown */
+  flightName?(step: string): string;
   /** a personal link to it; null where there is none */
   link?: string | null;
   /** a recording of the student's own rig */

@@ -8,10 +8,12 @@
  * @typedef {import('./types.d.ts').Move} Move
  * @typedef {ConstructorParameters<typeof MapFeed>[0]} Show
  */
-import { axisOf, hides, isComplex, kindOf, placesPoles, presetOf, setReal, tidy } from '../model/index.js';
+import { axisOf, handlesOf, hides, isComplex, kindOf, placesPoles, presetOf, setReal, tidy } from '../model/index.js';
 import { h, setAttr } from '../ui/index.js';
+import { toPixel } from '../splane/index.js';
 import { Bar, fieldsButton, LOW } from './bar.js';
 import { choiceOf, CHOICES, linkOf, measureOf } from './choices.js';
+import { emptierSide } from './corner.js';
 import { MapFeed } from './feed.js';
 import { Legend } from './legend.js';
 import { lookOf, lookOfPage } from './look.js';
@@ -26,7 +28,7 @@ const AXES = /** @type {const} */ (['theta', 'psi']);
 /** Of the rigs, where the page shows no cloud. */
 const SPREAD = 0.1;
 /** Of the plane in which a real pair's own has room, px. */
-const LEAST = 230;
+const LEAST = 205;
 /** Poles this near to the imaginary axis are on none of the maps, of what is seen. */
 const EDGE = 1e-3;
 
@@ -199,6 +201,7 @@ export class Maps {
     if (real) {
       const both = { x: { ...domain.x, to: 0 }, y: { ...domain.x, to: 0 } };
       this.pair.node.classList.toggle('yaw', own === 1);
+      if (!this.store.busy) this.#clear(design); // under a hand it stays where it is
       this.pair.place(both, { x: design.poles[2 * own].re, y: design.poles[2 * own + 1].re });
       this.pairFeed.render(wanted({ ...pair, real: true, domain: both }));
     } else this.pairFeed.render(null);
@@ -230,6 +233,14 @@ export class Maps {
       x: { from: left, to: right - EDGE * (right - left), log: false },
       y: { from: 0, to: top, log: false },
     };
+  }
+
+  /** Puts the pair's own plane where it hides least. @param {Design} design */
+  #clear(design) {
+    const { view } = this.plane;
+    const poles = [...handlesOf(design), ...(this.store.state.reply?.loop_poles ?? [])];
+    const marks = poles.flatMap((p) => (p ? [toPixel(view, p)] : []));
+    setAttr(/** @type {Element} */ (this.pair.node.parentElement), 'data-side', emptierSide(marks, view));
   }
 
   /** A hand on a pole. @param {number} index */

@@ -12,6 +12,7 @@
 export const VIEWS = {
   explore: { title: 'Explore', key: 'E', about: 'The first minute: six things to try', places: [] },
   design: { title: 'Design', key: 'D', about: 'The whole instrument', places: [] },
+  fly: { title: 'Fly', key: 'Y', about: 'Fly it by hand, with the design that you have made', places: ['flight'] },
   find: { title: 'Find', key: 'F', about: 'Say what a design shall do, and have it found', places: [] },
   compare: { title: 'Compare', key: 'C', about: 'Methods and pinned designs side by side', places: ['pins'] },
   rig: {

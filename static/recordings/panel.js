@@ -15,6 +15,7 @@ const AXES = /** @type {const} */ (['theta', 'psi']);
 export class RecordingsPanel {
   /** @type {unknown[]} */ #seen = [];
   /** @type {import('../contract.js').Preview|null} */ #preview = null;
+  /** Whether the recording that is awaited was handed over elsewhere on the page. */ #handed = false;
 
   /**
    * @param {HTMLElement} root
@@ -24,8 +25,12 @@ export class RecordingsPanel {
   constructor(root, store, plots) {
     this.store = store;
     this.feed = new RecordingFeed(store);
-    // a lab has fetched the recording of a student's rig
-    document.addEventListener('recording', (e) => this.feed.send([/** @type {CustomEvent} */ (e).detail]));
+    this.root = root;
+    // a lab has fetched the recording of a student's rig, or a flight has become one
+    document.addEventListener('recording', (e) => {
+      this.#handed = true;
+      this.feed.send([/** @type {CustomEvent} */ (e).detail]);
+    });
     const tool = (/** @type {string} */ id, /** @type {string} */ text, /** @type {() => void} */ act, title = '') =>
       button({ 'data-testid': `recording-${id}`, title: title || undefined, onclick: act }, text);
     this.file = h('input', {
@@ -141,7 +146,11 @@ export class RecordingsPanel {
     const made = preview?.findings.find((f) => f.code === 'synthetic');
     this.synthetic.hidden = !made;
     setText(this.synthetic, made ? `Synthetic. ${made.message}` : '');
-    if (preview && preview !== this.#preview && columns) this.mapping.show(preview, columns);
+    if (preview && preview !== this.#preview) {
+      if (columns) this.mapping.show(preview, columns);
+      if (this.#handed) this.root.scrollIntoView(); // there is room for it only now
+      this.#handed = false;
+    }
     this.#preview = preview;
     if (columns) this.mapping.render(columns);
     this.mapping.dialect(this.feed.dialect(recorded));

@@ -46,15 +46,22 @@ export function flightsOf({ reply, motion, pins, beside }, wanted, color) {
  * Returns viser's messages that put the ghosts where they are at a time in seconds, each held at the end of its own
  * response, and hide the others.
  * @param {Flight[]} flights @param {number} time
+ */
+export const ghostMessages = (flights, time) =>
+  ghostsAt(flights.map((own) => ({ ...own, ...sampleTrajectory({ ...own.trajectory, V_p: [], V_y: [] }, time) })));
+
+/**
+ * The same of ghosts that somebody else flies.
+ * @typedef {Omit<Flight, 'trajectory'> & {theta: number, psi: number}} Ghost
+ * @param {Ghost[]} ghosts
  * @returns {import("./pose.js").SceneMessage[]}
  */
-export function ghostMessages(flights, time) {
+export function ghostsAt(ghosts) {
   return SLOTS.flatMap((slot) => {
     const node = `/ghosts/${slot}`;
-    const flight = flights.find((f) => f.slot === slot);
-    if (flight === undefined) return [show(node, false)];
-    const { trajectory, color, label } = flight;
-    const { theta, psi } = sampleTrajectory({ ...trajectory, V_p: [], V_y: [] }, time);
+    const ghost = ghosts.find((own) => own.slot === slot);
+    if (ghost === undefined) return [show(node, false)];
+    const { theta, psi, color, label } = ghost;
     return [
       show(node, true),
       turn(`${node}/yoke`, 'z', -psi),

@@ -5,6 +5,7 @@
  * @typedef {import('./clock.js').Snapshot} Snapshot
  * @typedef {import('./panel.js').Edits} Edits
  * @typedef {{others: number, leads: boolean, count: number}} Windows  count: of the panel's messages so far
+ * @typedef {{pitch: number, yaw: number}} Sticks  what is asked of a flight, −1 … 1: nose up, nose to the right
  */
 import { decodeFrame, encodeFrame, LatestSocket } from '../net/index.js';
 
@@ -21,6 +22,7 @@ export class Hub {
   /** The server's clock less ours, and how well it is known; seconds. @type {{offset: number, trip: number}|null} */
   #clock = null;
   /** @type {(() => void)[]} What needs the server's time. */ #later = [];
+  /** Others fly along. @type {(sticks: Sticks) => void} */ onSticks = () => {};
   #pings = 0;
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #timer;
 
@@ -85,6 +87,11 @@ export class Hub {
     );
   }
 
+  /** Flies along in another window. @param {Sticks} sticks */
+  steer({ pitch, yaw }) {
+    this.#socket.send(JSON.stringify({ type: 'sticks', pitch, yaw }));
+  }
+
   close() {
     clearTimeout(this.#timer);
     this.#socket.close();
@@ -98,6 +105,7 @@ export class Hub {
 
   #lost() {
     this.#others = 0;
+    this.onSticks({ pitch: 0, yaw: 0 });
     this.#socket.asks.drop();
     this.#later = [];
     clearTimeout(this.#timer);
@@ -141,6 +149,7 @@ export class Hub {
       const { playing, time, speed, loop, at } = message;
       this.#timed((offset) => this.onTransport({ playing, time, speed, loop }, Math.max(0, this.now() + offset - at)));
     } else if (message.type === 'panel') this.onEdits(message.edits, message.count);
+    else if (message.type === 'sticks') this.onSticks(message);
     else if (message.type === 'windows') {
       this.#others = message.others;
       this.onWindows(message);

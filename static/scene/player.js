@@ -8,6 +8,7 @@ import { interpolate, poseMessages, rotorAngles, sampleTrajectory, themeMessages
 /** @typedef {import("./pose.js").Trajectory} Trajectory */
 /** @typedef {import("./pose.js").Sample} Sample */
 /** @typedef {import("./pose.js").Limits} Limits */
+/** @typedef {import("./pose.js").SceneMessage} SceneMessage */
 /** @typedef {import("./clock.js").Snapshot} Snapshot */
 /** @typedef {import("./ghosts.js").Flight} Flight */
 /** @typedef {import("./cameras.js").CameraName} CameraName */
@@ -73,6 +74,7 @@ export class ScenePlayer {
   #before = NaN;
   #seen = true;
   #request = 0;
+  /** What is shown in place of the trajectory. @type {{messages: SceneMessage[], psi: number}|null} */ #live = null;
   /** @type {{snapshot: Snapshot, since: number} | null} What was to be followed before there was a trajectory. */
   #awaited = null;
 
@@ -163,6 +165,16 @@ export class ScenePlayer {
     this.#clock.apply(snapshot, elapsed);
     this.#before = NaN;
     this.#run();
+  }
+
+  /**
+   * Shows a pose of somebody else's making, until there is none.
+   * @param {{messages: SceneMessage[], psi: number}|null} pose viser's messages; the yaw angle, radians
+   */
+  live(pose) {
+    this.#live = pose;
+    if (pose) this.#move();
+    else this.#show(); // the figures are the trajectory's again, too
   }
 
   /** @param {boolean} seen whether the scene is drawn at all; where it is not, nothing moves in it */
@@ -263,29 +275,35 @@ export class ScenePlayer {
 
   /** @param {CameraName | "home"} camera @param {boolean} again also where the viewer has moved it since */
   #aim(camera, again) {
-    const psi = this.#trajectory === null ? 0 : sampleTrajectory(this.#trajectory, this.time).psi;
+    const psi = (this.#live ?? (this.#trajectory && sampleTrajectory(this.#trajectory, this.time)))?.psi ?? 0;
     const aspect = this.#link.aspect || undefined;
     const pose = this.#view && cameraPose(camera, this.#view, { aspect, psi });
     if (pose) this.#link.send(cameraMessages(pose), { again });
   }
 
   #show() {
-    if (this.#trajectory === null) return;
+    if (this.#trajectory === null || this.#live) return;
     this.#onFrame(sampleTrajectory(this.#trajectory, this.time));
     this.#move();
   }
 
   /** Sends the pose at the present time, as far as the scene does not show it already. */
   #move() {
-    const trajectory = this.#trajectory;
-    if (trajectory === null || !this.#seen) return;
+    if (!this.#seen) return;
+    const messages = this.#live?.messages ?? (this.#trajectory && this.#posed(this.#trajectory));
+    if (!messages) return;
+    this.#link.send(messages);
+    if (this.#camera === 'follow') this.#aim('follow', false);
+  }
+
+  /** @param {Trajectory} trajectory */
+  #posed(trajectory) {
     const sample = sampleTrajectory(trajectory, this.time);
     const { pitch, yaw } = this.#angles;
     const [pitchRotor, yawRotor] = interpolate(trajectory.t, [pitch, yaw], this.time);
     const { reference } = trajectory;
     const pose = { ...sample, pitchRotor, yawRotor, reference, limits: this.#limits, dark: this.#dark === true };
-    this.#link.send([...poseMessages(pose), ...ghostMessages(this.#flights, this.time)]);
-    if (this.#camera === 'follow') this.#aim('follow', false);
+    return [...poseMessages(pose), ...ghostMessages(this.#flights, this.time)];
   }
 
   #report() {

@@ -25,8 +25,9 @@
  * @typedef {Partial<import('../contract.js').Limits>} Limits
  *
  * What the scene shows: a sample, the propellers' angles in radians, the reference, the limits.
+ * Rotors that lag, or have lost thrust, push as if their motors had had other voltages for long: those are `thrust`.
  * @typedef {Sample & {pitchRotor?: number, yawRotor?: number, limits?: Limits, dark?: boolean,
- *   reference?: {theta: number, psi: number}}} Pose
+ *   thrust?: readonly [pitch: number, yaw: number], reference?: {theta: number, psi: number}}} Pose
  */
 
 /** @typedef {{type: string, name: string, [key: string]: unknown}} SceneMessage */
@@ -190,18 +191,17 @@ export function themeMessages(dark) {
 }
 
 /**
- * Returns the messages that draw a motor's thrust: as long as its voltage is large, red and capped where the motor
- * gives all it can.
- * @param {string} node @param {number} volts @param {number} limit volts @param {boolean} [dark]
+ * Returns the messages that draw a rotor's thrust: as long as it is large, red and capped where the motor gives all it
+ * can.
+ * @param {string} node @param {number} volts that give it @param {boolean} full @param {boolean} [dark]
  * @returns {SceneMessage[]}
  */
-function thrustMessages(node, volts, limit, dark) {
+function thrustMessages(node, volts, full, dark) {
   const size = Math.abs(volts);
   return ['positive', 'negative'].flatMap((sign) => {
     const arrow = `${node}_${sign}`;
     const drawn = size > LEAST_VOLTAGE && volts > 0 === (sign === 'positive');
     if (!drawn) return [show(arrow, false)];
-    const full = size >= limit - AT_LIMIT;
     const { stop, thrust } = colors(dark);
     const color = full ? stop : thrust;
     const length = size * THRUST_SCALE;
@@ -242,13 +242,13 @@ function stopMessages(limit) {
  * @returns {SceneMessage[]}
  */
 export function poseMessages(pose) {
-  const { theta, psi, V_p, V_y, reference, limits = {}, dark } = pose;
+  const { theta, psi, V_p, V_y, thrust = [V_p, V_y], reference, limits = {}, dark } = pose;
   const messages = [turn(YOKE, 'z', -psi), turn(BODY, 'y', -theta), ...stopMessages(limits.theta)];
   const rotors = /** @type {const} */ ([
-    ['pitch', 'z', pose.pitchRotor, V_p, limits.V_p],
-    ['yaw', 'y', pose.yawRotor, V_y, limits.V_y],
+    ['pitch', 'z', pose.pitchRotor, V_p, thrust[0], limits.V_p],
+    ['yaw', 'y', pose.yawRotor, V_y, thrust[1], limits.V_y],
   ]);
-  for (const [name, axis, angle = 0, volts, limit = Infinity] of rotors) {
+  for (const [name, axis, angle = 0, volts, pushes, limit = Infinity] of rotors) {
     const fast = Math.abs(volts) > BLUR_VOLTAGE;
     for (const [part, seen] of /** @type {const} */ ([
       ['rotor', !fast],
@@ -256,7 +256,7 @@ export function poseMessages(pose) {
     ])) {
       messages.push(turn(`${BODY}/${name}_${part}`, axis, angle), show(`${BODY}/${name}_${part}`, seen));
     }
-    messages.push(...thrustMessages(`${BODY}/${name}_thrust`, volts, limit, dark));
+    messages.push(...thrustMessages(`${BODY}/${name}_thrust`, pushes, Math.abs(volts) >= limit - AT_LIMIT, dark));
   }
   const away = reference !== undefined && Math.hypot(reference.theta - theta, reference.psi - psi) > GHOST_DISTANCE;
   messages.push(show(GHOST, away));

@@ -75,19 +75,24 @@ export class SceneSharing {
     steer(this.scene.player, edits);
   }
 
+  /**
+   * @param {import('../types.js').Step} motion @param {object} [more]
+   * @returns {boolean} whether somebody may see it
+   */
+  tell(motion, more) {
+    const { reply, answered, motion: which } = this.store.state;
+    if (!this.hub.others || !reply || !answered) return false;
+    const [rig, after] = [this.store.preset?.rig ?? '', this.#counts.get(answered) ?? 0];
+    this.hub.show({ ...shownOf(evaluationOf(answered), reply, motion, { motion: which, rig, after }), ...more });
+    this.#told = more ? null : motion; // a flight may have taken its place before it went
+    return true;
+  }
+
   #show() {
-    const { reply, answered, motion } = this.store.state;
-    if (!this.hub.others || !reply || !answered) return;
+    const { reply, motion } = this.store.state;
+    if (!this.hub.others || !reply) return;
     const step = (motionOf(reply, motion) ?? reply.step).nonlinear;
-    if (step === this.#told) return;
-    this.#told = step;
-    this.hub.show(
-      shownOf(evaluationOf(answered), reply, step, {
-        motion,
-        rig: this.store.preset?.rig ?? '',
-        after: this.#counts.get(answered) ?? 0,
-      }),
-    );
+    if (step === this.#told || !this.tell(step)) return;
     if (!document.hidden) return;
     this.scene.render(this.store.state);
     if (!this.#calm.matches) this.scene.player.replay();

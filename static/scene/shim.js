@@ -63,6 +63,37 @@
     else requestAnimationFrame(() => whenDrained(connection, frames - 1));
   }
 
+  /**
+   * Tells the page at once where the scene is seen from, in the rig's own axes (metres, z up), and where its picture is
+   * within the frame, CSS px. The page takes hold of the rig by rays through it; three.js' own axes have y up. Where
+   * viser does not show its camera, nothing is told.
+   */
+  function tellCamera() {
+    const viser = /** @type {Window & {__viserMutable?: import('../flight/camera.js').Viser}} */ (window)
+      .__viserMutable;
+    const { camera, canvas } = viser ?? {};
+    const root = viser?.nodeRefFromName?.[''];
+    if (!camera || !canvas || !root) return;
+    const inRig = (/** @type {[number, number, number]} */ ...seen) => {
+      const { x, y, z } = root.worldToLocal(camera.localToWorld(camera.position.clone().set(...seen)));
+      return [x, y, z];
+    };
+    const { left, top, width, height } = canvas.getBoundingClientRect();
+    const data = {
+      channel: CHANNEL,
+      camera: {
+        position: inRig(0, 0, 0),
+        ahead: inRig(0, 0, -1),
+        above: inRig(0, 1, 0),
+        fov: (camera.fov * Math.PI) / 180,
+        aspect: camera.aspect,
+        box: [left, top, width, height],
+      },
+    };
+    const { origin } = location;
+    window.parent.dispatchEvent(new MessageEvent('message', { data, origin, source: window }));
+  }
+
   /** @param {MessageEvent} event What the socket's worker tells the client. */
   function observe(event) {
     const { type, messages, closeReason } = event.data;
@@ -106,6 +137,8 @@
     } else if (data.kind === 'theme') {
       document.documentElement.dataset.theme = data.dark ? 'dark' : 'light';
       paint();
+    } else if (data.kind === 'camera') {
+      tellCamera();
     } else if (data.kind === 'pose' && state.state !== 'loading') {
       deliver(data.messages.filter((/** @type {{type: string}} */ m) => MOVES.has(m.type)));
     }

@@ -11,7 +11,6 @@ import { RigKeeper } from './rig_keeper.js';
 import { ScenePlayer } from './player.js';
 import { SceneControls } from './controls.js';
 import { flightsOf } from './ghosts.js';
-import { sceneMenu } from './menu.js';
 import { AT_LIMIT } from './pose.js';
 import { Transport } from './transport.js';
 
@@ -125,7 +124,6 @@ export class SceneView {
       onTransport,
     });
     this.player.setCamera(this.controls.camera);
-    if (this.webgl) this.transport.node.append(sceneMenu(store, this.session));
     if (this.webgl) this.#watchFrame();
     if (this.webgl) this.#followTheme();
     this.#state(this.#last);

@@ -10,6 +10,9 @@ import { h, setText } from '../ui/index.js';
 import { Hub, publishClock } from './hub.js';
 import { ScenePlayer } from './player.js';
 import { edited, shownOf, steer, trajectoryIn } from './panel.js';
+import { Partner } from './partner.js';
+import { poseMessages, ROTOR_SCALE } from './pose.js';
+import { Spectator } from './spectator.js';
 import { InStep } from './step.js';
 
 const APP = new URL('../../', location.href); // the page is served at …/scene/{session}/
@@ -22,6 +25,9 @@ class SceneWindow {
   #count = 0;
   #alone = false;
   /** @type {string|null} The rig that the camera was aimed at. */ #aimed = null;
+  /** A flight of the page's. */ #spectator = new Spectator();
+  /** Angles of both propellers, rad. */ #rotors = [0, 0];
+  #request = 0;
 
   constructor() {
     this.words = h(
@@ -30,7 +36,8 @@ class SceneWindow {
       'Waiting for the page that this scene belongs to…',
     );
     this.time = h('output', { class: 'window-time', 'data-testid': 'window-time' });
-    document.body.append(h('div', { class: 'window-notes' }, this.words, this.time));
+    this.partner = new Partner((sticks) => this.hub.steer(sticks));
+    document.body.append(h('div', { class: 'window-notes' }, this.words, this.time), this.partner.node);
     const frame = {
       contentWindow: window,
       get clientWidth() {
@@ -73,9 +80,34 @@ class SceneWindow {
 
   /** @param {unknown} shown */
   #show(shown) {
-    if (!trajectoryIn(shown)) return;
+    const trajectory = trajectoryIn(shown);
+    if (!trajectory) return;
     this.#asked = null;
-    this.#load(/** @type {import('./panel.js').Shown} */ (shown));
+    const { flight } = /** @type {{flight?: import('./spectator.js').Told}} */ (shown);
+    if (!flight) return this.#load(/** @type {import('./panel.js').Shown} */ (shown));
+    if (!this.#shown) this.#load(/** @type {import('./panel.js').Shown} */ (shown)); // who has come amid a flight
+    this.#spectator.take(flight, trajectory, performance.now());
+    if (!this.#request) this.#fly(performance.now());
+  }
+
+  /** A flight, for as long as one hears of it. @param {number} before ms, of the last frame */
+  #fly(before) {
+    this.#request = requestAnimationFrame((now) => {
+      this.#request = 0;
+      const pose = this.#spectator.at(now);
+      const watches = pose !== null && this.#spectator.watches(performance.now());
+      this.partner.show(watches);
+      if (!watches) return this.player.live(null);
+      const { psi, theta, V_p, V_y } = pose;
+      const turned = (ROTOR_SCALE * Math.max(now - before, 0)) / 1000;
+      this.#rotors = [this.#rotors[0] + turned * V_p, this.#rotors[1] + turned * V_y];
+      const [pitchRotor, yawRotor] = this.#rotors;
+      const limits = this.#shown?.limits ?? {};
+      const dark = matchMedia('(prefers-color-scheme: dark)').matches;
+      this.player.live({ messages: poseMessages({ ...pose, pitchRotor, yawRotor, limits, dark }), psi });
+      setText(this.time, `${fixed(pose.t, 2)} s   θ ${degrees(theta)}   ψ ${degrees(psi)}`);
+      this.#fly(now);
+    });
   }
 
   /** @param {import('./panel.js').Shown} shown */

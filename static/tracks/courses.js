@@ -79,20 +79,6 @@ export function along([low, high], log) {
   };
 }
 
-/** A pole counts as on the border of stability where it is as near to it, of the fastest pole; as on the server. */
-const ON_BORDER = 1e-9;
-
-/**
- * Whether the loop is not stable, but no pole lies beyond the border of stability either: some lie on it.
- * @param {Pick<TrackReply, 'plane'|'poles'|'stable'>} track @param {number} k
- */
-export function isOnBorder({ plane, poles, stable }, k) {
-  if (stable[k] || !poles.length) return false;
-  const sizes = poles.map((course) => Math.hypot(course[k].re, course[k].im));
-  const slack = plane === 's' ? ON_BORDER * Math.max(...sizes) : ON_BORDER;
-  return poles.every((course, i) => (plane === 's' ? course[k].re : Math.log(sizes[i])) <= slack);
-}
-
 /**
  * @typedef {object} End  of a stretch of stable values
  * @property {number} value
@@ -102,11 +88,11 @@ export function isOnBorder({ plane, poles, stable }, k) {
 
 /**
  * From where to where the loop is stable.
- * @param {Pick<TrackReply, 'plane'|'poles'|'values'|'starts'|'stable'|'crossings'>} track
+ * @param {Pick<TrackReply, 'values'|'starts'|'stable'|'on_border'|'crossings'>} track
  * @returns {[End, End][]}
  */
 export function stableRanges(track) {
-  const { values, starts, stable, crossings } = track;
+  const { values, starts, stable, on_border, crossings } = track;
   /** @type {[End, End][]} */ const found = [];
   /** @param {number} k stable @param {number} other  its neighbour, which is not @returns {End} */
   const edge = (k, other) => {
@@ -116,7 +102,7 @@ export function stableRanges(track) {
     // of several poles that cross in one step the one that is nearest to what is stable
     const crossing = between.filter(({ outwards }) => outwards === k < other).at(k < other ? 0 : -1);
     if (crossing) return { value: crossing.value, by: 'crossing' };
-    if (!apart && isOnBorder(track, other)) return { value: values[other], by: 'border' };
+    if (!apart && on_border[other]) return { value: values[other], by: 'border' };
     return { value: values[k], by: 'known' };
   };
   for (const k of values.keys()) {
@@ -129,14 +115,15 @@ export function stableRanges(track) {
 
 /**
  * Where the loop is stable, in words.
- * @param {Parameters<typeof stableRanges>[0]} track @param {(v: number) => string} text  of a value
+ * @param {Pick<TrackReply, 'plane'> & Parameters<typeof stableRanges>[0]} track
+ * @param {(v: number) => string} text  of a value
  */
 export function summary(track, text) {
-  const { values, plane } = track;
-  if (track.stable.every(Boolean)) return t('stable throughout');
+  const { values, plane, stable, on_border } = track;
+  if (stable.every(Boolean)) return t('stable throughout');
   const ranges = stableRanges(track);
   const border = plane === 's' ? t('the imaginary axis') : t('the unit circle');
-  const touched = values.flatMap((value, k) => (isOnBorder(track, k) ? [text(value)] : []));
+  const touched = values.flatMap((value, k) => (on_border[k] ? [text(value)] : []));
   const words = ranges.length ? ranges.map((range) => rangeText(range, values, text)) : [t('never stable')];
   if (touched.length) words.push(say`at ${brief(touched)} poles on ${border}`);
   return words.join('; ');

@@ -12,7 +12,7 @@ import { hides } from '../model/index.js';
 import { h, saveFile, setAttr, setText } from '../ui/index.js';
 import { toPixel } from '../splane/index.js';
 import { Bar, STEPS } from './bar.js';
-import { along, indexOf, isOnBorder, nearest, summary } from './courses.js';
+import { along, indexOf, nearest, summary } from './courses.js';
 import { trackFile, TrackFeed } from './feed.js';
 import { FIGURES, told, toldBy, valueText } from './figures.js';
 import { Layer } from './layer.js';
@@ -330,6 +330,6 @@ function here(track, index) {
   }
   const texts = [...figures].map(([head, values]) => say`${t(head)} ${values.join(', ')}`);
   const border = track.plane === 's' ? t('poles on the imaginary axis') : t('poles on the unit circle');
-  const state = track.stable[index] ? t('stable') : isOnBorder(track, index) ? border : t('unstable');
+  const state = track.stable[index] ? t('stable') : track.on_border[index] ? border : t('unstable');
   return [state, ...texts].join(' · ');
 }

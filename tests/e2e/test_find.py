@@ -19,6 +19,7 @@ from tests.e2e.test_axe import RUN, violations
 FOUND: dict[str, Any] = json.loads(Path("tests/page/fixtures/find_reply.json").read_text("utf-8"))
 """A recorded reply, so that these tests need no search."""
 PROGRESS = {"done": False, "tried": 4000, "designs": 20000, "seconds": 0.4, "met": 12, "points": []}
+SO_FAR = {**PROGRESS, "points": [[0.7, 21.5], [0.9, 18.2], [1.2, 16.0]]}
 NOISY = "#v1&scenario.noise.theta=0.001&scenario.measured=filtered&view=find"
 """What the page's own kernel does not serve."""
 
@@ -30,15 +31,16 @@ MARKS = """() => [...document.querySelectorAll(".splane-svg :is(.pole, .loop-pol
 class Finder:
     """The server's search, as the recorded reply has it; what it was asked."""
 
-    def __init__(self, page: Page, *replies: dict[str, Any]) -> None:
+    def __init__(self, page: Page, *replies: dict[str, Any], progress: dict[str, Any] = PROGRESS) -> None:
         self.asked: list[dict[str, Any]] = []
         self.replies = list(replies) or [FOUND]
+        self.progress = progress
         page.route_web_socket(re.compile("/api/v1/find"), self._answer)
 
     def _answer(self, socket: WebSocketRoute) -> None:
         def message(text: str | bytes) -> None:
             self.asked.append(json.loads(text))
-            socket.send(json.dumps(PROGRESS))
+            socket.send(json.dumps(self.progress))
             reply = self.replies.pop(0) if len(self.replies) > 1 else self.replies[0]
             if reply:
                 socket.send(json.dumps(reply))
@@ -324,6 +326,40 @@ def test_a_search_can_be_called_off(chromium: Browser, app: App):
         page.keyboard.press("Enter")
         expect(page.get_by_test_id("find-standing")).to_have_text("Called off.")
         expect(page.get_by_test_id("find-run")).to_be_focused()
+
+
+def test_the_front_so_far_is_drawn_while_it_searches(chromium: Browser, app: App):
+    with opened(chromium, app.url + "#find") as page:
+        finder = Finder(page, {}, progress=SO_FAR)
+        so_far = page.get_by_test_id("find-so-far").locator("circle")
+        page.get_by_test_id("find-run").click()
+        expect(so_far).to_have_count(3)
+        expect(page.get_by_test_id("find-scatter")).to_be_visible()
+        expect(page.get_by_test_id("find-empty")).to_be_hidden()
+        expect(page.get_by_test_id("find-x")).to_be_hidden()
+        page.get_by_test_id("find-cancel").click()
+        expect(page.get_by_test_id("find-scatter")).to_be_hidden()
+        expect(page.get_by_test_id("find-empty")).to_be_visible()
+        finder.replies = [FOUND]
+        search(page)
+        expect(so_far).to_have_count(0)
+        expect(page.get_by_test_id("find-x")).to_be_visible()
+        # beside what was found before, where it is looked at by the same figures
+        finder.replies = [{}]
+        page.get_by_test_id("find-run").click()
+        expect(so_far).to_have_count(3)
+        expect(point(page, 0)).to_be_visible()
+        page.get_by_test_id("find-x").select_option("2")
+        expect(so_far).to_have_count(0)
+        expect(point(page, 0)).to_be_visible()
+        page.get_by_test_id("find-cancel").click()
+        # the next one turns to what it makes better
+        page.get_by_test_id("find-run").click()
+        expect(so_far).to_have_count(3)
+        expect(page.get_by_test_id("find-x")).to_have_value("0")
+        page.get_by_test_id("find-cancel").click()
+        expect(so_far).to_have_count(0)
+        expect(point(page, 0)).to_be_visible()
 
 
 def test_what_a_link_locks_is_not_searched(chromium: Browser, app: App):

@@ -131,6 +131,28 @@ def test_a_real_pair_has_a_plane_of_its_own_in_which_its_point_is_dragged(chromi
         assert [p["re"] for p in state(page)["poles"]][:2] == [-12, -10], "a drag is one step of undo"
 
 
+def test_what_is_said_of_a_pole_stands_under_the_map_and_the_pairs_plane_beside_the_poles(
+    chromium: Browser, app: App
+):
+    with mapped(chromium, app, "&p=-12,-10,-9%2B1j,-9-1j&map=settling_time") as page:
+        painted(page)
+        plane = page.get_by_test_id("splane").bounding_box()
+        assert plane is not None
+        bottom = plane["y"] + plane["height"]
+        note = page.get_by_test_id("lag-words").bounding_box()
+        assert note is not None and note["y"] >= bottom - 1
+        pad = page.get_by_test_id("map-pair").bounding_box()
+        assert pad is not None and pad["y"] + pad["height"] < bottom
+        for k in range(4):
+            x, y = centre(page, f"pole-{k}")
+            assert not (pad["x"] < x < pad["x"] + pad["width"] and pad["y"] < y < pad["y"] + pad["height"])
+        page.mouse.move(*centre(page, "pole-2"))
+        readout = page.get_by_test_id("readout")
+        expect(readout).to_contain_text("−9.00 ± 1.00j rad/s", use_inner_text=True)
+        box = readout.bounding_box()
+        assert box is not None and box["y"] >= bottom - 1 and box["height"] < 30
+
+
 def test_the_point_of_a_loop_is_dragged_over_its_map_and_keys_move_it(chromium: Browser, app: App):
     with mapped(chromium, app, f"{COMPLEX}&map=settling_time", size=LARGE) as page:
         page.wait_for_function(f"() => ({PICTURE})('{PAD}')")

@@ -6,7 +6,16 @@ import { beforeEach, test } from 'node:test';
 import { Candidates } from '../../static/finder/candidates.js';
 import { FindFeed } from '../../static/finder/feed.js';
 import { Preview } from '../../static/finder/preview.js';
-import { brushed, firstAxes, limitsOn, nearest, pointsOf, stepped } from '../../static/finder/scatter_math.js';
+import {
+  begun,
+  brushed,
+  firstAxes,
+  limitsOn,
+  nearest,
+  pointsOf,
+  soFarOn,
+  stepped,
+} from '../../static/finder/scatter_math.js';
 import * as settings from '../../static/finder/settings.js';
 import { linkOf, readLink } from '../../static/link/permalink.js';
 import { bodyOf, designOf, initialState, Store } from '../../static/model/index.js';
@@ -325,6 +334,29 @@ test('limits stand in the units of the axes', () => {
   const share = { figure: 2, max: 0.1, limit: '≤ 10 %', words: '' };
   const found = { ...FOUND, figures: [...FOUND.figures.slice(0, 2), { ...FOUND.figures[2], measure: 'saturated' }] };
   assert.deepEqual(limitsOn({ ...found, requirements: [share] }, 2), [{ at: 10, most: true, limit: '≤ 10 %' }]);
+});
+
+test('the front so far lies where its designs will, in whichever figures the search makes better', () => {
+  const peak = { measure: 'V_peak', axis: 'both', model: 'nonlinear', title: '' };
+  const error = { measure: 'steady_state_error', title: '' };
+  const soFar = {
+    figures: [{ measure: 'settling_time', title: '' }, peak, error],
+    points: [[0.7, 12, -Math.PI / 180], [0.9, 10, 0]], // prettier-ignore
+  };
+  const settled = [{ x: 0.7, y: 12 }, { x: 0.9, y: 10 }]; // prettier-ignore
+  const { x, y } = firstAxes(FOUND);
+  assert.deepEqual(soFarOn(FOUND, x, y, soFar), settled, 'the same response, whether it is said or not');
+  assert.deepEqual(
+    soFarOn(FOUND, y, x, soFar),
+    settled.map((p) => ({ x: p.y, y: p.x })),
+  );
+  assert.deepEqual(soFarOn(begun(soFar), 0, 1, soFar), settled);
+  const [first] = soFarOn(begun(soFar), 0, 2, soFar);
+  assert.ok(Math.abs(first.y - 1) < 1e-12, 'in degrees, without a sign that says nothing');
+  assert.equal(soFarOn(FOUND, x, 2, soFar), null, 'a figure that has a limit alone');
+  const linear = [soFar.figures[0], { ...peak, model: 'linear' }];
+  assert.equal(soFarOn(FOUND, x, y, { ...soFar, figures: linear }), null, 'of another response');
+  assert.deepEqual([begun(soFar).designs, pointsOf(begun(soFar), 0, 1)], [[], []]);
 });
 
 /** A feed, its sockets, and what it has told. */

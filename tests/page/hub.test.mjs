@@ -70,6 +70,21 @@ test('a page sends nothing while nobody else listens', () => {
   assert.equal(socket.frames().length, 1);
 });
 
+test('who flies along is told of, and no longer once the connection is lost', () => {
+  const { it, socket } = hub();
+  const asked = [];
+  it.onSticks = ({ pitch, yaw }) => asked.push([pitch, yaw]);
+  it.steer({ pitch: 0.5, yaw: -1 });
+  assert.deepEqual(socket.texts('sticks'), [{ type: 'sticks', pitch: 0.5, yaw: -1 }]);
+  socket.say({ type: 'sticks', pitch: 1, yaw: 0.25 });
+  socket.onclose();
+  assert.deepEqual(asked, [
+    [1, 0.25],
+    [0, 0],
+  ]);
+  it.close();
+});
+
 test('of what is shown the newest waits until the last was taken', () => {
   const { it, socket } = hub({ always: true });
   for (let k = 0; k < 100; k += 1) it.show({ K: k });

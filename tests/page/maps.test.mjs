@@ -5,6 +5,7 @@ import { AT } from '../../static/kernel/layout.js';
 import { choiceOf, CHOICES, linkOf, measureOf, valueText } from '../../static/maps/choices.js';
 import { css, ramp, rgb } from '../../static/maps/colors.js';
 import { between, linesOf, regions } from '../../static/maps/contours.js';
+import { emptierSide } from '../../static/maps/corner.js';
 import { ProblemError } from '../../static/net/index.js';
 import { besides, changesOf, MapFeed, placeIn, shareIn } from '../../static/maps/feed.js';
 import { fieldOf, refined } from '../../static/maps/grid.js';
@@ -24,6 +25,16 @@ test('what is coarse is part of what is finer', () => {
       assert.equal((node % 129) % stride, 0);
       assert.equal(Math.floor(node / 129) % stride, 0);
     }
+});
+
+test('a real pair’s own plane stands where it hides fewer poles', () => {
+  const view = { width: 400, height: 300 };
+  const side = (/** @type {[number, number][]} */ ...marks) => emptierSide(marks, view);
+  assert.equal(side(), 'right');
+  assert.equal(side([50, 150], [390, 150]), 'right', 'where both are alike');
+  assert.equal(side([300, 150], [340, 200], [90, 220]), 'left');
+  assert.equal(side([300, 60], [340, 100], [90, 220]), 'right', 'in the upper half nothing is hidden');
+  assert.equal(side([-20, 150], [300, 150]), 'left', 'nor is what is out of sight');
 });
 
 test('a field is the finest grid that is known as a whole', () => {

@@ -19,7 +19,8 @@ class SmallNode {
 
 class SmallElement extends SmallNode {
   attributes = new Map();
-  style = {};
+  style = { setProperty() {} };
+  dataset = {};
 
   constructor(name) {
     super();
@@ -47,6 +48,29 @@ class SmallElement extends SmallNode {
   }
   set className(text) {
     this.setAttribute('class', text);
+  }
+
+  get classList() {
+    const names = () => new Set(this.className.split(' ').filter(Boolean));
+    return {
+      contains: (name) => names().has(name),
+      toggle: (name, on) => {
+        const own = names();
+        if (on) own.add(name);
+        else own.delete(name);
+        this.className = [...own].join(' ');
+      },
+    };
+  }
+
+  get options() {
+    return this.children.filter(({ tagName }) => tagName === 'OPTION');
+  }
+  get value() {
+    return this.own ?? this.getAttribute('value') ?? this.options[0]?.value ?? '';
+  }
+  set value(value) {
+    this.own = String(value);
   }
 
   append(...nodes) {

@@ -1,0 +1,3 @@
+/** What other rooms may import of flight/. */
+export { Flight } from './flight.js';
+export { FlyView } from './view.js';
