@@ -75,6 +75,7 @@ mutation: $(VENV)/.tools node_modules/.installed ## change the core and the page
 contract: $(VENV)/.tools ## make what follows from the core and the contract: the page's figures, methods, quantities, layout, types; labs' schema; K as kernels
 	$(BIN)/python -m tests.kernel_formulas
 	$(BIN)/python -m tests.page_figures
+	$(BIN)/python -m tests.page_flight_tasks
 	$(BIN)/python -m tests.page_methods
 	$(BIN)/python -m tests.page_quantities
 	$(BIN)/python -m tests.page_kernel
@@ -85,9 +86,10 @@ wasm: $(VENV)/.tools ## make static/kernel/kernels.wasm and its table anew, from
 	@command -v wasm-ld >/dev/null || $(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt '.[wasm]'
 	$(BIN)/python -m wasm
 
-screenshot: $(VENV)/.tools browser ## take docs/screenshot.png and docs/wall.png anew, draw docs/map.svg
+screenshot: $(VENV)/.tools browser ## take the pictures of README and docs anew, draw docs/map.svg
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.screenshot docs/screenshot.png
 	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.wall_screenshot docs/wall.png
+	CHROMIUM=$(CHROMIUM) $(BIN)/python -m tests.e2e.fly_screenshot docs/fly.png
 	$(BIN)/python -m app map --poles=-12,-10,-6±3j --move yaw-pair --axis psi --force -o docs/map.svg
 
 bench: $(VENV)/.tools ## time all against python-control and SciPy, as ratios; writes docs/performance.md

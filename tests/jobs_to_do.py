@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -82,6 +83,11 @@ def kept(count: int, _bytes: list[bytearray] = []) -> int:  # noqa: B006 - it sh
     """Keeps so many bytes, and returns its process' number."""
     _bytes.append(bytearray(b"1") * count)
     return os.getpid()
+
+
+def collecting() -> tuple[bool, int]:
+    """Whether garbage is collected, and how many objects are not looked through for it."""
+    return gc.isenabled(), gc.get_freeze_count()
 
 
 def loaded() -> tuple[bool, bool]:

@@ -8,8 +8,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from heli2dof_core.flight.tasks import TASKS
 from heli2dof_core.labs import LOCKS
 from heli2dof_core.labs.format import HINT, LAB, STEP
+from heli2dof_core.labs.goals.flight import MEASURED as FLOWN
 from heli2dof_core.labs.kinds import Record
 from heli2dof_core.labs.quantities import OF_DESIGNS
 from heli2dof_core.labs.schema import PUBLISHED, schema_text
@@ -48,6 +50,18 @@ def tables() -> Iterator[tuple[str, list[str]]]:
         meaning = own.figure.meaning.replace("|", "\\|")
         figures.append(f"| `{name}` | {own.of} | {own.figure.shown or own.figure.unit} | {meaning} |")
     yield "figures", ["| figure | of | unit | what it is |", "|---|---|---|---|", *figures]
+    titles = [f"| `{name}` | {own.title} | {own.duration:g} s |" for name, own in TASKS.items()]
+    flown = [
+        f"| `{name}` | {own.figure.shown or own.figure.unit} | {own.figure.meaning} |"
+        for name, own in FLOWN.items()
+    ]
+    yield (
+        "flights",
+        [
+            *("| task | what it is called | |", "|---|---|---|", *titles, ""),
+            *("| figure of a flight | unit | what it is |", "|---|---|---|", *flown),
+        ],
+    )
     asked = [f"| `{own.form}` | {own.unit} | {own.meaning} |" for own in OF_DESIGNS]
     yield "quantities", ["| quantity | unit | what it is |", "|---|---|---|", *asked]
 

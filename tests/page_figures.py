@@ -39,7 +39,7 @@ HEAD = """/**
 
 def module() -> str:
     """The whole module."""
-    parts = [HEAD, *(f"\n{_object(kind, known)}" for kind, known in KINDS.items())]
+    parts = [HEAD, *(f"\n{figure_object(kind, known)}" for kind, known in KINDS.items())]
     parts += (
         "\n/** Rows of an axis' step, in their order. @type {Record<string, Figure>} */\n",
         "export const RESPONSE = {\n",
@@ -62,7 +62,8 @@ def _place(name: str) -> str:
     return f"{kind.upper()}.{_key(name, KINDS[kind][name])}"
 
 
-def _object(kind: str, known: Mapping[str, Figure]) -> str:
+def figure_object(kind: str, known: Mapping[str, Figure]) -> str:
+    """The figures of a kind as an object."""
     keys = "|".join(f"'{_key(*item)}'" for item in known.items())
     described = wrap(f"@type {{Record<{keys.replace('|', ' | ')}, Figure>}}", WIDTH - 3)
     lines = (

@@ -15,7 +15,7 @@ from typing import Any
 from pydantic.json_schema import models_json_schema
 
 from app.contract.evaluation import LiveRequest
-from app.contract.find import FindProgress
+from app.contract.find_replies import FindProgress
 from app.contract.identification import IdentificationReply, IdentifyRequest
 from app.main import create_app
 from tests.children import ROOT

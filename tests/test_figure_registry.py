@@ -22,12 +22,14 @@ from heli2dof_core.figures import KINDS, RESPONSE, Figure
 from heli2dof_core.figures.written import told
 from heli2dof_core.kernels import figures as kernel
 from heli2dof_core.sensitivity import Sensitivity
-from tests import page_figures, page_methods
+from tests import page_figures, page_flight_tasks, page_methods
 
 ALL = {f"{kind}.{name}": figure for kind, known in KINDS.items() for name, figure in known.items()}
 
 
-@pytest.mark.parametrize("made", [page_figures, page_methods], ids=lambda made: made.__name__)
+@pytest.mark.parametrize(
+    "made", [page_figures, page_flight_tasks, page_methods], ids=lambda made: made.__name__
+)
 def test_the_pages_modules_are_current(made: ModuleType):
     """`make contract` writes them anew."""
     assert made.PAGE.read_text("utf-8") == made.module()

@@ -8,7 +8,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 STATIC = ROOT / "static"
-FIRST_VIEW, WHOLE = 236_000, 640_000
+FIRST_VIEW, WHOLE = 236_000, 750_000
 """Bytes, compressed: of what the page needs at a first visit, and with all that it and its worker fetch later. The 3D
 scene is a page of its own, in a frame, and not counted; nor is the kernel in WebAssembly, which no module imports.
 The font of the formulas is, 34,000 of them."""
@@ -80,7 +80,7 @@ def test_the_instructors_page_is_light_and_adds_nothing_to_the_other(record_prop
 
 def test_every_module_of_the_page_is_loaded_and_small():
     modules = {file for file in STATIC.rglob("*.js") if "vendor" not in file.parts}
-    scene_only = {STATIC / "scene/shim.js", STATIC / "scene/window.js"}
+    scene_only = {STATIC / "scene" / name for name in ("partner.js", "shim.js", "spectator.js", "window.js")}
     api_only = {STATIC / "api_docs.js"}
     instructors = loaded(page=STATIC / "class.html")
     packaged_only = {*(STATIC / "scorm").glob("*.js"), STATIC / "net/packaged.js"}

@@ -1,9 +1,10 @@
 """How soon a map is there: designs in the page's workers, what is seen of them, and what a drag pays for it.
 
-`python -m tests.bench.map_speed http://127.0.0.1:8000/ [rounds]` prints a JSON object, in milliseconds. Computed: 64
-× 48 cells of nonlinear settling times, 3,185 designs, by one worker and by two, and the coarse map before.
-Seen: from a choice in the bar until these are painted. Dragged: frames of a drag of the other pair with the map and
-without, in turns, and how many maps were painted meanwhile.
+`python -m tests.bench.map_speed http://127.0.0.1:8000/ [rounds] [computed|seen|dragged …]` prints a JSON object for
+each part as soon as it is measured, in milliseconds; nine rounds of all take two to three minutes. Computed: 64 × 48
+cells of nonlinear settling times, 3,185 designs, by one worker and by two, and the coarse map before. Seen: from a
+choice in the bar until these are painted. Dragged: frames of a drag of the other pair with the map and without, in
+turns, and how many maps were painted meanwhile.
 """
 
 from __future__ import annotations
@@ -13,12 +14,14 @@ import json
 import os
 import statistics
 import sys
+from collections.abc import AsyncIterator, Sequence
 from typing import Any
 
 from playwright.async_api import Browser, Page, async_playwright
 
 from tests.bench.drag_speed import drag
 from tests.browser import EMPTY, FLAGS, SEEN
+from tests.patience import PATIENCE
 
 MAP = "#v1&map=settling_time,yaw-pair"
 COARSE, WHOLE, FINEST = 17 * 13, 65 * 49, 129 * 97
@@ -84,6 +87,12 @@ COUNT = """() => {
 }"""
 
 
+async def evaluated(page: Page, script: str, *given: Any) -> Any:
+    """What a script's promise comes to, for which `evaluate` itself would wait for ever."""
+    async with asyncio.timeout(PATIENCE):
+        return await page.evaluate(script, *given)
+
+
 def spread(values: list[float]) -> dict[str, float]:
     ordered = sorted(values)
     return {"median": round(statistics.median(ordered), 1), "best": round(ordered[0], 1)}
@@ -102,7 +111,7 @@ async def computed(browser: Browser, url: str, rounds: int) -> dict[str, Any]:
     page = await opened(browser, url)
     result: dict[str, Any] = {}
     for workers in (1, 2):
-        all_of = await page.evaluate(COMPUTED, [[COARSE], rounds, workers])
+        all_of = await evaluated(page, COMPUTED, [[COARSE], rounds, workers])
         result[f"{workers} worker{'s' if workers > 1 else ''}"] = {
             "coarse": spread([first for first, _ in all_of]),
             "64 x 48": spread([last for _, last in all_of]),
@@ -115,7 +124,7 @@ async def seen(browser: Browser, url: str, rounds: int) -> dict[str, Any]:
     page = await opened(browser, url + MAP)
     await page.wait_for_function(PAINTED)
     told = [
-        await page.evaluate(CHOSEN, name)
+        await evaluated(page, CHOSEN, name)
         for _ in range(rounds)
         for name in ("V_peak", "overshoot", "settling_time")
     ]
@@ -131,7 +140,7 @@ async def dragged(browser: Browser, url: str, rounds: int) -> dict[str, Any]:
     """A drag of pitch's pole, over the map of yaw's places."""
     kinds = {"with the map": MAP, "without": "#v1"}
     found: dict[str, list[dict[str, Any]]] = {kind: [] for kind in kinds}
-    for _ in range(rounds):
+    for _ in range(max(2, rounds // 3)):
         for kind, link in kinds.items():
             page = await opened(browser, url + link)
             if kind == "with the map":
@@ -145,19 +154,23 @@ async def dragged(browser: Browser, url: str, rounds: int) -> dict[str, Any]:
     return found
 
 
-async def measure(url: str, rounds: int) -> dict[str, Any]:
+PARTS = {"computed": computed, "seen": seen, "dragged": dragged}
+
+
+async def measured(url: str, rounds: int, names: Sequence[str]) -> AsyncIterator[dict[str, Any]]:
+    """One part after the other, each as soon as it is known."""
     async with async_playwright() as playwright:
         path = os.environ.get("CHROMIUM") or "/usr/bin/chromium"
         browser = await playwright.chromium.launch(executable_path=path, args=FLAGS)
-        result = {
-            "computed": await computed(browser, url, rounds),
-            "seen": await seen(browser, url, rounds),
-            "dragged": await dragged(browser, url, max(2, rounds // 3)),
-        }
+        for name in names:
+            yield {name: await PARTS[name](browser, url, rounds)}
         await browser.close()
-        return result
+
+
+async def main(url: str, rounds: str = "9", *names: str) -> None:
+    async for part in measured(url, int(rounds), names or [*PARTS]):
+        print(json.dumps(part, indent=1), flush=True)
 
 
 if __name__ == "__main__":
-    count = int(sys.argv[2]) if len(sys.argv) > 2 else 9
-    print(json.dumps(asyncio.run(measure(sys.argv[1], count)), indent=1))
+    asyncio.run(main(*sys.argv[1:]))

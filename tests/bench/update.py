@@ -2,7 +2,7 @@
 
     python -m tests.bench.update [docs/performance.md]
 
-What one update holds is said in `peers`.
+What one update holds is said in `peers`. Of the file the sections by other scripts stay, from `BY_OTHERS` on.
 """
 
 from __future__ import annotations
@@ -117,6 +117,10 @@ def on_all_cores(call: Callable[[], object]) -> Callable[[], object]:
     return run
 
 
+BY_OTHERS = "\n## Drags beside slow work\n"
+"""What `docs/performance.md` holds from here on has been measured by scripts that its sections name."""
+
+
 def main() -> None:
     warm_up()
     threadpool_limits(1, "blas")  # as the server does; python-control is quicker so, too
@@ -133,7 +137,9 @@ A full update over the socket takes {whole / (bare + own):.2f} times a bare exch
 """
     print(text)
     if len(sys.argv) > 1:
-        Path(sys.argv[1]).write_text(text, encoding="utf-8")
+        path = Path(sys.argv[1])
+        kept = path.read_text("utf-8").partition(BY_OTHERS) if path.exists() else ("", "", "")
+        path.write_text(text + "".join(kept[1:]), encoding="utf-8")
 
 
 def machine() -> str:

@@ -143,3 +143,21 @@ def test_values_of_which_only_the_size_counts_are_ranked_by_it():
 def test_a_share_is_never_rounded_up_to_all():
     assert summary_module._percent(0.99999) == "99.9 %"
     assert summary_module._percent(1.0) == "100 %"
+
+
+def test_a_margin_that_an_unstable_loop_lacks_is_not_told_as_unlimited(tmp_path):
+    warm_up()
+    text = """
+study = 1
+[design]
+poles = [1, -5, -6, -7]
+outer = "none"
+[require]
+gain_margin = { min = 2 }
+"""
+    folder = Folder(tmp_path / "unstable", read_study(text))
+    run(folder, Alone())
+    table, missing, required = summarize(folder).tables()
+    assert [row[1] for row in table.rows] == ["none"]
+    assert [row[2] for row in required.rows] == ["none"]
+    assert [row[1:] for row in missing.rows] == [("none", "the loop is not stable", "1 of 1")]
