@@ -3,7 +3,7 @@
 `python -m tests.bench.flights http://127.0.0.1:8000/ [seconds]` prints a JSON object. Kernels: of several designs
 under moving set points and gusts, the share of real time that their ticks take on one core, microseconds of a tick,
 and milliseconds of a frame's ticks and of a new controller. Pace: a flight of so many seconds (60 without a word) in
-the view Fly while set points move and poles are dragged, with the scene's frame empty, its drawing left out, and all
+the view Fly while set points move and poles are dragged, with the scene's frame empty, without its drawing, and all
 drawn (SCENES names fewer of these): how far its time is from the wall's at most, in ms, but for gaps of a quarter of
 a second and more, and frames with no time for all that was due, which are told; frames' distances and work.
 """
@@ -144,7 +144,7 @@ def pace(page: Page, address: str, seconds: float) -> dict[str, Any]:
     }
 
 
-SCENES = {"no scene": [EMPTY], "scene, its drawing left out": [UNDRAWN], "scene drawn by software": []}
+SCENES = {"no scene": [EMPTY], "scene without its drawing": [UNDRAWN], "scene drawn by software": []}
 
 
 def main(address: str, seconds: float) -> dict[str, Any]:

@@ -15,7 +15,7 @@ pytestmark = pytest.mark.slow
 
 def test_the_policy_flies_better_than_chance_and_keeps_its_flight(tmp_path):
     file = tmp_path / "my.flight.json"
-    said = python(str(ROOT / "examples" / "policy.py"), str(file))
+    said = python("-m", "examples.policy", str(file))
     worth = {name: float(value) for name, value in re.findall(r"(\w+): (-[\d.]+) rad² s", said)}
     assert 20 * worth["PD"] > worth["chance"] and worth["PD"] > -1.5
     log = heli.FlightLog.read(json.loads(file.read_text(encoding="utf-8")))
