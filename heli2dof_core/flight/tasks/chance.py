@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+from typing import Any
+
+_normal: Any = import_module("heli2dof_core.interpreted.normal")
 _STEP = 0x9E3779B9
 _ALL = 0xFFFFFFFF
-
-
-def _mixed(x: int) -> int:
-    x ^= x >> 16
-    x = (x * 0x85EBCA6B) & _ALL
-    x ^= x >> 13
-    x = (x * 0xC2B2AE35) & _ALL
-    return x ^ (x >> 16)
 
 
 def uniform(index: int, stream: int) -> float:
@@ -21,5 +17,5 @@ def uniform(index: int, stream: int) -> float:
         index: which of its stream.
         stream: each is independent of all others.
     """
-    first = _mixed((stream + 1) * _STEP & _ALL)
-    return (2 * _mixed(((index + 1) * _STEP & _ALL) + first & _ALL) + 1) / 2**32 - 1
+    first = _normal.mixed((stream + 1) * _STEP & _ALL)
+    return (2 * _normal.mixed(((index + 1) * _STEP & _ALL) + first & _ALL) + 1) / 2**32 - 1

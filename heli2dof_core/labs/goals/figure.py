@@ -7,10 +7,10 @@ from typing import Any, ClassVar
 
 from ...measured import MEASURED, Axis, Measured, Model, Motor, Steps, Where, stepped, worst
 from ..context import Context
-from ..kinds import Amount, Member, OneOf, Reading, Record, Schema, Unusable, known
+from ..kinds import Member, OneOf, Reading, Record, known
 from ..lab import Goal, Outcome
-from ..nodes import Fields, Node, Scalar
-from .goal import SHARED, BaseGoal, limits_text, require_limits
+from ..nodes import Fields, Node
+from .goal import SHARED, BaseGoal, Limit, limits_text, read_limits, require_limits
 
 _UNSTABLE = "The loop is unstable."
 
@@ -83,20 +83,6 @@ class FigureGoal(BaseGoal):
         }
 
 
-class Limit:
-    """A limit of a figure, whose unit depends on it: read as it stands, and understood by `_understood`."""
-
-    def read(self, node: Node, at: Reading, path: str) -> Node:
-        """The node itself."""
-        if not isinstance(node, Scalar):
-            raise at.refuse(node, path, f"this is {node.kind}, not a value", "Write 0.8 s, or a number.")
-        return node
-
-    def schema(self) -> Schema:
-        """A number or text."""
-        return Amount("").schema() | {"anyOf": [{"type": "number"}, Amount("").schema()["anyOf"][1]]}
-
-
 _FIELDS = (
     Member("figure", OneOf(tuple(MEASURED)), "the figure of merit", required=True),
     Member("axis", OneOf(("theta", "psi", "both")), "the axis that is stepped; both: the worse of them"),
@@ -107,8 +93,8 @@ _FIELDS = (
         OneOf(("alone", "together")),
         "alone, the standard: each axis is stepped by itself; together: the scenario as it is set",
     ),
-    Member("max", Limit(), "the largest value that is met, in SI units or with its unit"),
-    Member("min", Limit(), "the smallest value that is met"),
+    Member("max", Limit("0.8 s"), "the largest value that is met, in SI units or with its unit"),
+    Member("min", Limit("0.8 s"), "the smallest value that is met"),
 )
 
 
@@ -118,16 +104,7 @@ class FigureRecord(Record[Goal]):
     def read(self, node: Node, at: Reading, path: str) -> Goal:
         """The goal."""
         raw: dict[str, Any] = super().read(node, at, path)  # pyright: ignore[reportAssignmentType]
-        measured, bad = MEASURED[raw["figure"]], False
-        unit = measured.figure.unit
-        for side in ("max", "min"):
-            if side in raw:
-                try:
-                    raw[side] = Amount(unit).read(raw[side], at, f"{path}.{side}")
-                except Unusable:
-                    bad = True
-        if bad:
-            raise Unusable(path)
+        read_limits(raw, MEASURED[raw["figure"]].figure.unit, at, path)
         goal = FigureGoal(**raw)
         self._judge(goal, at, path, node)
         return goal

@@ -11,10 +11,10 @@ from ...flight.scores import BY_AXIS
 from ...flight.tasks import TASKS
 from ...measured import AXIS_WORDS, NOT_REACHED, Axis, Measured, worst
 from ..context import Context
-from ..kinds import Amount, Member, Number, OneOf, Reading, Record, Schema, Unusable, known
+from ..kinds import Member, Number, OneOf, Reading, Record, known
 from ..lab import Goal, Outcome
-from ..nodes import Node, Scalar
-from .goal import SHARED, BaseGoal, limits_text, require_limits
+from ..nodes import Node
+from .goal import SHARED, BaseGoal, Limit, limits_text, read_limits, require_limits
 
 Hands = Literal["", "on", "off"]
 NOT_FLOWN = "Fly it: the best flight is handed in with your design."
@@ -126,35 +126,13 @@ def _sentences(error: Heli2DofError) -> str:
     return f"{words[:1].upper()}{words[1:]}. {error.hint}".rstrip()
 
 
-class _Limit:
-    """A limit whose unit depends on the figure: read as it stands, and understood by the record."""
-
-    def read(self, node: Node, at: Reading, path: str) -> Node:
-        """The node itself."""
-        if not isinstance(node, Scalar):
-            raise at.refuse(node, path, f"this is {node.kind}, not a value", "Write 2 °, or a number.")
-        return node
-
-    def schema(self) -> Schema:
-        """A number or text."""
-        return {"anyOf": [{"type": "number"}, Amount("").schema()["anyOf"][1]]}
-
-
 class FlightRecord(Record[Goal]):
     """The record of such a goal, whose limits have the unit of its figure."""
 
     def read(self, node: Node, at: Reading, path: str) -> Goal:
         """The goal."""
         raw: dict[str, Any] = super().read(node, at, path)  # pyright: ignore[reportAssignmentType]
-        unit, bad = MEASURED[raw["figure"]].figure.unit, False
-        for side in ("max", "min"):
-            if side in raw:
-                try:
-                    raw[side] = Amount(unit).read(raw[side], at, f"{path}.{side}")
-                except Unusable:
-                    bad = True
-        if bad:
-            raise Unusable(path)
+        read_limits(raw, MEASURED[raw["figure"]].figure.unit, at, path)
         goal = FlightGoal(**raw)
         require_limits(goal.min, goal.max, at, path)
         by_axis = goal.figure in BY_AXIS
@@ -175,8 +153,8 @@ RECORD = FlightRecord(
         Member("task", OneOf(tuple(TASKS)), "what is flown", required=True),
         Member("figure", OneOf(tuple(MEASURED)), "of the flight", required=True),
         Member("axis", OneOf(_AXES), "of a figure that each axis has; both: the worse of them"),
-        Member("max", _Limit(), "the largest value that is met, in SI units or with its unit"),
-        Member("min", _Limit(), "the smallest value that is met"),
+        Member("max", Limit("2 °"), "the largest value that is met, in SI units or with its unit"),
+        Member("min", Limit("2 °"), "the smallest value that is met"),
         Member("hands", OneOf(("on", "off")), "on: with the controller off throughout; off: never so"),
         Member(
             "seed",

@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self
 
 from ..context import Context
-from ..kinds import Member, Name, Number, OneOf, Reading, Text
+from ..kinds import Amount, Member, Name, Number, OneOf, Reading, Schema, Text, Unusable
 from ..lab import Outcome
+from ..nodes import Node, Scalar
 
 MOST_POINTS = 1000
 
@@ -78,3 +79,43 @@ def require_limits(low: float | None, high: float | None, at: Reading, path: str
         at.tell_at(path, "the goal has neither max nor min", "Give one of them, or both.")
     elif low is not None and high is not None and low > high:
         at.tell_at(f"{path}.min", "min is above max", "Exchange them.")
+
+
+class Limit:
+    """A limit whose unit depends on another member: read as it stands, and understood by the record.
+
+    Args:
+        example: of a limit, for messages.
+    """
+
+    def __init__(self, example: str) -> None:
+        self._example = example
+
+    def read(self, node: Node, at: Reading, path: str) -> Node:
+        """The node itself."""
+        if not isinstance(node, Scalar):
+            raise at.refuse(
+                node, path, f"this is {node.kind}, not a value", f"Write {self._example}, or a number."
+            )
+        return node
+
+    def schema(self) -> Schema:
+        """A number or text."""
+        return {"anyOf": [{"type": "number"}, Amount("").schema()["anyOf"][1]]}
+
+
+def read_limits(raw: dict[str, Any], unit: str, at: Reading, path: str) -> None:
+    """Puts numbers in this unit in the place of `max` and `min` as `Limit` has read them.
+
+    Raises:
+        Unusable: one of them is none; both have been told.
+    """
+    bad = False
+    for side in ("max", "min"):
+        if side in raw:
+            try:
+                raw[side] = Amount(unit).read(raw[side], at, f"{path}.{side}")
+            except Unusable:
+                bad = True
+    if bad:
+        raise Unusable(path)

@@ -8,10 +8,10 @@ from typing import Any, ClassVar
 from ..amounts import in_unit, unit_of
 from ..bodies import PATHS
 from ..context import Context
-from ..kinds import Amount, Member, OneOf, Reading, Record, Schema, Unusable
+from ..kinds import Amount, Member, OneOf, Reading, Record, Unusable
 from ..lab import Goal, Outcome
 from ..nodes import Node, Scalar
-from .goal import SHARED, BaseGoal, limits_text, require_limits
+from .goal import SHARED, BaseGoal, Limit, limits_text, require_limits
 
 SETTABLE = tuple(
     path
@@ -79,20 +79,6 @@ class SettingGoal(BaseGoal):
         return number + (self.unit if self.unit == "°" else f" {self.unit}".rstrip())
 
 
-class _Limit:
-    """A limit whose unit depends on the path: read as it stands, and understood by the record."""
-
-    def read(self, node: Node, at: Reading, path: str) -> Node:
-        """The node itself."""
-        if not isinstance(node, Scalar):
-            raise at.refuse(node, path, f"this is {node.kind}, not a value", "Write 25 ms, or a number.")
-        return node
-
-    def schema(self) -> Schema:
-        """A number or text."""
-        return {"anyOf": [{"type": "number"}, Amount("").schema()["anyOf"][1]]}
-
-
 class SettingRecord(Record[Goal]):
     """The record of such a goal, whose limits have the unit of its quantity."""
 
@@ -134,8 +120,8 @@ RECORD = SettingRecord(
         Member(
             "path", OneOf(SETTABLE), "of a design body, such as scenario.digital.sample_time", required=True
         ),
-        Member("max", _Limit(), "the largest value that is met, in SI units or with its unit"),
-        Member("min", _Limit(), "the smallest value that is met"),
+        Member("max", Limit("25 ms"), "the largest value that is met, in SI units or with its unit"),
+        Member("min", Limit("25 ms"), "the smallest value that is met"),
         *SHARED,
     ),
     "the goal",
